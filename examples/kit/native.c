@@ -710,7 +710,7 @@ model *python_read(const void *bytes, size_t size, const char *name, const char 
                    size_t room)
 {
     static const model empty;
-    const model_request q = { error, room, NULL, NULL, 0 };
+    const model_request q = { error, room, NULL, NULL, 0, 0 };
     model *m = (model *)calloc(1, sizeof *m), said = empty;
     said.points_wanted = 1;
     said.path = path;

@@ -114,7 +114,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t *bytes;
     char *error;
     model m;
-    model_request request = { NULL, error_size, reader_progress, &calls, 0 };
+    model_request request = { NULL, error_size, reader_progress, &calls, 0, 0 };
     if (n > GUARD_ROOM) return 0;
     bytes = (uint8_t *)guard_take(n, kind >> 2 & 1);
     error = (char *)guard_take(error_size, 1);

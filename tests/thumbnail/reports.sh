@@ -72,6 +72,8 @@ gltf_reports() {
         printf '%s,"extensionsRequired":["%s"]}' "$gltf_head" $k >"$T/needs.gltf"
         bad_model "$k is needed" needs.gltf "needs.gltf: it needs $k, which is not read"
     done
+    cp "$T/needs.gltf" "$T/needs"
+    bad_model "nor is it drawn under another name" needs "it needs EXT_made_up, which is not read"
     sed "1s/^/$(printf "$mark")/; s/{/ {\n/" "$T/torus.gltf" >"$T/mark.gltf"
     same "a byte order mark and line ends" torus.obj mark.gltf 0 "--up y"
     cp "$T/mark.gltf" "$T/mark"
@@ -159,13 +161,28 @@ $ply_faces" >"$T/tint.off"
 }
 # a picture of four colours: red, green; blue, yellow
 map_reports() {
-    printf 'P3\n2 2\n255\n255 0 0 0 255 0\n0 0 255 255 255 0\n' >"$T/quarters.ppm"
+    printf 'P6\n2 2\n255\n\377\000\000\000\377\000\000\000\377\377\377\000' >"$T/quarters.ppm"
+    mkdir -p "$T/inside"
+    printf 'newmtl q\nmap_Kd ../quarters.ppm\n' >"$T/inside/out.mtl"
+    printf "mtllib out.mtl\n${wedge}vt .75 .75\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\n" \
+        >"$T/inside/out.obj"
+    printf 'newmtl q\n' >"$T/inside/bare.mtl"
+    sed 's/out.mtl/bare.mtl/' "$T/inside/out.obj" >"$T/inside/bare.obj"
+    same "a picture outside of the folder is not read" inside/bare.obj inside/out.obj 0 "--up y"
+    check "but told" said "quarters.ppm: it lies outside of the model's folder; --outside reads it"
+    check "asked for, it is" draw inside/out.obj a.ppm --up y --outside
+    check "without a word" test ! -s "$T/err"
+    check "and shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
     printf 'newmtl q\nmap_Kd -s 1 1 1 -o .5 0 0 quarters.ppm\n' >"$T/moved.mtl"
     printf 'newmtl q\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
     printf "mtllib moved.mtl\n${wedge}vt .25 .25\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 2/1 3/1 4/1
 f 1/1 4/1 3/1\n" >"$T/moved.obj"
     sed 's/moved.mtl/still.mtl/; s/vt .25/vt .75/' "$T/moved.obj" >"$T/still.obj"
     same "-o moves the picture" still.obj moved.obj 0 "--up y"
+    check "without a word" test ! -s "$T/err"
+    sed 's/still.mtl/none.mtl/; s/usemtl q//' "$T/still.obj" >"$T/plain.obj"
+    check "plain" draw plain.obj b.ppm --up y
+    check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
     printf 'newmtl q\nmap_Kd -s 3 1 -o 0 .5 quarters.ppm\n' >"$T/moved.mtl"
     sed -i 's/vt .75 .25/vt .75 .75/' "$T/still.obj"
     same "-s stretches it" still.obj moved.obj 0 "--up y"

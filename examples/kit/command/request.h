@@ -24,19 +24,21 @@
     "  --no-shadow           no shadow on the ground\n"                                           \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
     "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
-    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"   \
-    "                        the machine's)\n"                                                    \
+    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (a quarter\n" \
+    "                        of what is free, 1000 at least)\n"                                   \
+    "  --outside             reads pictures outside of the model's folder, too\n"                 \
     "  --quiet               prints errors only, no progress and no warnings\n"                   \
     "  --verbose             says which axis was guessed to be upright\n"
 #define MODEL_VALUED \
     "--color", "--material", "--model", "--shading", "--up", "--view", "--section", \
         "--threads", "--max-triangles", "--max-memory"
-#define MODEL_FLAGS "--quick", "--no-shadow", "--quiet", "--verbose"
+#define MODEL_FLAGS "--quick", "--no-shadow", "--outside", "--quiet", "--verbose"
 
 typedef struct model_options {
     int up; /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */
     int quiet, verbose;
+    int outside;          /* pictures outside of the model's folder are read */
     int plain, no_shadow; /* plain: one material instead of the file's */
     int quick;            /* no maps of shadows are drawn */
     int viewed;           /* the view is said: */
@@ -218,6 +220,7 @@ static inline int model_take(model_options *o, const char *name, const char *val
 {
     int *flag = !strcmp(name, "--no-shadow") ? &o->no_shadow
               : !strcmp(name, "--quick")     ? &o->quick
+              : !strcmp(name, "--outside")   ? &o->outside
               : !strcmp(name, "--quiet")     ? &o->quiet
               : !strcmp(name, "--verbose")   ? &o->verbose : NULL;
     if (flag) *flag = 1;

@@ -47,7 +47,8 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
 {
     const struct aiVector3D p = mesh->mVertices[i], *coords = tree_texcoords(t, mesh);
     const shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
-    gather_corner v = { .position = { (double)P.x, (double)P.y, (double)P.z }, .color = { 1, 1, 1 } };
+    gather_corner v = { .position = { (double)P.x, (double)P.y, (double)P.z },
+                        .color = { 1, 1, 1 } };
     if (mesh->mNormals) {
         const struct aiVector3D n = mesh->mNormals[i];
         v.normal = shade_mat3_transform(turn, shade_v3(n.x, n.y, n.z));
@@ -298,8 +299,7 @@ static int tree_surfaces(tree *t, model *m)
         if (model_find_surface(m, name, (size_t)n, 1) != (int)i)
             return mesh_fail(t->reader, "out of memory, or more than 10000 materials");
         s = &m->surface[i];
-        if (surface_from(s, t->scene->mMaterials[i]))
-            return mesh_fail(t->reader, "out of memory");
+        if (surface_from(s, t->scene->mMaterials[i])) return mesh_fail(t->reader, "out of memory");
         s->picture = tree_picture(t, s->map, 0);
         s->relief.picture = tree_picture(t, s->relief.map, 1);
         s->glow_picture = tree_picture(t, s->glow_map, 0);
@@ -347,8 +347,7 @@ static int assimp_failed(mesh_reader *r)
 static int assimp_read(const char *path, const unsigned char *bytes, size_t size, model *m,
                        const model_request *q)
 {
-    const unsigned flags =
-        aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
+    const unsigned flags = aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
     static const model empty_model;
     static const tree empty_tree;
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, q->most };
@@ -362,7 +361,8 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    if (!bytes) t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
+    if (!bytes)
+        t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
     else if (size <= UINT_MAX)
         t.scene = aiImportFileFromMemoryWithProperties((const char *)bytes, (unsigned)size, flags,
                                                        kind.text, set);

@@ -94,6 +94,7 @@ typedef struct model_request {
     mesh_progress *progress;
     void *user;
     size_t most;
+    int outside; /* pictures outside of the folder of the model are read, too */
 } model_request;
 
 /* The bytes behind a byte order mark of UTF-8, which editors of Windows put before text */
@@ -108,7 +109,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
                                   const model_request *q)
 {
     static const unsigned char nothing[1];
-    const unsigned char *begin = model_text_of(size ? (const unsigned char *)bytes : nothing, &size);
+    const unsigned char *all = size ? (const unsigned char *)bytes : nothing;
+    const unsigned char *begin = model_text_of(all, &size);
     mesh_reader r = { begin,    begin,         begin + size, name,    1,
                       q->error, q->error_size, q->progress,  q->user, q->most };
     int failed;
@@ -300,7 +302,7 @@ static inline int model_keep_mesh(int failed, model *from, owned_mesh *m)
 static inline int mesh_read_memory(const void *bytes, size_t size, const char *name, owned_mesh *m,
                                    char *error, size_t error_size)
 {
-    const model_request q = { error, error_size, NULL, NULL, 0 };
+    const model_request q = { error, error_size, NULL, NULL, 0, 0 };
     model from;
     return model_keep_mesh(model_read_memory(bytes, size, name, &from, &q), &from, m);
 }
@@ -308,7 +310,7 @@ static inline int mesh_read_memory(const void *bytes, size_t size, const char *n
 static inline int mesh_read_file_progress(const char *path, owned_mesh *m, char *error,
                                           size_t error_size, mesh_progress *progress, void *user)
 {
-    const model_request q = { error, error_size, progress, user, 0 };
+    const model_request q = { error, error_size, progress, user, 0, 0 };
     model from;
     return model_keep_mesh(model_read_file(path, &from, &q), &from, m);
 }

@@ -13,8 +13,18 @@
 
 enum { GLTF_NODES = 100000, GLTF_DEPTH = 500, GLTF_TRIANGLES = 20000000, GLTF_BARE = 10000000 };
 enum {
-    GLTF_ACCESSORS, GLTF_VIEWS, GLTF_BUFFERS, GLTF_IMAGES, GLTF_MATERIALS, GLTF_MESHES, GLTF_NODE,
-    GLTF_SAMPLERS, GLTF_SCENES, GLTF_SKINS, GLTF_TEXTURES, GLTF_LISTS
+    GLTF_ACCESSORS,
+    GLTF_VIEWS,
+    GLTF_BUFFERS,
+    GLTF_IMAGES,
+    GLTF_MATERIALS,
+    GLTF_MESHES,
+    GLTF_NODE,
+    GLTF_SAMPLERS,
+    GLTF_SCENES,
+    GLTF_SKINS,
+    GLTF_TEXTURES,
+    GLTF_LISTS
 };
 static const char *const gltf_lists[GLTF_LISTS] = { "accessors", "bufferViews", "buffers",
                                                     "images",    "materials",   "meshes",
@@ -26,32 +36,32 @@ typedef struct gltf_extension {
     const char *name;
     int drawn;
 } gltf_extension;
-static const gltf_extension gltf_known[] = {
-    { "KHR_mesh_quantization", 1 },
-    { "KHR_texture_transform", 1 },
-    { "KHR_materials_unlit", 1 },
-    { "KHR_materials_emissive_strength", 1 },
-    { "KHR_materials_pbrSpecularGlossiness", 1 },
-    { "EXT_mesh_gpu_instancing", 1 },
-    { "KHR_materials_specular", 0 },
-    { "KHR_materials_ior", 0 },
-    { "KHR_materials_clearcoat", 0 },
-    { "KHR_materials_sheen", 0 },
-    { "KHR_materials_transmission", 0 },
-    { "KHR_materials_volume", 0 },
-    { "KHR_materials_iridescence", 0 },
-    { "KHR_materials_anisotropy", 0 },
-    { "KHR_materials_dispersion", 0 },
-    { "KHR_materials_variants", 0 },
-    { "KHR_lights_punctual", 0 },
-    { "KHR_animation_pointer", 0 },
-    { "KHR_xmp_json_ld", 0 },
-    { "FB_ngon_encoding", 0 },
-    { "VRM", 0 },
-    { NULL, 0 }
-};
+static const gltf_extension gltf_known[] = { { "KHR_mesh_quantization", 1 },
+                                             { "KHR_texture_transform", 1 },
+                                             { "KHR_materials_unlit", 1 },
+                                             { "KHR_materials_emissive_strength", 1 },
+                                             { "KHR_materials_pbrSpecularGlossiness", 1 },
+                                             { "EXT_mesh_gpu_instancing", 1 },
+                                             { "KHR_materials_specular", 0 },
+                                             { "KHR_materials_ior", 0 },
+                                             { "KHR_materials_clearcoat", 0 },
+                                             { "KHR_materials_sheen", 0 },
+                                             { "KHR_materials_transmission", 0 },
+                                             { "KHR_materials_volume", 0 },
+                                             { "KHR_materials_iridescence", 0 },
+                                             { "KHR_materials_anisotropy", 0 },
+                                             { "KHR_materials_dispersion", 0 },
+                                             { "KHR_materials_variants", 0 },
+                                             { "KHR_lights_punctual", 0 },
+                                             { "KHR_animation_pointer", 0 },
+                                             { "KHR_xmp_json_ld", 0 },
+                                             { "FB_ngon_encoding", 0 },
+                                             { "VRM", 0 },
+                                             { NULL, 0 } };
 
-typedef struct gltf_matrix { double at[16]; } gltf_matrix; /* columns, as in the files */
+typedef struct gltf_matrix {
+    double at[16];
+} gltf_matrix; /* columns, as in the files */
 
 typedef struct gltf_bytes {
     const unsigned char *at;
@@ -59,7 +69,7 @@ typedef struct gltf_bytes {
     unsigned char *owned;
 } gltf_bytes;
 
-/* Where the texture coordinates of a surface come from, and their change: u v to columns of u v 1 */
+/* Where the texture coordinates of a surface come from, and two rows that change u v 1 */
 typedef struct gltf_place {
     double used, set, change[6];
 } gltf_place;
@@ -168,18 +178,6 @@ static inline void gltf_unescape(char *text)
     *to = 0;
 }
 
-/* 1: the name is that of a file in the model's folder or below. */
-static inline int gltf_is_beside(const char *name)
-{
-    if (!*name || *name == '/' || *name == '\\' || strchr(name, ':')) return 0;
-    for (const char *at = name; *at; at++) {
-        const int first = at == name || at[-1] == '/' || at[-1] == '\\';
-        if (first && at[0] == '.' && at[1] == '.' && (!at[2] || at[2] == '/' || at[2] == '\\'))
-            return 0;
-    }
-    return 1;
-}
-
 /* What a URI means.  *path is where a file was found, to be freed. */
 static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
 {
@@ -194,7 +192,7 @@ static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
     }
     gltf_unescape(text);
     for (char *c = text; *c; c++) *c = *c < ' ' && *c > 0 ? '?' : *c;
-    if (!gltf_is_beside(text)) {
+    if (!model_is_beside(text)) {
         failed = mesh_fail(g->r, "%s does not lie beside the model", text);
     } else if (!g->m->beside) {
         failed = mesh_fail(g->r, "%s is beside a model that was read from memory", text);
@@ -219,7 +217,8 @@ static inline int gltf_buffer(gltf *g, uint32_t number, gltf_bytes *out)
         if (uri) failed = gltf_uri(g, uri, b, &path);
         free(path);
         if (failed) return 1;
-        if (!uri && !g->binary) return mesh_fail(g->r, "buffers[%u] has no bytes", (unsigned)number);
+        if (!uri && !g->binary)
+            return mesh_fail(g->r, "buffers[%u] has no bytes", (unsigned)number);
         if (!uri) b->at = g->binary;
         if (!uri) b->size = g->binary_size;
     }
@@ -235,7 +234,8 @@ static inline int gltf_view(gltf *g, uint32_t at, gltf_bytes *out, double *strid
     double start, size;
     if (gltf_item(g, GLTF_VIEWS, at, &view)) return 1;
     if (gltf_item(g, GLTF_BUFFERS, json_member(&g->j, view, "buffer"), &buffer)) return 1;
-    if (gltf_whole(g, view, "byteOffset", 0, &start) || gltf_whole(g, view, "byteLength", -1, &size) ||
+    if (gltf_whole(g, view, "byteOffset", 0, &start) ||
+        gltf_whole(g, view, "byteLength", -1, &size) ||
         gltf_whole(g, view, "byteStride", 0, stride))
         return 1;
     buffer = (uint32_t)json_number_of(&g->j, view, "buffer", 0);
@@ -331,8 +331,7 @@ static inline int gltf_sparse(gltf *g, uint32_t sparse, const gltf_layout *l, do
 static inline int gltf_count_of(gltf *g, uint32_t at, double *count)
 {
     uint32_t object;
-    return gltf_item(g, GLTF_ACCESSORS, at, &object) ||
-           gltf_whole(g, object, "count", -1, count);
+    return gltf_item(g, GLTF_ACCESSORS, at, &object) || gltf_whole(g, object, "count", -1, count);
 }
 
 /* All values of an accessor of least to most components; free v afterwards, also where it fails. */
@@ -373,8 +372,8 @@ static inline int gltf_read_values(gltf *g, uint32_t at, int least, int most, gl
 }
 
 /* The same of an attribute, for so many vertices; v is NULL where there is none. */
-static inline int gltf_attribute(gltf *g, uint32_t attributes, const char *name, int least, int most,
-                                 size_t count, gltf_values *out)
+static inline int gltf_attribute(gltf *g, uint32_t attributes, const char *name, int least,
+                                 int most, size_t count, gltf_values *out)
 {
     const uint32_t at = json_member(&g->j, attributes, name);
     out->v = NULL;
@@ -455,7 +454,8 @@ static inline gltf_matrix gltf_world(const gltf *g, uint32_t node)
 
 static inline double gltf_cofactor(const gltf_matrix *m, int row, int column)
 {
-    const int r[2] = { (row + 1) % 3, (row + 2) % 3 }, c[2] = { (column + 1) % 3, (column + 2) % 3 };
+    const int r[2] = { (row + 1) % 3, (row + 2) % 3 },
+              c[2] = { (column + 1) % 3, (column + 2) % 3 };
     return m->at[4 * c[0] + r[0]] * m->at[4 * c[1] + r[1]] -
            m->at[4 * c[1] + r[0]] * m->at[4 * c[0] + r[1]];
 }
@@ -565,8 +565,8 @@ static inline gltf_place gltf_placed(const gltf *g, uint32_t info)
     p.set = fmin(99, fmax(0, json_number_of(&g->j, change, "texCoord", p.set)));
     json_array(&g->j, change, "offset", offset, 2);
     json_array(&g->j, change, "scale", scale, 2);
-    turn = shade_mat4_rotation((float)json_number_of(&g->j, change, "rotation", 0),
-                               shade_v3(0, 0, 1));
+    turn =
+        shade_mat4_rotation((float)json_number_of(&g->j, change, "rotation", 0), shade_v3(0, 0, 1));
     cosine = (double)turn.col[0].x;
     sine = (double)turn.col[0].y;
     p.change[0] = cosine * scale[0];
@@ -595,8 +595,9 @@ static inline int gltf_texture(gltf *g, gltf_place *place, uint32_t material, co
     source = json_member(&g->j, texture, "source");
     if (!source && (gltf_extended(g, texture, "EXT_texture_webp") ||
                     gltf_extended(g, texture, "KHR_texture_basisu"))) {
-        model_warn(g->m, g->r->name, "its pictures need EXT_texture_webp or KHR_texture_basisu, "
-                                     "which is not read");
+        model_warn(g->m, g->r->name,
+                   "its pictures need EXT_texture_webp or KHR_texture_basisu, "
+                   "which is not read");
         return 0;
     }
     if (!source) return 0;
@@ -617,8 +618,8 @@ static inline int gltf_alpha(gltf *g, model_surface *s, uint32_t material, doubl
     s->opaque = !s->blended && !(mode && json_is(&g->j, mode, "MASK"));
     if (s->blended) s->transparency = (float)(1 - fmin(1, fmax(0, alpha)));
     if (!s->blended && !s->opaque)
-        s->alpha_cutoff = (float)fmax(
-            1e-6, json_number_of(&g->j, material, "alphaCutoff", 0.5) / fmax(alpha, 1e-3));
+        s->alpha_cutoff = (float)fmax(1e-6, json_number_of(&g->j, material, "alphaCutoff", 0.5) /
+                                                fmax(alpha, 1e-3));
     return 0;
 }
 
@@ -812,7 +813,8 @@ static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const g
 }
 
 /* The triangles of a list (4), a strip (5) or a fan (6) */
-static inline int gltf_faces(gltf *g, const gltf_vertices *v, double mode, size_t first, int mirrored)
+static inline int gltf_faces(gltf *g, const gltf_vertices *v, double mode, size_t first,
+                             int mirrored)
 {
     const size_t n = v->index.v ? v->index.count : v->position.count;
     const size_t step = mode == 4 ? 3 : 1;
@@ -919,9 +921,9 @@ static inline int gltf_instanced(gltf *g, uint32_t node, const gltf_matrix *at, 
     for (size_t i = 0; i < *count && !failed; i++) {
         static const double still[3] = { 0, 0, 0 }, straight[4] = { 0, 0, 0, 1 };
         static const double same[3] = { 1, 1, 1 };
-        const gltf_matrix m = gltf_moved(v[0].v ? v[0].v + 3 * i : still,
-                                         v[1].v ? v[1].v + 4 * i : straight,
-                                         v[2].v ? v[2].v + 3 * i : same);
+        const gltf_matrix m =
+            gltf_moved(v[0].v ? v[0].v + 3 * i : still, v[1].v ? v[1].v + 4 * i : straight,
+                       v[2].v ? v[2].v + 3 * i : same);
         (*out)[i] = n < 0 ? *at : gltf_product(at, &m);
     }
     for (int k = 0; k < 3; k++) free(v[k].v);
@@ -1072,8 +1074,10 @@ static inline int gltf_version(gltf *g)
     const int two = version && version[0] == '2' && (version[1] == '.' || !version[1]);
     if (version)
         for (char *c = version; *c; c++) *c = *c < ' ' || *c == 127 ? '?' : *c;
-    if (g->j.value[JSON_ROOT].kind != JSON_OBJECT) mesh_fail(g->r, "its JSON is no object");
-    else if (!two) mesh_fail(g->r, "glTF %s is not read, 2 is", version ? version : "");
+    if (g->j.value[JSON_ROOT].kind != JSON_OBJECT)
+        mesh_fail(g->r, "its JSON is no object");
+    else if (!two)
+        mesh_fail(g->r, "glTF %s is not read, 2 is", version ? version : "");
     free(version);
     return !two;
 }
@@ -1085,8 +1089,8 @@ static inline int gltf_build(gltf *g)
     if (!g->buffer) return mesh_fail(g->r, "out of memory");
     if (gltf_parents(g) || gltf_scene(g, 1)) return 1;
     if (g->triangles <= 0)
-        return mesh_fail(g->r, g->others ? "points and lines alone are not drawn"
-                                         : "no faces in it");
+        return mesh_fail(g->r,
+                         g->others ? "points and lines alone are not drawn" : "no faces in it");
     if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
     if (g->others) model_warn(g->m, g->r->name, "its points and lines");
     if (gltf_extensions(g, "extensionsUsed", 0)) return 1;

@@ -39,8 +39,10 @@ enum { JSON_ROOT = 1, JSON_DEPTH = 100 };
 static inline void json_skip(mesh_reader *r)
 {
     for (; r->at < r->end; r->at++) {
-        if (*r->at == '\n') r->line += r->line > 0;
-        else if (*r->at != ' ' && *r->at != '\t' && *r->at != '\r') return;
+        if (*r->at == '\n')
+            r->line += r->line > 0;
+        else if (*r->at != ' ' && *r->at != '\t' && *r->at != '\r')
+            return;
     }
 }
 
@@ -72,8 +74,10 @@ static inline int json_digits(mesh_reader *r)
 static inline int json_take_number(mesh_reader *r)
 {
     r->at += r->at < r->end && *r->at == '-';
-    if (r->at < r->end && *r->at == '0') r->at++;
-    else if (!json_digits(r)) return json_wrong(r, "a number");
+    if (r->at < r->end && *r->at == '0')
+        r->at++;
+    else if (!json_digits(r))
+        return json_wrong(r, "a number");
     if (r->at < r->end && *r->at == '.') {
         r->at++;
         if (!json_digits(r)) return json_wrong(r, "a digit");
@@ -163,19 +167,23 @@ static inline int json_value_at(mesh_reader *r, json_doc *j, int depth)
     json_skip(r);
     c = r->at < r->end ? *r->at : 0;
     if (depth > JSON_DEPTH) return mesh_fail(r, "its JSON is more than %d deep", JSON_DEPTH);
-    if (json_begin(r, j, c == '{'   ? JSON_OBJECT
-                         : c == '[' ? JSON_ARRAY
-                         : c == '"' ? JSON_TEXT
-                         : c == 't' ? JSON_TRUE
-                         : c == 'f' ? JSON_FALSE
-                         : c == 'n' ? JSON_NULL
-                                    : JSON_NUMBER))
+    if (json_begin(r, j,
+                   c == '{'   ? JSON_OBJECT
+                   : c == '[' ? JSON_ARRAY
+                   : c == '"' ? JSON_TEXT
+                   : c == 't' ? JSON_TRUE
+                   : c == 'f' ? JSON_FALSE
+                   : c == 'n' ? JSON_NULL
+                              : JSON_NUMBER))
         return 1;
-    if (c == '{' || c == '[') failed = json_parts(r, j, c == '{', depth);
-    else if (c == '"') failed = json_take_text(r);
+    if (c == '{' || c == '[')
+        failed = json_parts(r, j, c == '{', depth);
+    else if (c == '"')
+        failed = json_take_text(r);
     else if (c == 't' || c == 'f' || c == 'n')
         failed = json_word(r, c == 't' ? "true" : c == 'f' ? "false" : "null");
-    else failed = json_take_number(r);
+    else
+        failed = json_take_number(r);
     if (failed) return 1;
     j->value[own].size = (uint32_t)(r->at - j->text) - j->value[own].from;
     if (c == '"') {
@@ -231,21 +239,24 @@ static inline uint32_t json_of(const json_doc *j, uint32_t object, const char *n
 static inline double json_number_at(const json_doc *j, uint32_t at, double none)
 {
     const json_value *v = &j->value[at];
-    mesh_reader r = { j->text + v->from, NULL, j->text + v->from + v->size, "", 0, NULL, 0,
-                      NULL, NULL, 0 };
+    mesh_reader r = {
+        j->text + v->from, NULL, j->text + v->from + v->size, "", 0, NULL, 0, NULL, NULL, 0
+    };
     double value = none;
     if (!at || v->kind != JSON_NUMBER || mesh_take_double(&r, &value)) return none;
     return value;
 }
 
-static inline double json_number_of(const json_doc *j, uint32_t object, const char *name, double none)
+static inline double json_number_of(const json_doc *j, uint32_t object, const char *name,
+                                    double none)
 {
     return json_number_at(j, json_member(j, object, name), none);
 }
 
 /* Up to n numbers of an array into out, which keeps what it has where there are others or fewer.
    Returns 1 where there are n. */
-static inline int json_array(const json_doc *j, uint32_t object, const char *name, double *out, int n)
+static inline int json_array(const json_doc *j, uint32_t object, const char *name, double *out,
+                             int n)
 {
     const uint32_t array = json_of(j, object, name, JSON_ARRAY);
     double value[16];
@@ -262,10 +273,14 @@ static inline int json_array(const json_doc *j, uint32_t object, const char *nam
 
 static inline char *json_utf8(char *to, unsigned code)
 {
-    if (code < 0x80) *to++ = (char)code;
-    else if (code < 0x800) *to++ = (char)(0xC0 | code >> 6);
-    else if (code < 0x10000) *to++ = (char)(0xE0 | code >> 12);
-    else *to++ = (char)(0xF0 | code >> 18);
+    if (code < 0x80)
+        *to++ = (char)code;
+    else if (code < 0x800)
+        *to++ = (char)(0xC0 | code >> 6);
+    else if (code < 0x10000)
+        *to++ = (char)(0xE0 | code >> 12);
+    else
+        *to++ = (char)(0xF0 | code >> 18);
     if (code >= 0x10000) *to++ = (char)(0x80 | (code >> 12 & 63));
     if (code >= 0x800) *to++ = (char)(0x80 | (code >> 6 & 63));
     if (code >= 0x80) *to++ = (char)(0x80 | (code & 63));

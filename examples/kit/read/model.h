@@ -47,8 +47,8 @@ typedef struct model_part {
     int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
 } model_part;
 
-/* Loads a file that the model of a path names: its bytes and where it was, both to be freed.  Returns
-   non-zero with a line in error. */
+/* Loads a file that the model of a path names: its bytes and where it was, both to be freed.
+   Returns non-zero with a line in error. */
 typedef int model_load_beside(const char *path, const char *name, unsigned char **bytes,
                               size_t *size, char **where, char *error, size_t room);
 
@@ -288,6 +288,18 @@ static inline int model_add_library(model *m, const void *name, size_t n)
     m->library = grown;
     grown[m->library_count] = model_text(name, n);
     return !grown[m->library_count++];
+}
+
+/* 1: the name is that of a file in the model's folder or below. */
+static inline int model_is_beside(const char *name)
+{
+    if (!*name || *name == '/' || *name == '\\' || strchr(name, ':')) return 0;
+    for (const char *at = name; *at; at++) {
+        const int first = at == name || at[-1] == '/' || at[-1] == '\\';
+        if (first && at[0] == '.' && at[1] == '.' && (!at[2] || at[2] == '/' || at[2] == '\\'))
+            return 0;
+    }
+    return 1;
 }
 
 /* The path of the file called name in the folder of path; NULL: out of memory */

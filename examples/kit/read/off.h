@@ -166,8 +166,10 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
         const shade_vec3 c = off_linear(rgb);
         memcpy(m->positions + 3 * i, o->position.v + 3 * vertex, 12);
         if (!m->colors) continue;
-        if (!tint && o->has_color) memcpy(m->colors + 3 * i, o->color.v + 3 * vertex, 12);
-        else memcpy(m->colors + 3 * i, &c, sizeof c);
+        if (!tint && o->has_color)
+            memcpy(m->colors + 3 * i, o->color.v + 3 * vertex, 12);
+        else
+            memcpy(m->colors + 3 * i, &c, sizeof c);
     }
     free(made.triple);
     free(made.slot);

@@ -10,7 +10,16 @@
 
 enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
 enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
-enum { PLY_X, PLY_NX = 3, PLY_RED = 6, PLY_U = 9, PLY_VALUES = 11, PLY_CORNERS, PLY_TEXCOORD, PLY_UNUSED };
+enum {
+    PLY_X,
+    PLY_NX = 3,
+    PLY_RED = 6,
+    PLY_U = 9,
+    PLY_VALUES = 11,
+    PLY_CORNERS,
+    PLY_TEXCOORD,
+    PLY_UNUSED
+};
 enum { PLY_MOST = 256 }; /* properties in all */
 
 /* signed and unsigned integers of 1, 2, 4 bytes, floats of 4 and 8 */
@@ -72,12 +81,15 @@ static inline int ply_take_type(mesh_reader *r, ply_type *out)
 /* The meaning of a property of a kind of element */
 static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
 {
-    static const char *const names[] = { "x",    "y",     "z",     "nx",   "ny",        "nz",
-                                         "red",  "green", "blue",  "u",    "v",         "s",
-                                         "t",    "texture_u",      "texture_v",
-                                         "r",    "g",     "b",
-                                         "diffuse_red",   "diffuse_green", "diffuse_blue" };
-    static const int meaning[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8, 6, 7, 8 };
+    static const char *const names[] = { "x",           "y",         "z",           "nx",
+                                         "ny",          "nz",        "red",         "green",
+                                         "blue",        "u",         "v",           "s",
+                                         "t",           "texture_u", "texture_v",   "r",
+                                         "g",           "b",         "diffuse_red", "diffuse_green",
+                                         "diffuse_blue" };
+    static const int meaning[] = {
+        0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8, 6, 7, 8
+    };
     if (is_list && kind > PLY_VERTEX &&
         (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
         return PLY_CORNERS;

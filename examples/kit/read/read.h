@@ -1,6 +1,6 @@
-/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL, PLY, OFF and glTF
-   by own readers, other formats by assimp, the pictures on surfaces by stb_image.  A message names a
-   library that is missing. */
+/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL, PLY, OFF and
+   glTF by own readers, other formats by assimp, the pictures on surfaces by stb_image.  A message
+   names a library that is missing. */
 #ifndef MODEL_READ_H
 #define MODEL_READ_H
 
@@ -85,6 +85,14 @@ static void show_invisible(model *m)
         if (m->surface[i].transparency >= 1) m->surface[i].transparency = 0;
 }
 
+/* 1: the first bytes tell that a file is for our own readers: what they refuse, assimp does not
+   draw. */
+static int is_certain(const unsigned char *head, size_t size)
+{
+    return mesh_is_gltf("", head, size) || mesh_is_off("", head, size) ||
+           mesh_is_ply("", head, size) || mesh_is_stl("", head, size);
+}
+
 /* Reads a model from standard input, its format by the contents; files that it names, from the
    folder of work. */
 static const char model_input[] = "standard input";
@@ -99,8 +107,8 @@ static int read_input(model *m, const model_request *q)
     failed = size ? model_read_memory(bytes, size, model_input, m, q)
                   : mesh_fail(&r, "the file is empty");
 #ifdef MODEL_ASSIMP
-    if (failed && size) {
-        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+    if (failed && size && !is_certain(bytes, size)) {
+        const model_request silent = { NULL, 0, NULL, NULL, q->most, 0 };
         failed = assimp_read(model_input, bytes, size, m, &silent);
     }
 #endif
@@ -121,8 +129,8 @@ static int read_path(const char *path, model *m, const model_request *q)
     else
         failed = read_other(path, kind, m, q);
 #ifdef MODEL_ASSIMP
-    if (failed && !kind.text[0]) { /* no extension: assimp may know the contents */
-        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+    if (failed && !kind.text[0] && !is_certain(head, size)) { /* assimp may know the contents */
+        const model_request silent = { NULL, 0, NULL, NULL, q->most, 0 };
         failed = assimp_read(path, NULL, 0, m, &silent);
     }
 #endif
@@ -162,7 +170,7 @@ static int model_read(const char *path, model *m, const model_request *q)
     }
     if (!failed) {
         show_invisible(m);
-        read_pictures(m, path);
+        read_pictures(m, path, q->outside);
     }
     return failed;
 }
@@ -200,7 +208,8 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
                       void *user)
 {
     char error[400] = "";
-    const model_request q = { error, sizeof error, progress, user, (size_t)o->max_triangles };
+    const model_request q = { error, sizeof error, progress,
+                              user,  (size_t)o->max_triangles, o->outside };
     int failed;
     if (!strcmp(path, "-")) path = model_input;
     guard_doing = "reading ";

@@ -204,7 +204,8 @@ static inline int mesh_fill_normals(owned_mesh *m, int apart)
     mean = (shade_vec3 *)malloc(sizeof(shade_vec3) * count);
     if (!welded.positions || !welded.indices || !mean) goto done;
     for (int i = 0; i < 3 * indices; i++)
-        biggest = fmaxf(biggest, fabsf(m->positions[3 * (size_t)m->indices[i / 3] + (size_t)i % 3]));
+        biggest = fmaxf(biggest,
+                        fabsf(m->positions[3 * (size_t)m->indices[i / 3] + (size_t)i % 3]));
     for (size_t i = 0; i < 3 * count; i++) {    /* to 1: squares of any size stay in range */
         float v = m->positions[i];
         if (!apart) memcpy(&v, &places.triple[i / 3].k[i % 3], sizeof v);

@@ -1,6 +1,6 @@
 /* stl.h - reads triangles from STL, text or binary.  Equal positions become one vertex; the normals
-   of the file are ignored.  Binary files may have a colour for each triangle, in one of two dialects
-   that differ in the order of red and blue and in the meaning of the highest bit. */
+   of the file are ignored.  Binary files may have a colour for each triangle, in one of two
+   dialects that differ in the order of red and blue and in the meaning of the highest bit. */
 #ifndef MODEL_STL_H
 #define MODEL_STL_H
 
