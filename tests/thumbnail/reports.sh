@@ -86,6 +86,8 @@ gltf_reports() {
         printf '%s' "$k" >"$T/wrong.gltf"
         bad_model "$k" wrong.gltf "wrong.gltf:1: its JSON is wrong: expected"
     done
+    sed 's/"mesh":0/&,"scale":[1,null,1]/' "$T/torus.gltf" >"$T/scale.gltf"
+    bad_model "a scale that is no number" scale.gltf "scale must be 3 numbers"
     awk 'BEGIN { for (i = 0; i < 200; i++) printf "["; for (i = 0; i < 200; i++) printf "]" }' \
         >"$T/deep.gltf"
     bad_model "200 deep" deep.gltf "its JSON is more than 100 deep"

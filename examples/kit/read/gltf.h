@@ -114,6 +114,14 @@ static inline int gltf_item(gltf *g, int list, uint32_t at, uint32_t *out)
     return mesh_fail(g->r, "%s[%lu] is no object", gltf_lists[list], (unsigned long)n);
 }
 
+/* Fails where an object has a member of that name which is not n numbers. */
+static inline int gltf_numbers(gltf *g, uint32_t object, const char *name, int n)
+{
+    double unused[16];
+    if (!json_member(&g->j, object, name) || json_array(&g->j, object, name, unused, n)) return 0;
+    return mesh_fail(g->r, "%s must be %d numbers", name, n);
+}
+
 static inline uint32_t gltf_extended(const gltf *g, uint32_t object, const char *name)
 {
     const uint32_t extensions = json_of(&g->j, object, "extensions", JSON_OBJECT);
@@ -428,8 +436,12 @@ static inline int gltf_parents(gltf *g)
     g->parent = (uint32_t *)calloc((size_t)g->count[GLTF_NODE] + 1, sizeof *g->parent);
     if (!g->parent) return mesh_fail(g->r, "out of memory");
     for (uint32_t i = 0; i < g->count[GLTF_NODE]; i++) {
-        const uint32_t children = json_of(&g->j, g->item[GLTF_NODE][i], "children", JSON_ARRAY);
+        const uint32_t node = g->item[GLTF_NODE][i];
+        const uint32_t children = json_of(&g->j, node, "children", JSON_ARRAY);
         uint32_t at = children + 1;
+        if (gltf_numbers(g, node, "matrix", 16) || gltf_numbers(g, node, "translation", 3) ||
+            gltf_numbers(g, node, "rotation", 4) || gltf_numbers(g, node, "scale", 3))
+            return 1;
         for (uint32_t k = 0; children && k < g->j.value[children].count; k++) {
             const double child = json_number_at(&g->j, at, -1);
             if (child >= 0 && child < (double)g->count[GLTF_NODE]) g->parent[(size_t)child] = i + 1;
@@ -637,6 +649,9 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     const uint32_t from = gloss ? gloss : rough, named = json_member(&g->j, material, "name");
     const uint32_t bumps = json_of(&g->j, material, "normalTexture", JSON_OBJECT);
     double base[4] = { 1, 1, 1, 1 }, glow[3] = { 0, 0, 0 }, metal, roughness, strength;
+    if (gltf_numbers(g, from, gloss ? "diffuseFactor" : "baseColorFactor", 4) ||
+        gltf_numbers(g, material, "emissiveFactor", 3))
+        return 1;
     json_array(&g->j, from, gloss ? "diffuseFactor" : "baseColorFactor", base, 4);
     json_array(&g->j, material, "emissiveFactor", glow, 3);
     metal = gloss ? 0 : json_number_of(&g->j, rough, "metallicFactor", 1);
