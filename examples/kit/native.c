@@ -764,6 +764,7 @@ typedef struct python_part {
     const void *bytes;   /* a picture inside the file, not decoded; NULL: it is beside the file */
     size_t size;
     int wrap[2];
+    const char *kind;    /* what the file says that it is, image/png or image/jpeg; NULL: nothing */
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
@@ -794,6 +795,7 @@ int python_part_of(const model *m, int i, python_part *part)
     part->size = picture->size;
     part->wrap[0] = (int)picture->map.wrap_u;
     part->wrap[1] = (int)picture->map.wrap_v;
+    part->kind = picture->kind;
     return m->part_count;
 }
 

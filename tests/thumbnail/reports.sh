@@ -102,7 +102,7 @@ gltf_reports() {
         printf '{"children":[%d,%d]},' $k $k >>"$T/bomb.gltf"
     done
     printf '{"mesh":0}],"meshes":[]}' >>"$T/bomb.gltf"
-    bad_model "nodes that double 30 times" bomb.gltf "more than 100000 nodes\|no such number"
+    bad_model "nodes that double 30 times" bomb.gltf "more than 100000 nodes"
 }
 
 # What a model of four triangles shows by other formats: its colours, in an OBJ with four materials

@@ -107,8 +107,10 @@ static inline int gltf_item(gltf *g, int list, uint32_t at, uint32_t *out)
 {
     const double n = json_number_at(&g->j, at, -1);
     *out = 0;
-    if (!(n >= 0 && n < (double)g->count[list]) || n != floor(n))
-        return mesh_fail(g->r, "there is no such number in %s", gltf_lists[list]);
+    if (!(n >= 0 && n < 1e9) || n != floor(n))
+        return mesh_fail(g->r, "a number of %s is wrong", gltf_lists[list]);
+    if (n >= (double)g->count[list])
+        return mesh_fail(g->r, "there is no %s[%lu]", gltf_lists[list], (unsigned long)n);
     *out = g->item[list][(size_t)n];
     if (g->j.value[*out].kind == JSON_OBJECT) return 0;
     return mesh_fail(g->r, "%s[%lu] is no object", gltf_lists[list], (unsigned long)n);
@@ -521,6 +523,14 @@ static inline int gltf_wrap(const gltf *g, uint32_t sampler, const char *name)
     return code == 33071 ? SHADE_WRAP_CLAMP : code == 33648 ? SHADE_WRAP_MIRROR : SHADE_WRAP_REPEAT;
 }
 
+/* The kind of a picture, where the file says it in few letters */
+static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
+{
+    const uint32_t at = json_of(&g->j, image, "mimeType", JSON_TEXT);
+    const size_t size = at ? g->j.value[at].size : 0;
+    if (at && size < sizeof p->kind) memcpy(p->kind, g->j.text + g->j.value[at].from, size);
+}
+
 /* The picture of an image, with how it goes on beyond its edges.  *number is -1 where it cannot be
    read, which is a warning. */
 static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int as_relief, int *number)
@@ -558,6 +568,7 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int as_r
         if (!bytes.owned) return mesh_fail(g->r, "out of memory");
         p->bytes = bytes.owned;
         p->size = bytes.size;
+        gltf_kind(g, image, p);
         p->path = path;
         p->map.wrap_u = (shade_wrap)wrap[0];
         p->map.wrap_v = (shade_wrap)wrap[1];
@@ -977,7 +988,7 @@ static inline int gltf_node(gltf *g, uint32_t at, const gltf_matrix *above)
     gltf_matrix local, here;
     int failed = 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
-        return mesh_fail(g->r, "more than %d nodes, or they are more than %d deep", GLTF_NODES,
+        return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
                          GLTF_DEPTH);
     if (gltf_item(g, GLTF_NODE, at, &node)) return 1;
     local = gltf_local(g, node);
@@ -1092,7 +1103,7 @@ static inline int gltf_version(gltf *g)
     if (g->j.value[JSON_ROOT].kind != JSON_OBJECT)
         mesh_fail(g->r, "its JSON is no object");
     else if (!two)
-        mesh_fail(g->r, "glTF %s is not read, 2 is", version ? version : "");
+        mesh_fail(g->r, "glTF %s is not read, 2 is", version && *version ? version : "1");
     free(version);
     return !two;
 }

@@ -9,6 +9,7 @@ typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
     char *name, *path;         /* in the file; where it was found, or NULL */
     unsigned char *bytes;      /* PNG or another format, until it is decoded; NULL: none */
+    char kind[24];             /* of the bytes, as image/png; "": the file does not say */
     size_t size;
     int relief;                /* it is no picture of colours, but a bump or normal map: */
     int heights;               /* a bump map, and the mean square of the slopes of its heights, */

@@ -120,7 +120,8 @@ class Run(Structure):
                 ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int),
                 ("surface", c_int), ("physical", c_int), ("material", Material),
                 ("alpha_cutoff", c_float), ("blended", c_int), ("bytes", c_void_p),
-                ("size", c_size_t), ("wrap", c_int * 2)]
+                ("size", c_size_t), ("wrap", c_int * 2),
+                ("kind", c_char_p)]
 
 
 class Edge(Structure):
