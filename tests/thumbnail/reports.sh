@@ -101,7 +101,7 @@ gltf_reports() {
     for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30; do
         printf '{"children":[%d,%d]},' $k $k >>"$T/bomb.gltf"
     done
-    printf '{"mesh":0}],"meshes":[]}' >>"$T/bomb.gltf"
+    printf '{"mesh":0}],"meshes":[{"primitives":[]}]}' >>"$T/bomb.gltf"
     bad_model "nodes that double 30 times" bomb.gltf "more than 100000 nodes"
 }
 
