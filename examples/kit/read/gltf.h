@@ -445,8 +445,8 @@ static inline int gltf_parents(gltf *g)
             gltf_numbers(g, node, "rotation", 4) || gltf_numbers(g, node, "scale", 3))
             return 1;
         for (uint32_t k = 0; children && k < g->j.value[children].count; k++) {
-            const double child = json_number_at(&g->j, at, -1);
-            if (child >= 0 && child < (double)g->count[GLTF_NODE]) g->parent[(size_t)child] = i + 1;
+            const double lower = json_number_at(&g->j, at, -1);
+            if (lower >= 0 && lower < (double)g->count[GLTF_NODE]) g->parent[(size_t)lower] = i + 1;
             at = g->j.value[at].end;
         }
     }
@@ -984,7 +984,7 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gltf_matrix *at)
 
 static inline int gltf_node(gltf *g, uint32_t at, const gltf_matrix *above)
 {
-    uint32_t node, children, child;
+    uint32_t node, children, lower;
     gltf_matrix local, here;
     int failed = 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
@@ -995,11 +995,11 @@ static inline int gltf_node(gltf *g, uint32_t at, const gltf_matrix *above)
     here = gltf_product(above, &local);
     if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &here);
     children = json_of(&g->j, node, "children", JSON_ARRAY);
-    child = children + 1;
+    lower = children + 1;
     g->depth++;
     for (uint32_t i = 0; children && i < g->j.value[children].count && !failed; i++) {
-        failed = gltf_node(g, child, &here);
-        child = g->j.value[child].end;
+        failed = gltf_node(g, lower, &here);
+        lower = g->j.value[lower].end;
     }
     g->depth--;
     return failed;

@@ -85,6 +85,7 @@ static void show_invisible(model *m)
         if (m->surface[i].transparency >= 1) m->surface[i].transparency = 0;
 }
 
+#ifdef MODEL_ASSIMP
 /* 1: the first bytes tell that a file is for our own readers: what they refuse, assimp does not
    draw. */
 static int is_certain(const unsigned char *head, size_t size)
@@ -92,6 +93,7 @@ static int is_certain(const unsigned char *head, size_t size)
     return mesh_is_gltf("", head, size) || mesh_is_off("", head, size) ||
            mesh_is_ply("", head, size) || mesh_is_stl("", head, size);
 }
+#endif
 
 /* Reads a model from standard input, its format by the contents; files that it names, from the
    folder of work. */
