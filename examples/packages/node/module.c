@@ -482,13 +482,13 @@ typedef struct module_model {
 } module_model;
 
 /* Reads glTF, without anything beside it.  NULL with a line in error */
-EXPORT(model_open) model *module_model_open(const void *bytes, size_t size, char *error, size_t room);
+EXPORT(model_open)
+model *module_model_open(const void *bytes, size_t size, char *error, size_t room);
 model *module_model_open(const void *bytes, size_t size, char *error, size_t room)
 {
-    const model_request q = { error, room, NULL, NULL, 0, 0 };
     model *m = (model *)calloc(1, sizeof *m);
     const unsigned char *begin = model_text_of((const unsigned char *)bytes, &size);
-    mesh_reader r = { begin, begin, begin + size, "model", 1, q.error, q.error_size, NULL, NULL, 0 };
+    mesh_reader r = { begin, begin, begin + size, "model", 1, error, room, NULL, NULL, 0 };
     if (m && !gltf_read(&r, m)) return m;
     python_unload(m);
     return NULL;
