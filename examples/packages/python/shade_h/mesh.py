@@ -432,6 +432,9 @@ def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:
         if image is not None and uv is not None and len(uv) == count[0]:
             convert = getattr(image, "convert", None)
             out = {"uv": uv, "texture": np.asarray(convert("RGBA") if convert else image)}
+            factor = getattr(material, "baseColorFactor", None)
+            if factor is not None:    # which multiplies the picture
+                out["color"] = np.asarray(factor)[:3]
         elif material is not None and hasattr(material, "main_color"):
             out["color"] = np.asarray(material.main_color)[:3]
     return out

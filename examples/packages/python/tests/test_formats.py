@@ -5,6 +5,7 @@ import struct
 import subprocess
 import sys
 import zipfile
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -451,3 +452,17 @@ def test_mutants_of_good_files_are_drawn_or_refused(seed):
             assert len(str(why)) > 8
             refused += 1
     assert refused > 40 and drawn_ones > 8
+
+
+def test_the_picture_of_trimesh_is_multiplied_by_its_factor():
+    white = np.full((4, 4, 3), 255, np.uint8)
+    material = SimpleNamespace(baseColorTexture=white, image=None,
+                               baseColorFactor=np.array([255, 0, 0, 255], np.uint8))
+    visual = SimpleNamespace(kind="texture", material=material, uv=np.zeros((4, 2)))
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    mesh = SimpleNamespace(vertices=points, faces=np.array([[0, 1, 2], [0, 2, 3]]), visual=visual)
+    middle = shade.render(mesh, up="y", **FLAT).rgba[24, 32].astype(int)
+    assert middle[0] > 100 > middle[1]
+    del material.baseColorFactor
+    middle = shade.render(mesh, up="y", **FLAT).rgba[24, 32].astype(int)
+    assert middle[1] > 100
