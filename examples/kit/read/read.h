@@ -204,6 +204,14 @@ static int model_shows(const model *m)
     return 0;
 }
 
+/* Returns 1 with a line on stderr where nothing of a model can be seen. */
+static int model_blank(const model *m)
+{
+    if (model_shows(m)) return 0;
+    return complain("%s: no triangle of it has an area, so nothing of it can be seen",
+                    m->path ? m->path : "the model");
+}
+
 /* Reads the model that the options ask for; - is standard input.  Returns 1 with a line on
    stderr. */
 static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
@@ -222,9 +230,8 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
     if (m->note[0] && !o->quiet) complain("%s: %s", path, m->note);
-    if (model_shows(m)) return 0;
-    model_free(m);
-    return complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
+    m->path = path;
+    return 0;
 }
 
 /* The upright axis, 0 .. 5: that of the options or of the format; of a picture where neither says,
@@ -243,12 +250,13 @@ static int model_up(const model *m, const model_options *o, int picture)
     return up;
 }
 
-/* Makes a model ready to be drawn: upright, turned, with normals and chunks.  Returns 1 with a line
-   on stderr. */
+/* Makes a model ready for a picture: upright, turned, with normals and chunks.  Returns 1 with a
+   line on stderr, also where a picture would show nothing. */
 static int model_prepare(model *m, const model_options *o, float turn)
 {
     const int flat = o->shading == SHADE_SHADING_PER_FACE;
     int failed = 0;
+    if (model_blank(m)) return 1;
     relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
     if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
     if (!failed) failed = mesh_chunk_parts(m);
