@@ -42,8 +42,8 @@ SIXEL    = $(shell echo 'int main(void) { return !sixel_output_new; }' | \
                    rm -f $@.sixel && echo -DVIEW_SIXEL -lsixel || \
                    echo 'no libsixel: sixels of view are left out' >&2)
 
-# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL and PLY assimp's
-# (libassimp-dev)
+# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL, PLY, OFF and
+# glTF assimp's (libassimp-dev)
 STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include \
                    stb/stb_image_write.h -x c - 2>/dev/null && \
                    echo -DMODEL_STB || \
@@ -51,7 +51,7 @@ STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include 
 ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | \
                    $(CC) -include assimp/cimport.h -x c - -lassimp -o $@.assimp 2>/dev/null && \
                    rm -f $@.assimp && echo -DMODEL_ASSIMP -lassimp || \
-                   echo 'no assimp: programs read OBJ, STL and PLY alone' >&2)
+                   echo 'no assimp: programs read OBJ, STL, PLY, OFF and glTF alone' >&2)
 
 NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/[0-9]*.c)))
 # those of README, which read well when they are small

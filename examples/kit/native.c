@@ -8,7 +8,6 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#define MODEL_CENTRED 0 /* Python centres in double, and tells the origin */
 #include "examples/kit/read/files.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
@@ -493,7 +492,7 @@ static void append(owned_mesh *m, const shade_mesh *from, shade_mat4 place)
 }
 
 /* All items as one mesh in the studio.  Non-zero: out of memory, or too large for one mesh */
-static int gather(light_studio *s, const python_item *items, int count)
+static int one_mesh(light_studio *s, const python_item *items, int count)
 {
     double vertices = 0, indices = 0;
     owned_mesh *m = &s->scene.mesh;
@@ -532,7 +531,7 @@ static light_studio *open_studio(const python_item *items, int count, const pyth
     if (!s) return NULL;
     s->from_world = v->to_studio;
     s->to_world = shade_mat4_inverse(v->to_studio);
-    if (!gather(s, items, count) && s->scene.part->count &&
+    if (!one_mesh(s, items, count) && s->scene.part->count &&
         !studio_open(&s->light, &s->scene, pixels, 0, threads, NULL, NULL) &&
         !studio_cast(&s->ground, &s->light, &s->scene.mesh, threads))
         return s;
@@ -714,16 +713,20 @@ float python_text(const char *text, float size, float x, float y, unsigned char 
 typedef char python_mesh_first[offsetof(model, mesh) == 0 ? 1 : -1];
 
 /* Reads an OBJ, STL or PLY file from memory; what stands beside path, which may be NULL, describes
-   its surfaces.  name stands in messages, and its end tells the format where there is one.  Returns
-   NULL with a sentence in error. */
+   its surfaces.  name stands in messages, and its end tells the format where there is one.  Points
+   without faces are vertices without indices.  Returns NULL with a sentence in error. */
 SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, const char *path,
                             char *error, size_t room);
 model *python_read(const void *bytes, size_t size, const char *name, const char *path, char *error,
                    size_t room)
 {
-    const model_request q = { error, room, NULL, NULL, 0 };
-    model *m = (model *)calloc(1, sizeof *m);
-    if (m && !model_read_memory(bytes, size, name, m, &q)) {
+    static const model empty;
+    const model_request q = { error, room, NULL, NULL, 0, 0 };
+    model *m = (model *)calloc(1, sizeof *m), said = empty;
+    said.points_wanted = 1;
+    said.path = path;
+    said.beside = path ? model_load_file : NULL;
+    if (m && !model_read_with(bytes, size, name, m, &q, &said)) {
         if (path) model_read_libraries(path, m);
         return m;
     }
@@ -737,6 +740,14 @@ void python_unload(model *m)
     if (m) model_free(m);
     free(m);
 }
+
+/* Three numbers that belong to each position, so that they are where the file has them */
+SHADEDEF const double *python_origin(const model *m);
+const double *python_origin(const model *m) { return m->origin; }
+
+/* 1: the mesh has a normal at each vertex, all of the file. */
+SHADEDEF int python_normals(const model *m);
+int python_normals(const model *m) { return m->normals_given && m->physical; }
 
 /* What the file lacks, or "" */
 SHADEDEF const char *python_warning(const model *m);
@@ -756,6 +767,15 @@ typedef struct python_part {
     float color[3], transparency;
     const char *map; /* the name of its picture, or NULL */
     int set, opaque; /* the file says something of it; the alpha of the map is ignored */
+    int surface;
+    int physical; /* by metal and roughness: material is all that it is */
+    shade_material material;
+    float alpha_cutoff;
+    int blended;
+    const void *bytes; /* a picture inside the file, not decoded; NULL: it is beside the file */
+    size_t size;
+    int wrap[2];
+    const char *kind; /* what the file says that it is, image/png or image/jpeg; NULL: nothing */
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
@@ -764,6 +784,7 @@ int python_part_of(const model *m, int i, python_part *part)
 {
     const model_part *from = m->part + i;
     const model_surface *s = m->surface_count ? &m->surface[from->surface] : NULL;
+    const model_picture *picture;
     if (!part || i < 0 || i >= m->part_count) return m->part_count;
     memset(part, 0, sizeof *part);
     part->first = from->first;
@@ -774,6 +795,18 @@ int python_part_of(const model *m, int i, python_part *part)
     part->map = m->mesh.texcoords ? s->map : NULL;
     part->set = s->set;
     part->opaque = s->opaque;
+    part->surface = from->surface;
+    part->physical = m->physical;
+    part->material = s->material;
+    part->alpha_cutoff = s->alpha_cutoff;
+    part->blended = s->blended;
+    if (s->picture < 0) return m->part_count;
+    picture = &m->picture[s->picture];
+    part->bytes = picture->bytes;
+    part->size = picture->size;
+    part->wrap[0] = (int)picture->map.wrap_u;
+    part->wrap[1] = (int)picture->map.wrap_v;
+    part->kind = picture->kind;
     return m->part_count;
 }
 

@@ -241,16 +241,19 @@ static inline float *mesh_tangents(const owned_mesh *m)
     return (float *)T;
 }
 
-/* The box around all vertices; without vertices low is above high. */
+/* The box around the corners of all triangles, or where there are none around all vertices;
+   without vertices low is above high. */
 static inline void mesh_box(const owned_mesh *m, double low[3], double high[3])
 {
-    const size_t n = 3 * (size_t)m->view.vertex_count;
+    const size_t corners = m->indices ? (size_t)m->view.index_count : 0;
+    const size_t n = 3 * (corners ? corners : (size_t)m->view.vertex_count);
     for (int k = 0; k < 3; k++) {
         low[k] = 1e300;
         high[k] = -1e300;
     }
     for (size_t i = 0; i < n; i++) {
-        double v = (double)m->positions[i];
+        const size_t vertex = corners ? m->indices[i / 3] : i / 3;
+        double v = (double)m->positions[3 * vertex + i % 3];
         if (v < low[i % 3]) low[i % 3] = v;
         if (v > high[i % 3]) high[i % 3] = v;
     }

@@ -1,4 +1,4 @@
-/* reader.c - the OBJ, STL and PLY readers of examples/kit/read/files.h: any bytes give a
+/* reader.c - the OBJ, STL, PLY and glTF readers of examples/kit/read/files.h: any bytes give a
    valid model, which a section leaves valid, or an error. */
 #include "input.h"
 #include "examples/kit/draw/section.h"
@@ -62,7 +62,8 @@ static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name
     owned_mesh again;
     char error[64];
     int returns = memchr(bytes, '\r', size) != NULL, zeros = memchr(bytes, 0, size) != NULL;
-    int binary = mesh_is_stl(name, bytes, size) || mesh_is_ply(name, bytes, size);
+    int binary = mesh_is_stl(name, bytes, size) || mesh_is_ply(name, bytes, size) ||
+                 (size >= 4 && !memcmp(bytes, "glTF", 4));
     if (!other) exit(2);
     for (size_t i = 0; i < size; i++) {
         if (bytes[i] == '\n') other[n++] = '\r';
@@ -113,7 +114,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t *bytes;
     char *error;
     model m;
-    model_request request = { NULL, error_size, reader_progress, &calls, 0 };
+    model_request request = { NULL, error_size, reader_progress, &calls, 0, 0 };
     if (n > GUARD_ROOM) return 0;
     bytes = (uint8_t *)guard_take(n, kind >> 2 & 1);
     error = (char *)guard_take(error_size, 1);

@@ -80,14 +80,30 @@ static void guard_reading(const char *path)
     if (!path || guard_lines < 0) guard_lines = 2;
 }
 
-/* Limits the memory to megabytes, or with 0 to half the machine's: a file that asks for more is
-   refused, and does not push everything else out.  Sanitizers reserve far more than they use. */
+/* A quarter of the memory that programs can still get, of which Linux tells, or of all */
+static double guard_quarter(void)
+{
+    double bytes = 0;
+    unsigned long kilobytes;
+    char line[100];
+    FILE *file = fopen("/proc/meminfo", "r");
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "MemAvailable: %lu", &kilobytes) == 1) bytes = 256.0 * (double)kilobytes;
+    if (file) fclose(file);
+#ifdef _SC_PHYS_PAGES
+    if (bytes <= 0) bytes = 0.25 * (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+#endif
+    return bytes;
+}
+
+/* Limits the memory to megabytes, or with 0 to a quarter of what is free, but to 1000 at least: a
+   file that asks for more is refused, and does not push everything else out.  Sanitizers reserve
+   far more than they use. */
 static void guard_memory(int megabytes)
 {
-#if defined(_SC_PHYS_PAGES) && !defined(__SANITIZE_ADDRESS__)
-    double bytes = 0.5 * (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+#ifndef __SANITIZE_ADDRESS__
+    double bytes = megabytes ? 1e6 * megabytes : fmax(1e9, guard_quarter());
     struct rlimit limit;
-    if (megabytes) bytes = 1e6 * megabytes;
     if (bytes < 1e7 || bytes > 1e15 || getrlimit(RLIMIT_AS, &limit)) return;
     if (limit.rlim_cur == RLIM_INFINITY || (double)limit.rlim_cur > bytes)
         limit.rlim_cur = (rlim_t)bytes;

@@ -24,8 +24,9 @@
     "  --no-shadow           no shadow on the ground\n"                                            \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                     \
     "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"      \
-    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"    \
-    "                        the machine's)\n"                                                     \
+    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (a quarter\n"  \
+    "                        of what is free, 1000 at least)\n"                                    \
+    "  --outside             reads pictures outside of the model's folder, too\n"                  \
     "  --quiet               prints errors only, no progress and no warnings\n"                    \
     "  --verbose             says which axis was guessed to be upright\n"
 
@@ -33,6 +34,7 @@ typedef struct model_options {
     int up;                                 /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */
     int quiet, verbose;
+    int outside;                 /* pictures outside of the model's folder are read */
     int plain, no_shadow;        /* plain: one material instead of the file's */
     int quick;                   /* no maps of shadows are drawn */
     int viewed;                  /* the view is said: */
@@ -227,6 +229,7 @@ static const option model_option[] = {
     { "--max-memory", NULL, offsetof(model_options, max_memory), 32, 1000000 },
     { "--no-shadow", NULL, offsetof(model_options, no_shadow), 1, 0 },
     { "--quick", NULL, offsetof(model_options, quick), 1, 0 },
+    { "--outside", NULL, offsetof(model_options, outside), 1, 0 },
     { "--quiet", NULL, offsetof(model_options, quiet), 1, 0 },
     { "--verbose", NULL, offsetof(model_options, verbose), 1, 0 },
     { NULL, NULL, 0, 0, 0 }

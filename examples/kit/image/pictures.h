@@ -5,28 +5,6 @@
 
 #include "../read/files.h"
 
-/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
-static int picture_find(const model *m, const char *name, int as_relief)
-{
-    for (int i = 0; i < m->picture_count; i++)
-        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
-    return -1;
-}
-
-/* The number of a new picture without pixels, or -1: out of memory */
-static int picture_add(model *m, const char *name, int as_relief)
-{
-    static const model_picture empty;
-    model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
-                                                      &m->picture_room, sizeof *grown);
-    if (!grown) return -1;
-    m->picture = grown;
-    grown[m->picture_count] = empty;
-    grown[m->picture_count].relief = as_relief;
-    grown[m->picture_count].name = model_text(name, strlen(name));
-    return grown[m->picture_count].name ? m->picture_count++ : -1;
-}
-
 /* Gives a picture its pixels (RGBA8, from malloc) and its mipmaps. */
 static inline void picture_fill(model_picture *p, void *pixels, int width, int height)
 {
@@ -119,16 +97,22 @@ static const char *picture_decode(model_picture *p, const unsigned char *bytes, 
 #endif
 
 /* Reads a picture in the folder of the model, by its whole name, or by the part after its last
-   slash: names from other machines contain folders that do not exist here. */
-static int picture_load(model *m, const char *path, const char *name, int as_relief)
+   slash: names from other machines contain folders that do not exist here.  A name that leaves the
+   folder of the model counts only where the caller wants that: who draws models of strangers does
+   not show them the pictures of others. */
+static int picture_load(model *m, const char *path, const char *name, int as_relief, int outside)
 {
+    const int beside_model = outside || model_is_beside(name);
     char error[300] = "out of memory";
     unsigned char *bytes = NULL;
     size_t size = 0, last = 0;
     int number = picture_add(m, name, as_relief), failed = 1;
     for (size_t i = 0; name[i]; i++)
         if (name[i] == '/' || name[i] == '\\') last = i + 1;
-    for (int attempt = 0; attempt < 2 && failed && number >= 0; attempt++) {
+    if (!beside_model)
+        snprintf(error, sizeof error,
+                 "%s: it lies outside of the model's folder; --outside reads it", name);
+    for (int attempt = !beside_model; attempt < 2 && failed && number >= 0; attempt++) {
         mesh_reader r = {
             NULL, NULL, NULL, name, 0, attempt ? NULL : error, attempt ? 0 : sizeof error,
             NULL, NULL, 0
@@ -151,23 +135,36 @@ static int picture_load(model *m, const char *path, const char *name, int as_rel
 }
 
 /* The number of a picture that a surface names, which is read if it is not there yet */
-static int picture_of(model *m, const char *path, const char *name, int as_relief)
+static int picture_of(model *m, const char *path, const char *name, int as_relief, int outside)
 {
     const int known = picture_find(m, name, as_relief);
-    return known < 0 ? picture_load(m, path, name, as_relief) : known;
+    return known < 0 ? picture_load(m, path, name, as_relief, outside) : known;
+}
+
+/* Decodes the pictures that the model's file holds. */
+static void decode_pictures(model *m)
+{
+    for (int i = 0; i < m->picture_count; i++) {
+        model_picture *p = &m->picture[i];
+        const char *wrong = p->bytes ? picture_decode(p, p->bytes, p->size) : NULL;
+        if (wrong) model_warn(m, p->name, wrong);
+        free(p->bytes);
+        p->bytes = NULL;
+    }
 }
 
 /* Reads each picture that surfaces name once, and finds the kind of its alpha. */
-static void read_pictures(model *m, const char *path)
+static void read_pictures(model *m, const char *path, int outside)
 {
+    decode_pictures(m);
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
         model_relief *r = &s->relief;
-        if (s->map && s->picture < 0) s->picture = picture_of(m, path, s->map, 0);
+        if (s->map && s->picture < 0) s->picture = picture_of(m, path, s->map, 0, outside);
         if (s->glow_map && s->glow_picture < 0)
-            s->glow_picture = picture_of(m, path, s->glow_map, 0);
+            s->glow_picture = picture_of(m, path, s->glow_map, 0, outside);
         if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
-        if (r->map && r->picture < 0) r->picture = picture_of(m, path, r->map, 1);
+        if (r->map && r->picture < 0) r->picture = picture_of(m, path, r->map, 1, outside);
         if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
     }
     for (int i = 0; i < m->picture_count; i++) {

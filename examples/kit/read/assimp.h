@@ -4,10 +4,9 @@
 #define MODEL_ASSIMP_H
 
 #include "../image/pictures.h"
-#include "faces.h"
+#include "gather.h"
 #include <assimp/cimport.h>
 #include <assimp/material.h>
-#include <assimp/GltfMaterial.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/config.h>
@@ -18,10 +17,8 @@
 typedef struct tree {
     const struct aiScene *scene;
     mesh_reader *reader;
-    mesh_floats positions, normals, texcoords, colors;
-    faces faces;
+    gather all;
     model *model; /* gets the names of nodes */
-    int textured, colored, lacks_normals, linear;
     unsigned depth;
 } tree;
 
@@ -32,11 +29,6 @@ static shade_mat4 tree_matrix(const struct aiMatrix4x4 *a)
                        { a->a3, a->b3, a->c3, a->d3 },
                        { a->a4, a->b4, a->c4, a->d4 } } };
     return m;
-}
-
-static int tree_finite(shade_vec3 v)
-{
-    return fabsf(v.x) <= 1e30f && fabsf(v.y) <= 1e30f && fabsf(v.z) <= 1e30f;
 }
 
 /* The texture coordinates that the material of a mesh takes, or where there are no such ones the
@@ -54,63 +46,50 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
                        shade_mat3 turn)
 {
     const struct aiVector3D p = mesh->mVertices[i], *coords = tree_texcoords(t, mesh);
-    shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
-    shade_vec3 N = shade_v3(0, 0, 0), C = shade_v3(1, 1, 1);
-    float uv[2] = { 0, 0 };
-    if (!tree_finite(P)) return mesh_fail(t->reader, "a position is not finite");
+    const shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
+    gather_corner v = { .position = { (double)P.x, (double)P.y, (double)P.z },
+                        .color = { 1, 1, 1 } };
     if (mesh->mNormals) {
         const struct aiVector3D n = mesh->mNormals[i];
-        N = shade_normalize(shade_mat3_transform(turn, shade_v3(n.x, n.y, n.z)));
-        if (!tree_finite(N)) N = shade_v3(0, 0, 0);
+        v.normal = shade_mat3_transform(turn, shade_v3(n.x, n.y, n.z));
     }
-    if (N.x == 0 && N.y == 0 && N.z == 0) t->lacks_normals = 1;
     if (mesh->mColors[0]) {
         const struct aiColor4D c = mesh->mColors[0][i];
-        C = shade_v3(c.r, c.g, c.b);
-        C = t->linear ? shade_clamp(C, shade_v3(0, 0, 0), shade_v3(1, 1, 1))
-                      : shade_linear_from_srgb(C);
-        t->colored = 1;
+        v.color = shade_linear_from_srgb(shade_v3(c.r, c.g, c.b));
+        t->all.colored = 1;
     }
     if (coords) {
-        const struct aiVector3D v = coords[i];
-        if (fabsf(v.x) < 1e6f && fabsf(v.y) < 1e6f) {
-            uv[0] = v.x;
-            uv[1] = v.y;
-        }
-        t->textured = 1;
+        v.uv = shade_v2(coords[i].x, coords[i].y);
+        t->all.textured = 1;
     }
-    if (mesh_push(&t->positions, (const float *)&P, 3) ||
-        mesh_push(&t->normals, (const float *)&N, 3) ||
-        mesh_push(&t->colors, (const float *)&C, 3) || mesh_push(&t->texcoords, uv, 2))
-        return mesh_fail(t->reader, "out of memory");
-    return 0;
+    return gather_vertex(t->reader, &t->all, &v);
 }
 
 static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
 {
-    size_t first = t->positions.count / 3;
+    size_t first = t->all.positions.count / 3;
     shade_mat3 turn = shade_normal_matrix(at);
     int mirrored = shade_mat3_determinant(shade_mat3_from_mat4(at)) < 0;
     if (!mesh->mNumFaces ||
         !(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)))
         return 0;
     if (first + mesh->mNumVertices >= INT_MAX) return mesh_fail(t->reader, "too many vertices");
-    if (faces_surface(&t->faces, (int)mesh->mMaterialIndex))
+    if (faces_surface(&t->all.faces, (int)mesh->mMaterialIndex))
         return mesh_fail(t->reader, "out of memory");
     for (unsigned i = 0; i < mesh->mNumVertices; i++)
         if (tree_vertex(t, mesh, i, at, turn)) return 1;
     for (unsigned i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *f = &mesh->mFaces[i];
-        if (faces_begin(&t->faces)) return mesh_fail(t->reader, "out of memory");
+        if (faces_begin(&t->all.faces)) return mesh_fail(t->reader, "out of memory");
         for (unsigned k = 0; k < f->mNumIndices; k++) {
             unsigned corner = f->mIndices[mirrored ? f->mNumIndices - 1 - k : k];
             if (corner >= mesh->mNumVertices)
                 return mesh_fail(t->reader, "a corner is out of range");
-            if (faces_corner(&t->faces, (uint32_t)(first + corner)))
+            if (faces_corner(&t->all.faces, (uint32_t)(first + corner)))
                 return mesh_fail(t->reader, "out of memory");
         }
-        faces_end(&t->faces);
-        if (mesh_check_triangles(t->reader, t->faces.triangles)) return 1;
+        faces_end(&t->all.faces);
+        if (mesh_check_triangles(t->reader, t->all.faces.triangles)) return 1;
     }
     return 0;
 }
@@ -122,7 +101,7 @@ static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
     if (t->depth > 1000) return mesh_fail(t->reader, "nodes more than 1000 deep");
     if (node->mNumMeshes) {
         object = model_add_object(t->model, node->mName.data, strlen(node->mName.data));
-        if (object < 0 || faces_object(&t->faces, object))
+        if (object < 0 || faces_object(&t->all.faces, object))
             return mesh_fail(t->reader, "out of memory");
     }
     for (unsigned i = 0; i < node->mNumMeshes && !failed; i++)
@@ -137,14 +116,12 @@ static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
 /* ---- materials ------------------------------------------------------------------------------ */
 
 /* A colour of a material, in linear light; returns 0 where the material has none. */
-static int take_material_color(const struct aiMaterial *a, const char *key, int linear,
-                               shade_vec3 *out, float *alpha)
+static int take_material_color(const struct aiMaterial *a, const char *key, shade_vec3 *out,
+                               float *alpha)
 {
     struct aiColor4D c = { 0, 0, 0, 1 };
     if (aiGetMaterialColor(a, key, 0, 0, &c) != aiReturn_SUCCESS) return 0;
-    *out = shade_v3(c.r, c.g, c.b);
-    *out = linear ? shade_clamp(*out, shade_v3(0, 0, 0), shade_v3(1, 1, 1))
-                  : shade_linear_from_srgb(*out);
+    *out = shade_linear_from_srgb(shade_v3(c.r, c.g, c.b));
     if (alpha) *alpha = c.a;
     return 1;
 }
@@ -157,29 +134,12 @@ static float take_material_float(const struct aiMaterial *a, const char *key, fl
     return v >= 0 ? v : none;
 }
 
-/* Metal has its colour in the highlight and the reflection; the studio is too plain to mirror
-   alone, so that part of it stays diffuse.
-   Roughness r becomes the exponent of a lobe as wide, 2 / r^4 - 2, and rough highlights dim. */
-static void material_from_roughness(const struct aiMaterial *a, model_surface *s)
-{
-    shade_material *k = &s->material;
-    float metal = fminf(1, take_material_float(a, "$mat.metallicFactor", 0));
-    float rough = fminf(1, fmaxf(0.2f, take_material_float(a, "$mat.roughnessFactor", 0.7f)));
-    float square = rough * rough, gloss = (1 - rough) * (1 - 0.5f * rough);
-    shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
-    k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
-    k->diffuse = k->ambient = shade_scale(base, 1 - 0.55f * metal);
-    s->metal = metal;
-    s->rough = rough;
-    k->shininess = fmaxf(1, 2 / (square * square) - 2);
-}
-
 static void material_from_gloss(const struct aiMaterial *a, shade_material *k)
 {
     float strength = fminf(1, take_material_float(a, "$mat.shinpercent", 1));
     k->shininess = take_material_float(a, "$mat.shininess", 0);
     k->specular = shade_v3(0, 0, 0);
-    take_material_color(a, "$clr.specular", 0, &k->specular, NULL);
+    take_material_color(a, "$clr.specular", &k->specular, NULL);
     k->specular = shade_scale(k->specular, strength);
     if (k->shininess < 1) k->specular = shade_v3(0, 0, 0);
 }
@@ -191,18 +151,6 @@ static int says_nothing(const struct aiMaterial *a, const shade_material *k)
     return c.x >= 1 && c.y >= 1 && c.z >= 1 && e.x + e.y + e.z <= 0 &&
            take_material_float(a, "$mat.metallicFactor", 0) >= 1 &&
            take_material_float(a, "$mat.roughnessFactor", 0) >= 1;
-}
-
-/* What glTF says of alpha */
-static void alpha_from(model_surface *s, const struct aiMaterial *a)
-{
-    struct aiString mode;
-    if (aiGetMaterialString(a, "$mat.gltf.alphaMode", 0, 0, &mode) != aiReturn_SUCCESS) return;
-    s->opaque = !strcmp(mode.data, "OPAQUE");
-    s->blended = !strcmp(mode.data, "BLEND");
-    if (!strcmp(mode.data, "MASK"))
-        s->alpha_cutoff = fmaxf(1e-6f, take_material_float(a, "$mat.gltf.alphaCutoff", 0.5f));
-    if (!s->blended) s->transparency = 0;
 }
 
 /* The picture for k_d; physical: the material's base colour multiplies it.  Returns 1 where memory
@@ -274,26 +222,26 @@ static int glow_from(model_surface *s, const struct aiMaterial *a)
     return 0;
 }
 
-static int surface_from(model_surface *s, const struct aiMaterial *a, int linear)
+static int surface_from(model_surface *s, const struct aiMaterial *a)
 {
     struct aiString text;
     shade_material *k = &s->material;
     float alpha = 1;
-    int base = take_material_color(a, "$clr.base", linear, &k->diffuse, &alpha);
+    int base = take_material_color(a, "$clr.base", &k->diffuse, &alpha);
     int named = aiGetMaterialString(a, "?mat.name", 0, 0, &text) == aiReturn_SUCCESS;
     s->set = !named || strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
-    if (!base) take_material_color(a, "$clr.diffuse", linear, &k->diffuse, NULL);
+    if (!base) take_material_color(a, "$clr.diffuse", &k->diffuse, NULL);
     k->ambient = k->diffuse;
-    take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
+    take_material_color(a, "$clr.emissive", &k->emission, NULL);
     if (!named && says_nothing(a, k)) s->set = 0;
     s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
     if (base)
-        material_from_roughness(a, s);
+        model_rough(s, take_material_float(a, "$mat.metallicFactor", 0),
+                    take_material_float(a, "$mat.roughnessFactor", 0.7f));
     else
         material_from_gloss(a, k);
-    alpha_from(s, a);
     if (map_from(s, a, base) || relief_from(s, a) || glow_from(s, a)) return 1;
-    model_glow(s, linear);
+    model_glow(s, 0);
     return 0;
 }
 
@@ -351,8 +299,7 @@ static int tree_surfaces(tree *t, model *m)
         if (model_find_surface(m, name, (size_t)n, 1) != (int)i)
             return mesh_fail(t->reader, "out of memory, or more than 10000 materials");
         s = &m->surface[i];
-        if (surface_from(s, t->scene->mMaterials[i], t->linear))
-            return mesh_fail(t->reader, "out of memory");
+        if (surface_from(s, t->scene->mMaterials[i])) return mesh_fail(t->reader, "out of memory");
         s->picture = tree_picture(t, s->map, 0);
         s->relief.picture = tree_picture(t, s->relief.map, 1);
         s->glow_picture = tree_picture(t, s->glow_map, 0);
@@ -366,37 +313,18 @@ static int tree_surfaces(tree *t, model *m)
    empty file or nothing. */
 static int memory_ran_out(void) { return errno == ENOMEM; }
 
+/* The model that was gathered */
 static int tree_finish(tree *t, model *m)
 {
-    owned_mesh *mesh = &m->mesh;
-    int vertices = (int)(t->positions.count / 3);
-    if (!t->faces.triangles)
-        return mesh_fail(t->reader, memory_ran_out() ? "out of memory" : "no faces in it");
-    mesh->positions = t->positions.v;
-    t->positions.v = NULL;
-    mesh->normals = t->normals.v;
-    t->normals.v = NULL;
-    if (t->textured) {
-        mesh->texcoords = t->texcoords.v;
-        t->texcoords.v = NULL;
-    }
-    if (t->colored) {
-        mesh->colors = t->colors.v;
-        t->colors.v = NULL;
-    }
-    if (faces_finish(&t->faces, m)) return mesh_fail(t->reader, "out of memory");
-    mesh_link(mesh, vertices, 3 * (int)t->faces.triangles);
-    m->normals_given = !t->lacks_normals;
-    if (t->lacks_normals && mesh_fill_normals(mesh, 0))
-        return mesh_fail(t->reader, "out of memory");
-    return 0;
+    if (!t->all.faces.triangles && memory_ran_out()) return mesh_fail(t->reader, "out of memory");
+    return gather_finish(t->reader, &t->all, m);
 }
 
 /* 1: the format says which axis is up, once for all files or in each, and assimp turns it to y. */
 static int tells_up(const char *kind)
 {
-    static const char *const told[] = { "",    "gltf", "glb", "vrm", "dae",  "fbx",  "wrl", "vrml",
-                                        "x3d", "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
+    static const char *const told[] = { "",     "dae", "fbx", "wrl",  "vrml", "x3d",
+                                        "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
         if (!strcmp(kind, told[i])) return 1;
     return 0;
@@ -428,7 +356,6 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     tree t = empty_tree;
     int failed;
     *m = empty_model;
-    if (!kind.text[0] && size > 3 && !memcmp(bytes, "glTF", 4)) kind = model_kind_of("a.glb");
     if (!kind.text[0] && size > 3 && !memcmp(bytes, "PK\3\4", 4)) kind = model_kind_of("a.3mf");
     if (!set) return mesh_fail(&r, "out of memory");
     errno = 0;
@@ -443,18 +370,13 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     if (!t.scene) return assimp_failed(&r);
     t.reader = &r;
     t.model = m;
-    t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
     m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
     m->up_told = m->z_up || tells_up(kind.text);
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)
         failed = tree_node(&t, t.scene->mRootNode, shade_mat4_identity());
     if (!failed) failed = tree_finish(&t, m);
-    free(t.positions.v);
-    free(t.normals.v);
-    free(t.texcoords.v);
-    free(t.colors.v);
-    faces_free(&t.faces);
+    gather_free(&t.all);
     aiReleaseImport(t.scene);
     if (failed) model_free(m);
     return failed;

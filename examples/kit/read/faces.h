@@ -11,6 +11,7 @@ typedef struct faces {
     mesh_uints change;      /* pairs: a place in the stream, the surface from there on */
     mesh_uints object;      /* pairs: a place in the stream, the object from there on */
     size_t open, triangles; /* open: the place of the last face's count */
+    size_t dropped;         /* faces with a corner that is not finite */
 } faces;
 
 static inline void faces_free(faces *f)
@@ -57,9 +58,17 @@ static inline size_t faces_end(faces *f)
     return corners;
 }
 
+/* 1: each corner of a face has a finite position. */
+static inline int faces_finite(const float *positions, const uint32_t *corner, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!mesh_finite(positions + 3 * (size_t)corner[i])) return 0;
+    return 1;
+}
+
 /* Counts the indices of each surface where out is NULL; otherwise writes the indices of each
    surface from its place in first on, and the object of each triangle where object is not NULL. */
-static inline int faces_walk(const faces *f, const float *positions, size_t *first, uint32_t *out,
+static inline int faces_walk(faces *f, const float *positions, size_t *first, uint32_t *out,
                              uint32_t *object)
 {
     static const ears empty;
@@ -77,6 +86,10 @@ static inline int faces_walk(const faces *f, const float *positions, size_t *fir
             number = f->object.v[objects + 1];
             objects += 2;
         }
+        if (!faces_finite(positions, f->stream.v + at + 1, corners)) {
+            f->dropped += !out;
+            continue;
+        }
         for (size_t i = 0; object && i < corners - 2; i++) object[first[surface] / 3 + i] = number;
         if (out)
             failed =
@@ -88,8 +101,10 @@ static inline int faces_walk(const faces *f, const float *positions, size_t *fir
 }
 
 /* The triangles into mesh.indices and parts, one for each surface that has any.  The positions
-   must stand, the corners below their number.  Non-zero: out of memory. */
-static inline int faces_finish(const faces *f, model *m)
+   of so many vertices must stand, the corners below their number.  Faces that have a corner which
+   is not finite are left out, with a warning; such positions become 0.  Non-zero: a message of the
+   reader says why not. */
+static inline int faces_finish(mesh_reader *r, faces *f, model *m, size_t vertices)
 {
     size_t surfaces = m->surface_count ? (size_t)m->surface_count : 1, sum = 0;
     size_t *first = (size_t *)calloc(surfaces, sizeof *first);
@@ -97,8 +112,11 @@ static inline int faces_finish(const faces *f, model *m)
     m->part = (model_part *)calloc(surfaces, sizeof *m->part);
     m->mesh.indices = (uint32_t *)malloc(3 * f->triangles * sizeof(uint32_t));
     if (f->object.count) m->object = (uint32_t *)malloc(f->triangles * sizeof(uint32_t));
-    if (!first || !m->part || !m->mesh.indices || (f->object.count && !m->object)) goto done;
-    faces_walk(f, NULL, first, NULL, NULL);
+    if (!first || !m->part || !m->mesh.indices || (f->object.count && !m->object)) {
+        mesh_fail(r, "out of memory");
+        goto done;
+    }
+    faces_walk(f, m->mesh.positions, first, NULL, NULL);
     for (size_t s = 0; s < surfaces; s++) {
         size_t count = first[s];
         const model_part part = { (int)sum, (int)count, (int)s, 0, 0 };
@@ -106,7 +124,16 @@ static inline int faces_finish(const faces *f, model *m)
         first[s] = sum;
         sum += count;
     }
-    failed = faces_walk(f, m->mesh.positions, first, m->mesh.indices, m->object);
+    f->triangles = sum / 3;
+    r->line = f->triangles ? r->line : 0;
+    if (!f->triangles)
+        mesh_fail(r, "no face of it has corners that are all finite");
+    else if (faces_walk(f, m->mesh.positions, first, m->mesh.indices, m->object))
+        mesh_fail(r, "out of memory");
+    else
+        failed = 0;
+    model_warn_dropped(m, r->name, f->dropped, "faces have corners");
+    mesh_tame(&m->mesh, vertices);
 done:
     free(first);
     return failed;

@@ -1,4 +1,5 @@
-/* files.h - reads model files: OBJ with MTL, STL as text or binary, PLY as text or binary.
+/* files.h - reads model files: OBJ with MTL, STL and PLY as text or binary, OFF, glTF
+   and GLB.
 
        owned_mesh m;  char error[300];
        if (mesh_read_file("bunny.obj", &m, error, sizeof error)) fprintf(stderr, "%s\n", error);
@@ -13,28 +14,13 @@
 #ifndef MODEL_FILES_H
 #define MODEL_FILES_H
 
-#include "../command/paths.h"
+#include "gltf.h"
+#include "load.h"
 #include "mtl.h"
 #include "obj.h"
+#include "off.h"
 #include "ply.h"
 #include "stl.h"
-
-/* Larger files are refused. */
-#define MODEL_BYTES 4e9
-#define MODEL_PICTURE_BYTES 5e8
-#define MODEL_LIBRARY_BYTES 1e8
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/stat.h>
-/* 1: there is something that is no file: a pipe would let us wait, a device would not end. */
-static inline int model_is_device(const char *path)
-{
-    struct stat there;
-    return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
-}
-#else
-static inline int model_is_device(const char *path) { return (void)path, 0; }
-#endif
 
 /* The extension of a file name in small letters; "" where it has none, or a long one */
 typedef struct model_kind {
@@ -68,6 +54,27 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
     return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
 }
 
+/* 1: the file is OFF, by its extension or, where that is none of ours, by its contents. */
+static inline int mesh_is_off(const char *name, const unsigned char *bytes, size_t size)
+{
+    const model_kind kind = model_kind_of(name);
+    if (!strcmp(kind.text, "off")) return 1;
+    return !kind.text[0] && off_begins(bytes, size < 4096 ? size : 4096);
+}
+
+/* 1: the file is glTF, by its first bytes, by its extension, or as JSON of a name that is none of
+   ours. */
+static inline int mesh_is_gltf(const char *name, const unsigned char *bytes, size_t size)
+{
+    const model_kind kind = model_kind_of(name);
+    size_t at = 0;
+    if (size >= 4 && !memcmp(bytes, "glTF", 4)) return 1;
+    if (!strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb")) return 1;
+    if (kind.text[0]) return 0;
+    while (at < size && mesh_is_blank(bytes[at])) at++;
+    return at < size && bytes[at] == '{';
+}
+
 static inline int model_read_stl(mesh_reader *r, model *m)
 {
     if (stl_read(r, m)) return 1;
@@ -87,22 +94,32 @@ typedef struct model_request {
     mesh_progress *progress;
     void *user;
     size_t most;
+    int outside; /* pictures outside of the folder of the model are read, too */
 } model_request;
 
-/* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
-   with model_free; else m is empty and error, if error_size > 0, holds one line. */
-static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
-                                    const model_request *q)
+/* The bytes behind a byte order mark of UTF-8, which editors of Windows put before text */
+static inline const unsigned char *model_text_of(const unsigned char *bytes, size_t *size)
 {
-    static const model empty;
+    const size_t mark = *size >= 3 && !memcmp(bytes, "\xEF\xBB\xBF", 3) ? 3 : 0;
+    *size -= mark;
+    return bytes + mark;
+}
+
+static inline int model_read_once(const void *bytes, size_t size, const char *name, model *m,
+                                  const model_request *q)
+{
     static const unsigned char nothing[1];
-    const unsigned char *begin = size ? (const unsigned char *)bytes : nothing;
+    const unsigned char *all = size ? (const unsigned char *)bytes : nothing;
+    const unsigned char *begin = model_text_of(all, &size);
     mesh_reader r = { begin,    begin,         begin + size, name,    1,
                       q->error, q->error_size, q->progress,  q->user, q->most };
     int failed;
-    *m = empty;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_gltf(name, begin, size))
+        failed = gltf_read(&r, m);
+    else if (mesh_is_off(name, begin, size))
+        failed = off_read(&r, m);
     else if (mesh_is_ply(name, begin, size))
         failed = ply_read(&r, m);
     else if (mesh_is_stl(name, begin, size))
@@ -113,79 +130,143 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     return failed;
 }
 
-/* Opens a file; NULL with the error in r */
-static inline FILE *model_open_file(mesh_reader *r, const char *path)
+/* The middle of the triangles or points, where that is so far from the origin of the positions that
+   floats do not keep their digits.  0: it is near. */
+static inline int model_middle(const model *m, double middle[3])
 {
-    FILE *file = NULL;
-    errno = 0;
-    if (model_is_device(path))
-        mesh_fail(r, "is no regular file");
-    else if ((file = path_open(path, "rb")) == NULL)
-        mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be opened");
-    return file;
+    double low[3], high[3], extent = 0, away = 0;
+    mesh_box(&m->mesh, low, high);
+    for (int k = 0; k < 3; k++) {
+        middle[k] = floor(m->origin[k] + (low[k] + high[k]) / 2);
+        extent = fmax(extent, high[k] - low[k]);
+        away = fmax(away, fabs(low[k] + high[k]) / 2);
+    }
+    return away > 64 * extent && away > 64;
 }
 
-/* Loads a whole file of at most so many bytes; the caller frees *bytes.  Returns non-zero with the
-   error in r. */
-static inline int model_load_from(mesh_reader *r, FILE *file, double most, unsigned char **bytes,
-                                  size_t *size)
+/* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
+   with model_free; else m is empty and error, if error_size > 0, holds one line.
+
+   said has what the reader is told, and nothing else: path, beside, points_wanted.
+
+   Text and doubles have more digits than floats.  Where the first position is far from all that the
+   faces have, the file is read again about their middle. */
+static inline int model_read_with(const void *bytes, size_t size, const char *name, model *m,
+                                  const model_request *q, const model *said)
 {
-    size_t capacity = 0, got = 1;
-    int failed = 0;
-    *bytes = NULL;
-    *size = 0;
-    while (got && !failed) {
-        unsigned char *grown = *bytes;
-        if (*size == capacity) {
-            capacity = capacity ? capacity <= SIZE_MAX / 2 ? capacity * 2 : 0 : 65536;
-            grown = capacity ? (unsigned char *)realloc(*bytes, capacity) : NULL;
+    model again = *said;
+    int failed;
+    *m = *said;
+    failed = model_read_once(bytes, size, name, m, q);
+    if (failed || !m->movable || !model_middle(m, again.origin)) return failed;
+    again.placed = 1;
+    model_free(m);
+    *m = again;
+    return model_read_once(bytes, size, name, m, q);
+}
+
+static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
+                                    const model_request *q)
+{
+    static const model empty;
+    return model_read_with(bytes, size, name, m, q, &empty);
+}
+
+static inline int model_load_file(const char *path, const char *name, unsigned char **bytes,
+                                  size_t *size, char **where, char *error, size_t room)
+{
+    mesh_reader r = { NULL, NULL, NULL, name, 0, error, room, NULL, NULL, 0 };
+    *where = model_beside(path, name);
+    return *where ? model_load(&r, *where, MODEL_BYTES, bytes, size)
+                  : mesh_fail(&r, "out of memory");
+}
+
+/* Appends copies of some vertices to an array of a mesh.  Returns non-zero where memory is out. */
+static inline int model_copy(float **v, size_t width, size_t n, const uint32_t *from, size_t count)
+{
+    float *grown = *v ? (float *)realloc(*v, (n + count + 1) * width * sizeof **v) : NULL;
+    if (!*v) return 0;
+    if (!grown) return 1;
+    for (size_t i = 0; i < count; i++)
+        memcpy(grown + (n + i) * width, grown + from[i] * width, width * sizeof **v);
+    *v = grown;
+    return 0;
+}
+
+/* Gives a part vertices of its own, with the texture coordinates that its surface wants. */
+static inline int model_move_part(model *m, const model_part *part, const float *move)
+{
+    owned_mesh *mesh = &m->mesh;
+    const size_t n = (size_t)mesh->view.vertex_count;
+    uint32_t *place = (uint32_t *)calloc(n + 1, sizeof *place);
+    uint32_t *from = (uint32_t *)malloc(((size_t)part->count + 1) * sizeof *from);
+    size_t count = 0;
+    int failed = !place || !from || n + (size_t)part->count > INT_MAX;
+    for (int i = part->first; i < part->first + part->count && !failed; i++) {
+        uint32_t *index = &mesh->indices[i];
+        if (!place[*index]) {
+            from[count] = *index;
+            place[*index] = (uint32_t)++count;
         }
-        if (!grown) {
-            failed = mesh_fail(r, "out of memory");
-            break;
-        }
-        *bytes = grown;
-        got = fread(*bytes + *size, 1, capacity - *size, file);
-        *size += got;
-        if ((double)*size > most) failed = mesh_fail(r, "larger than %.0f MB", most / 1e6);
+        *index = (uint32_t)n + place[*index] - 1;
     }
-    if (!failed && ferror(file))
-        failed = mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be read");
-    if (failed) {
-        free(*bytes);
-        *bytes = NULL;
+    failed = failed || model_copy(&mesh->positions, 3, n, from, count) ||
+             model_copy(&mesh->normals, 3, n, from, count) ||
+             model_copy(&mesh->colors, 3, n, from, count) ||
+             model_copy(&mesh->texcoords, 2, n, from, count);
+    for (size_t i = n; i < n + count && !failed; i++) {
+        float *uv = mesh->texcoords + 2 * i;
+        uv[0] = mesh_or_zero((double)(move[2] * uv[0] + move[0]));
+        uv[1] = mesh_or_zero((double)(1 - (move[3] * (1 - uv[1]) + move[1])));
     }
+    if (!failed) mesh_link(mesh, (int)(n + count), mesh->view.index_count);
+    free(place);
+    free(from);
     return failed;
 }
 
-static inline int model_load(mesh_reader *r, const char *path, double most, unsigned char **bytes,
-                             size_t *size)
+static inline int model_read_library(const char *path, const char *name, model *m, char *error,
+                                     size_t room)
 {
-    FILE *file = model_open_file(r, path);
-    int failed = 1;
-    *bytes = NULL;
-    if (file) failed = model_load_from(r, file, most, bytes, size);
-    if (file) fclose(file);
+    char *beside = model_beside(path, name);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    mesh_reader r = { NULL, NULL, NULL, name, 0, error, room, NULL, NULL, 0 };
+    int failed = !beside || model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size);
+    if (!failed) {
+        r.end = bytes + size;
+        r.at = r.begin = model_text_of(bytes, &size);
+        r.line = 1;
+        if (mtl_read(&r, m)) model_warn(m, path, error);
+    }
+    free(bytes);
+    free(beside);
     return failed;
 }
 
-/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error. */
+/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error.  A
+   line of names is the name of one file, or else of several. */
 static inline void model_read_libraries(const char *path, model *m)
 {
     for (int i = 0; i < m->library_count; i++) {
-        char error[300], *beside = model_beside(path, m->library[i]);
-        unsigned char *bytes = NULL;
-        size_t size = 0;
-        mesh_reader r = { NULL, NULL, NULL, m->library[i], 0, error, sizeof error, NULL, NULL, 0 };
-        if (beside && !model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size)) {
-            r.at = r.begin = bytes;
-            r.end = bytes + size;
-            r.line = 1;
-            if (mtl_read(&r, m)) model_warn(m, path, error);
-        } else if (beside)
-            model_warn(m, path, error);
-        free(bytes);
-        free(beside);
+        char error[300] = "out of memory", *name = m->library[i], *blank = strchr(name, ' ');
+        if (!model_read_library(path, name, m, error, sizeof error)) continue;
+        if (!blank) model_warn(m, path, error);
+        while (blank) {
+            char *last = blank;
+            *last = 0;
+            if (*name && model_read_library(path, name, m, error, sizeof error))
+                model_warn(m, path, error);
+            name = last + 1;
+            blank = strchr(name, ' ');
+            if (!blank && *name && model_read_library(path, name, m, error, sizeof error))
+                model_warn(m, path, error);
+        }
+    }
+    for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
+        const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;
+        if (!move || (move[0] == 0 && move[1] == 0 && move[2] == 1 && move[3] == 1)) continue;
+        if (model_move_part(m, &m->part[i], move)) model_warn(m, path, "out of memory");
     }
 }
 
@@ -195,9 +276,12 @@ static inline int model_read_file(const char *path, model *m, const model_reques
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
     unsigned char *bytes = NULL;
     size_t size = 0;
+    model said = empty;
     int failed = model_load(&r, path, MODEL_BYTES, &bytes, &size);
     *m = empty;
-    if (!failed) failed = model_read_memory(bytes, size, path, m, q);
+    said.path = path;
+    said.beside = model_load_file;
+    if (!failed) failed = model_read_with(bytes, size, path, m, q, &said);
     free(bytes);
     if (!failed) model_read_libraries(path, m);
     return failed;
@@ -218,7 +302,7 @@ static inline int model_keep_mesh(int failed, model *from, owned_mesh *m)
 static inline int mesh_read_memory(const void *bytes, size_t size, const char *name, owned_mesh *m,
                                    char *error, size_t error_size)
 {
-    const model_request q = { error, error_size, NULL, NULL, 0 };
+    const model_request q = { error, error_size, NULL, NULL, 0, 0 };
     model from;
     return model_keep_mesh(model_read_memory(bytes, size, name, &from, &q), &from, m);
 }
@@ -226,7 +310,7 @@ static inline int mesh_read_memory(const void *bytes, size_t size, const char *n
 static inline int mesh_read_file_progress(const char *path, owned_mesh *m, char *error,
                                           size_t error_size, mesh_progress *progress, void *user)
 {
-    const model_request q = { error, error_size, progress, user, 0 };
+    const model_request q = { error, error_size, progress, user, 0, 0 };
     model from;
     return model_keep_mesh(model_read_file(path, &from, &q), &from, m);
 }

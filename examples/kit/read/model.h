@@ -8,9 +8,12 @@
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
     char *name, *path;         /* in the file; where it was found, or NULL */
-    int relief;                /* it is no picture of colours, but a bump or normal map: */
-    int heights;               /* a bump map, and the mean square of the slopes of its heights, */
-    double slope_square;       /* which go from 0 to 1, in pictures whose edges are 1 long */
+    unsigned char *bytes;      /* PNG or another format, until it is decoded; NULL: none */
+    char kind[24];             /* of the bytes, as image/png; "": the file does not say */
+    size_t size;
+    int relief;          /* it is no picture of colours, but a bump or normal map: */
+    int heights;         /* a bump map, and the mean square of the slopes of its heights, */
+    double slope_square; /* which go from 0 to 1, in pictures whose edges are 1 long */
     void *pixels, *mipmaps;
     shade_texture level[15];
 } model_picture;
@@ -34,6 +37,7 @@ typedef struct model_surface {
     int picture;         /* the map, once it is read; -1: none */
     unsigned texcoords;  /* which of several sets in the file all pictures use */
     model_relief relief;
+    float move[4];  /* of texture coordinates with v upward: added, and the factors before that */
     char *glow_map; /* the picture of what shines by itself, or NULL; its number, its factor */
     int glow_picture;
     shade_vec3 glow;
@@ -43,6 +47,11 @@ typedef struct model_part {
     int first, count, surface;    /* of the indices */
     int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
 } model_part;
+
+/* Loads a file that the model of a path names: its bytes and where it was, both to be freed.
+   Returns non-zero with a line in error. */
+typedef int model_load_beside(const char *path, const char *name, unsigned char **bytes,
+                              size_t *size, char **where, char *error, size_t room);
 
 /* Zeroed: empty. */
 typedef struct model {
@@ -57,10 +66,16 @@ typedef struct model {
     uint32_t *object;   /* of each triangle as the file was read; NULL: the file names none */
     int object_count;
     size_t object_room;
-    int normals_given; /* each vertex had a normal in the file */
-    int z_up, up_told; /* up_told: by the format, not by habit */
-    int up;            /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
-    double origin[3];  /* of the positions, in the coordinates of the file */
+    int normals_given;         /* each vertex had a normal in the file */
+    int physical;              /* its surfaces are those of glTF: metal and roughness */
+    int z_up, up_told;         /* up_told: by the format, not by habit */
+    int up;                    /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
+    double origin[3];          /* of the positions, in the coordinates of the file */
+    int placed, points_wanted; /* said to the reader: the origin; points stay points */
+    const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
+    model_load_beside *beside;
+    int movable;       /* the file has more digits than floats: read again, about another
+                                  origin, the positions are more exact */
     char warning[400]; /* what the picture lacks; "": nothing */
     char note[200];    /* what it shows otherwise than the file has it; "": nothing */
 } model;
@@ -82,6 +97,7 @@ static inline void model_free(model *m)
     for (int i = 0; i < m->picture_count; i++) {
         free(m->picture[i].name);
         free(m->picture[i].path);
+        free(m->picture[i].bytes);
         free(m->picture[i].pixels);
         free(m->picture[i].mipmaps);
     }
@@ -116,6 +132,36 @@ static inline void model_warn(model *m, const char *about, const char *what)
     if (!m->warning[0]) snprintf(m->warning, sizeof m->warning, "%s: %s", about, what);
 }
 
+/* Warns of what is left out because it has a position that is not finite. */
+static inline void model_warn_dropped(model *m, const char *about, size_t n, const char *what)
+{
+    char text[80];
+    if (!n) return;
+    snprintf(text, sizeof text, "%lu %s that are no finite numbers", (unsigned long)n, what);
+    model_warn(m, about, text);
+}
+
+/* The origin that a reader begins with */
+static inline void model_place(const model *m, mesh_origin *o)
+{
+    memcpy(o->at, m->origin, sizeof o->at);
+    o->known = m->placed;
+}
+
+/* The origin that it has used; known: it has used one at all */
+static inline void model_placed(model *m, const mesh_origin *o)
+{
+    memcpy(m->origin, o->at, sizeof o->at);
+    m->movable = o->known;
+}
+
+/* Positions that are not finite, which no face has, become 0. */
+static inline void mesh_tame(owned_mesh *m, size_t vertices)
+{
+    for (size_t i = 0; i < vertices; i++)
+        if (!mesh_finite(m->positions + 3 * i)) memset(m->positions + 3 * i, 0, 12);
+}
+
 /* A copy of n bytes as text; NULL: out of memory */
 static inline char *model_text(const void *bytes, size_t n)
 {
@@ -130,6 +176,26 @@ static inline char *model_text(const void *bytes, size_t n)
 static inline float model_roughness(float shininess)
 {
     return sqrtf(sqrtf(2 / (2 + fmaxf(0, shininess))));
+}
+
+/* A material of metal and roughness, with its base colour in diffuse.  Metal has its colour in the
+   highlight and the reflection; the studio is too plain to mirror alone, so that part of it stays
+   diffuse.  Roughness r becomes the exponent of a lobe as wide, 2 / r^4 - 2, and rough highlights
+   dim. */
+static inline void model_rough(model_surface *s, float metal, float rough)
+{
+    shade_material *k = &s->material;
+    const shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
+    float square, gloss;
+    metal = fminf(1, fmaxf(0, metal));
+    rough = fminf(1, fmaxf(0.2f, rough));
+    square = rough * rough;
+    gloss = (1 - rough) * (1 - 0.5f * rough);
+    k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
+    k->diffuse = k->ambient = shade_scale(base, 1 - 0.55f * metal);
+    s->metal = metal;
+    s->rough = rough;
+    k->shininess = fmaxf(1, 2 / (square * square) - 2);
 }
 
 /* Where there is a picture of what shines, the colour of emission is its factor.  Files that are
@@ -148,6 +214,7 @@ static inline int model_add_surface(model *m, const void *name, size_t n)
     static const model_surface fresh = { .material = { .ambient = { 0.32f, 0.32f, 0.32f },
                                                        .diffuse = { 0.32f, 0.32f, 0.32f } },
                                          .picture = -1,
+                                         .move = { 0, 0, 1, 1 },
                                          .relief = { .picture = -1 },
                                          .glow_picture = -1 };
     model_surface *grown = (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count,
@@ -166,6 +233,28 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
     for (int i = m->surface_count - 1; i >= 0; i--)
         if (strlen(m->surface[i].name) == n && !memcmp(m->surface[i].name, name, n)) return i;
     return add && m->surface_count < MODEL_SURFACES ? model_add_surface(m, name, n) : -1;
+}
+
+/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
+static inline int picture_find(const model *m, const char *name, int as_relief)
+{
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
+    return -1;
+}
+
+/* The number of a new picture without pixels, or -1: out of memory */
+static inline int picture_add(model *m, const char *name, int as_relief)
+{
+    static const model_picture empty;
+    model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
+                                                      &m->picture_room, sizeof *grown);
+    if (!grown) return -1;
+    m->picture = grown;
+    grown[m->picture_count] = empty;
+    grown[m->picture_count].relief = as_relief;
+    grown[m->picture_count].name = model_text(name, strlen(name));
+    return grown[m->picture_count].name ? m->picture_count++ : -1;
 }
 
 /* Adds an object and returns its number; beyond MODEL_SURFACES of them all are the last.  -1: out
@@ -198,6 +287,18 @@ static inline int model_add_library(model *m, const void *name, size_t n)
     m->library = grown;
     grown[m->library_count] = model_text(name, n);
     return !grown[m->library_count++];
+}
+
+/* 1: the name is that of a file in the model's folder or below. */
+static inline int model_is_beside(const char *name)
+{
+    if (!*name || *name == '/' || *name == '\\' || strchr(name, ':')) return 0;
+    for (const char *at = name; *at; at++) {
+        const int first = at == name || at[-1] == '/' || at[-1] == '\\';
+        if (first && at[0] == '.' && at[1] == '.' && (!at[2] || at[2] == '/' || at[2] == '\\'))
+            return 0;
+    }
+    return 1;
 }
 
 /* The path of the file called name in the folder of path; NULL: out of memory */

@@ -1,8 +1,8 @@
 /* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd,
-   map_Ke, map_d, and map_Bump, bump and norm with their -bm.  Other statements are skipped, as are
-   surfaces that the model does not use.  The alpha of map_Kd counts only where map_d or d < 1 asks
-   for it, because exporters often keep other masks there.  Colours are sRGB values.  Ka is ignored,
-   because files hold anything there: k_a = k_d, as daylight wants it. */
+   map_Ke, map_d, and map_Bump, bump and norm with their -bm; -o and -s of map_Kd.  Other statements
+   are skipped, as are surfaces that the model does not use.  The alpha of map_Kd counts only where
+   map_d or d < 1 asks for it, because exporters often keep other masks there.  Colours are sRGB
+   values.  Ka is ignored, because files hold anything there: k_a = k_d, as daylight wants it. */
 #ifndef MODEL_MTL_H
 #define MODEL_MTL_H
 
@@ -41,9 +41,9 @@ typedef struct mtl_clear {
 } mtl_clear;
 
 /* The name of a picture behind options, which begin with a dash: the numbers after one are its
-   own, and of those that take a word the word.  *strength, which may be missing, becomes the number
-   behind -bm. */
-static inline int mtl_map(mesh_reader *r, char **map, float *strength)
+   own, and of those that take a word the word.  What may be missing: *strength becomes the number
+   behind -bm, move the first two numbers behind -o and then those behind -s. */
+static inline int mtl_map(mesh_reader *r, char **map, float *strength, float *move)
 {
     static const char *const worded[6] = { "-blendu", "-blendv",  "-cc",
                                            "-clamp",  "-imfchan", "-type" };
@@ -52,10 +52,13 @@ static inline int mtl_map(mesh_reader *r, char **map, float *strength)
         mesh_reader ahead;
         char unheard[4];
         float number;
-        int k = 0, bm;
+        float *to = NULL; /* two numbers */
+        int k = 0, bm, count = 0;
         mesh_skip_blanks(r, 0);
         if (r->at == r->end || *r->at != '-') break;
         bm = strength && r->end - r->at > 3 && !memcmp(r->at, "-bm", 3);
+        if (move && r->end - r->at > 3 && !memcmp(r->at, "-o ", 3)) to = move;
+        if (move && r->end - r->at > 3 && !memcmp(r->at, "-s ", 3)) to = move + 2;
         while (k < 6 && !mesh_take_word(r, worded[k])) k++;
         while (!mesh_at_word_end(r)) r->at++;
         mesh_skip_blanks(r, 0);
@@ -66,6 +69,7 @@ static inline int mtl_map(mesh_reader *r, char **map, float *strength)
         while (k == 6 && !mesh_take_number(&ahead, &number)) {
             r->at = ahead.at;
             if (bm) *strength = fmaxf(fabsf(number), 1e-9f);
+            if (to && count < 2) to[count++] = number;
             mesh_skip_blanks(&ahead, 0);
         }
     }
@@ -80,7 +84,7 @@ static inline int mtl_map(mesh_reader *r, char **map, float *strength)
 static inline int mtl_map_of_d(mesh_reader *r, mtl_clear *c)
 {
     c->mapped = 1;
-    return mtl_map(r, &c->map, NULL);
+    return mtl_map(r, &c->map, NULL, NULL);
 }
 
 /* One statement about a surface.  Programs disagree about Tr: d is believed where both stand. */
@@ -92,12 +96,12 @@ static inline int mtl_statement(mesh_reader *r, model_surface *s, mtl_clear *c)
     if (mesh_take_word(r, "ks")) return mtl_color(r, &k->specular);
     if (mesh_take_word(r, "ke")) return mtl_color(r, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
-    if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map, NULL);
-    if (mesh_take_word(r, "map_ke")) return mtl_map(r, &s->glow_map, NULL);
+    if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map, NULL, s->move);
+    if (mesh_take_word(r, "map_ke")) return mtl_map(r, &s->glow_map, NULL, NULL);
     if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, c);
     if (mesh_take_word(r, "map_bump") || mesh_take_word(r, "bump") || mesh_take_word(r, "norm") ||
         mesh_take_word(r, "map_kn"))
-        return mtl_map(r, &s->relief.map, &s->relief.strength);
+        return mtl_map(r, &s->relief.map, &s->relief.strength, NULL);
     if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, c->has_d ? &number : &s->transparency);
     if (!mesh_take_word(r, "d")) return 0;
     if (mtl_number(r, 0, 1, &number)) return 1;

@@ -27,7 +27,7 @@ static inline int obj_numbers(mesh_reader *r, double *out, int wanted, int allow
     for (*count = 0; *count < allowed; ++*count) {
         mesh_skip_blanks(r, 1);
         if (*count >= wanted && mesh_at_word_end(r)) break;
-        if (mesh_take_double(r, &out[*count])) return 1;
+        if (mesh_take_coordinate(r, &out[*count])) return 1;
     }
     return 0;
 }
@@ -41,7 +41,8 @@ static inline int obj_vertex(mesh_reader *r, obj_data *o)
     if (obj_numbers(r, v, 3, 7, &count)) return 1;
     mesh_relative(&o->origin, v, place);
     if (count >= 6) { /* colours are sRGB values */
-        shade_vec3 rgb = shade_linear_from_srgb(shade_v3((float)v[3], (float)v[4], (float)v[5]));
+        shade_vec3 rgb = shade_v3(mesh_or_zero(v[3]), mesh_or_zero(v[4]), mesh_or_zero(v[5]));
+        rgb = shade_linear_from_srgb(rgb);
         while (o->color.count < o->list[OBJ_V].count)
             if (mesh_push(&o->color, white, 3)) return mesh_fail(r, "out of memory");
         if (mesh_push(&o->color, (const float *)&rgb, 3)) return mesh_fail(r, "out of memory");
@@ -56,8 +57,8 @@ static inline int obj_texcoord(mesh_reader *r, obj_data *o)
     int count;
     float uv[2];
     if (obj_numbers(r, v, 1, 3, &count)) return 1;
-    uv[0] = (float)v[0];
-    uv[1] = 1 - (float)v[1]; /* OBJ counts v upward, shade.h downward */
+    uv[0] = mesh_or_zero(v[0]);
+    uv[1] = 1 - mesh_or_zero(v[1]); /* OBJ counts v upward, shade.h downward */
     return mesh_push(&o->list[OBJ_VT], uv, 2) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -67,7 +68,7 @@ static inline int obj_normal(mesh_reader *r, obj_data *o)
     float n[3];
     int count;
     if (obj_numbers(r, v, 3, 3, &count)) return 1;
-    for (int k = 0; k < 3; k++) n[k] = (float)v[k];
+    for (int k = 0; k < 3; k++) n[k] = mesh_or_zero(v[k]);
     return mesh_push(&o->list[OBJ_VN], n, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -185,8 +186,21 @@ static inline int obj_points(mesh_reader *r, const obj_data *o, model *out)
     memcpy(m->positions, o->list[OBJ_V].v, 3 * sizeof(float) * n);
     for (size_t i = 0; m->colors && i < 3 * n; i++)
         m->colors[i] = i < o->color.count ? o->color.v[i] : 1;
-    memcpy(out->origin, o->origin.at, sizeof out->origin);
+    model_placed(out, &o->origin);
     return points_finish(r, out, n);
+}
+
+/* Faces may name texture coordinates or normals in a file that has none at all: they do without.
+   0: the file has some. */
+static inline int obj_forget(obj_data *o, int kind, size_t count, model *out, const char *name)
+{
+    if (count) return 0;
+    for (size_t i = 0; i < o->corners.count; i++) o->corners.triple[i].k[kind] = 0;
+    o->highest[kind] = 0;
+    model_warn(out, name,
+               kind == OBJ_VT ? "faces name a vt, and the file has none"
+                              : "faces name a vn, and the file has none");
+    return 1;
 }
 
 /* Makes a vertex for each different corner that was read. */
@@ -199,7 +213,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     if (!o->faces.triangles) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
         const size_t count = o->list[k].count / (k == OBJ_VT ? 2 : 3);
-        if (o->highest[k] <= count) continue;
+        if (o->highest[k] <= count || (k != OBJ_V && obj_forget(o, k, count, out, r->name)))
+            continue;
         r->line = o->highest_line[k];
         return mesh_fail(r, "there is no %s number %lu: the file has %lu", obj_names[k],
                          (unsigned long)o->highest[k], (unsigned long)count);
@@ -224,9 +239,9 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
         else
             missing = 1;
     }
-    if (faces_finish(&o->faces, out)) return mesh_fail(r, "out of memory");
+    if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
-    memcpy(out->origin, o->origin.at, sizeof out->origin);
+    model_placed(out, &o->origin);
     out->normals_given = !missing;
     return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
 }
@@ -236,6 +251,7 @@ static inline int obj_read(mesh_reader *r, model *m)
     static const obj_data empty;
     obj_data o = empty;
     int failed = 0;
+    model_place(m, &o.origin);
     while (r->at < r->end && !failed) {
         int comment;
         if (r->progress && r->line % 65536 == 0)

@@ -1,6 +1,7 @@
-/* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue, u v
-   (or s t, texture_u texture_v) of vertices, lists of corners of faces, triangle strips, and the
-   picture named by a comment TextureFile.  Other elements and properties are skipped. */
+/* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue (or r g
+   b, diffuse_red ...), u v (or s t, texture_u texture_v) of vertices, lists of corners of faces and
+   of their texture coordinates, triangle strips, and the picture named by a comment TextureFile.
+   Other elements and properties are skipped. */
 #ifndef MODEL_PLY_H
 #define MODEL_PLY_H
 
@@ -9,7 +10,16 @@
 
 enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
 enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
-enum { PLY_X, PLY_NX = 3, PLY_RED = 6, PLY_U = 9, PLY_VALUES = 11, PLY_CORNERS, PLY_UNUSED };
+enum {
+    PLY_X,
+    PLY_NX = 3,
+    PLY_RED = 6,
+    PLY_U = 9,
+    PLY_VALUES = 11,
+    PLY_CORNERS,
+    PLY_TEXCOORD,
+    PLY_UNUSED
+};
 enum { PLY_MOST = 256 }; /* properties in all */
 
 /* signed and unsigned integers of 1, 2, 4 bytes, floats of 4 and 8 */
@@ -43,6 +53,12 @@ typedef struct ply_data {
     faces faces;
     mesh_origin origin;
     double highest; /* corner */
+    float bright;   /* the greatest colour that is a float */
+    /* where faces have texture coordinates for their corners, as MeshLab writes them: */
+    int by_corner;
+    mesh_uints corner;       /* the vertex of each corner, which becomes a vertex at the end */
+    mesh_floats place, list; /* u and v of each corner; of the face that is read, as they come */
+    size_t begin;            /* the first corner of that face */
 } ply_data;
 
 /* ---- the header ----------------------------------------------------------------------------- */
@@ -65,28 +81,19 @@ static inline int ply_take_type(mesh_reader *r, ply_type *out)
 /* The meaning of a property of a kind of element */
 static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
 {
-    static const char *const names[] = { "x",
-                                         "y",
-                                         "z",
-                                         "nx",
-                                         "ny",
-                                         "nz",
-                                         "red",
-                                         "green",
-                                         "blue",
-                                         "u",
-                                         "v",
-                                         "s",
-                                         "t",
-                                         "texture_u",
-                                         "texture_v",
-                                         "diffuse_red",
-                                         "diffuse_green",
+    static const char *const names[] = { "x",           "y",         "z",           "nx",
+                                         "ny",          "nz",        "red",         "green",
+                                         "blue",        "u",         "v",           "s",
+                                         "t",           "texture_u", "texture_v",   "r",
+                                         "g",           "b",         "diffuse_red", "diffuse_green",
                                          "diffuse_blue" };
-    static const int meaning[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8 };
+    static const int meaning[] = {
+        0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8, 6, 7, 8
+    };
     if (is_list && kind > PLY_VERTEX &&
         (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
         return PLY_CORNERS;
+    if (is_list && kind == PLY_FACE && mesh_take_word(r, "texcoord")) return PLY_TEXCOORD;
     for (size_t k = 0; kind == PLY_VERTEX && !is_list && k < sizeof names / sizeof *names; k++)
         if (mesh_take_word(r, names[k])) return meaning[k];
     return PLY_UNUSED;
@@ -193,7 +200,7 @@ static inline int ply_number(mesh_reader *r, int format, ply_type type, double *
     float single;
     if (format == PLY_TEXT) {
         mesh_skip_lines(r);
-        return mesh_take_double(r, out);
+        return type < PLY_FLOAT ? mesh_take_double(r, out) : mesh_take_coordinate(r, out);
     }
     if (r->end - r->at < size) return mesh_fail(r, "ends too early");
     for (int k = 0; k < size; k++)
@@ -221,6 +228,32 @@ static inline int ply_corner(mesh_reader *r, ply_data *p, double value)
     return 0;
 }
 
+static inline int ply_face_corner(mesh_reader *r, ply_data *p, double value)
+{
+    const uint32_t number = (uint32_t)p->corner.count;
+    if (!p->by_corner) return ply_corner(r, p, value);
+    if (!(value >= 0 && value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
+    if (number == INT_MAX) return mesh_fail(r, "more than 2^31 - 1 corners");
+    if (value > p->highest) p->highest = value;
+    if (mesh_push_uint(&p->corner, (uint32_t)value) || faces_corner(&p->faces, number))
+        return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+/* The face that was read gets its texture coordinates, wherever they stand in it. */
+static inline int ply_place(mesh_reader *r, ply_data *p)
+{
+    const float none = 0;
+    for (size_t i = 2 * p->begin; i < 2 * p->corner.count; i++) {
+        const size_t at = i - 2 * p->begin;
+        if (mesh_push(&p->place, at < p->list.count ? &p->list.v[at] : &none, 1))
+            return mesh_fail(r, "out of memory");
+    }
+    p->begin = p->corner.count;
+    p->list.count = 0;
+    return 0;
+}
+
 /* A strip ends at -1.  Every second triangle of it has its corners reversed. */
 static inline int ply_strip(mesh_reader *r, ply_data *p, double value, uint32_t *pair, int *length)
 {
@@ -242,12 +275,16 @@ static inline int ply_list(mesh_reader *r, ply_data *p, const ply_property *at, 
     double count, value;
     uint32_t pair[2] = { 0, 0 };
     int length = 0, used = at->meaning == PLY_CORNERS;
+    float single;
     if (ply_number(r, p->format, at->count_type, &count)) return 1;
     if (!(count >= 0)) return mesh_fail(r, "a list of less than nothing");
     if (used && kind == PLY_FACE && faces_begin(&p->faces)) return mesh_fail(r, "out of memory");
     for (double i = 0; i < count; i++) {
         if (ply_number(r, p->format, at->type, &value)) return 1;
-        if (used && kind == PLY_FACE && ply_corner(r, p, value)) return 1;
+        if (used && kind == PLY_FACE && ply_face_corner(r, p, value)) return 1;
+        single = mesh_or_zero(value);
+        if (at->meaning == PLY_TEXCOORD && mesh_push(&p->list, &single, 1))
+            return mesh_fail(r, "out of memory");
         if (used && kind == PLY_STRIP && ply_strip(r, p, value, pair, &length)) return 1;
     }
     if (used && kind == PLY_FACE) faces_end(&p->faces);
@@ -276,13 +313,12 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
         }
         if (ply_number(r, p->format, at->type, &value)) return 1;
         if (at->meaning < PLY_VALUES) v[at->meaning] = ply_value(at, value);
+        if (at->meaning >= PLY_RED && at->meaning < PLY_U && e->kind == PLY_VERTEX)
+            p->bright = fmaxf(p->bright, mesh_or_zero(v[at->meaning]));
     }
+    if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
-    for (int k = 0; k < PLY_VALUES; k++) {
-        int finite = v[k] >= -(double)FLT_MAX && v[k] <= (double)FLT_MAX;
-        if (k < PLY_NX && !finite) return mesh_fail(r, "a position is not finite");
-        single[k] = finite ? (float)v[k] : 0;
-    }
+    for (int k = PLY_NX; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
     mesh_relative(&p->origin, v, single);
     if (p->vertex.count / PLY_VALUES >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
     return mesh_push(&p->vertex, single, PLY_VALUES) ? mesh_fail(r, "out of memory") : 0;
@@ -290,6 +326,10 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
 
 static inline int ply_read_body(mesh_reader *r, ply_data *p)
 {
+    int strips = 0;
+    for (int k = 0; k < p->elements; k++) strips |= p->element[k].kind == PLY_STRIP;
+    for (int k = 0; k < p->properties; k++)
+        if (p->property[k].meaning == PLY_TEXCOORD && !strips) p->by_corner = 1;
     for (int k = 0; k < p->elements; k++) {
         const ply_element *e = &p->element[k];
         for (double i = 0; i < e->count && e->properties; i++) {
@@ -301,9 +341,29 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p)
     return 0;
 }
 
+/* Makes a vertex of each corner. */
+static inline int ply_spread(mesh_reader *r, ply_data *p)
+{
+    mesh_floats spread = { NULL, 0, 0 };
+    for (size_t i = 0; i < p->corner.count; i++) {
+        float *v;
+        if (mesh_push(&spread, p->vertex.v + PLY_VALUES * (size_t)p->corner.v[i], PLY_VALUES)) {
+            free(spread.v);
+            return mesh_fail(r, "out of memory");
+        }
+        v = spread.v + PLY_VALUES * i;
+        memcpy(v + PLY_U, p->place.v + 2 * i, 2 * sizeof *v);
+    }
+    free(p->vertex.v);
+    p->vertex = spread;
+    p->has[PLY_U] = 1;
+    return 0;
+}
+
 static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
 {
     size_t n = p->vertex.count / PLY_VALUES;
+    const float bright = p->bright > 2 ? 1 / 255.0f : 1; /* floats as other programs have bytes */
     owned_mesh *m = &out->mesh;
     int missing = 0, has_faces = 0;
     for (int k = 0; k < p->elements; k++)
@@ -313,6 +373,8 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
                               : "neither vertices nor faces in it");
     if (p->highest >= (double)n)
         return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
+    if (p->corner.count && ply_spread(r, p)) return 1;
+    n = p->vertex.count / PLY_VALUES;
     m->positions = (float *)malloc(3 * sizeof(float) * n);
     if (has_faces) m->normals = (float *)malloc(3 * sizeof(float) * n);
     if (has_faces && p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
@@ -322,7 +384,8 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
         return mesh_fail(r, "out of memory");
     for (size_t i = 0; i < n; i++) {
         const float *v = p->vertex.v + PLY_VALUES * i, *N = v + PLY_NX, *c = v + PLY_RED;
-        shade_vec3 rgb = shade_linear_from_srgb(shade_v3(c[0], c[1], c[2]));
+        const shade_vec3 seen = shade_scale(shade_v3(c[0], c[1], c[2]), bright);
+        const shade_vec3 rgb = shade_linear_from_srgb(seen);
         memcpy(m->positions + 3 * i, v, 3 * sizeof(float));
         if (m->colors) memcpy(m->colors + 3 * i, &rgb, sizeof rgb);
         if (!has_faces) continue;
@@ -332,9 +395,9 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
         m->texcoords[2 * i] = v[PLY_U];
         m->texcoords[2 * i + 1] = 1 - v[PLY_U + 1];
     }
-    memcpy(out->origin, p->origin.at, sizeof out->origin);
+    model_placed(out, &p->origin);
     if (!has_faces) return points_finish(r, out, n);
-    if (faces_finish(&p->faces, out)) return mesh_fail(r, "out of memory");
+    if (faces_finish(r, &p->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
     out->normals_given = !missing;
     return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
@@ -345,8 +408,12 @@ static inline int ply_read(mesh_reader *r, model *m)
     ply_data *p = (ply_data *)calloc(1, sizeof *p);
     int failed;
     if (!p) return mesh_fail(r, "out of memory");
+    model_place(m, &p->origin);
     failed = ply_read_header(r, p, m) || ply_read_body(r, p) || ply_finish(r, p, m);
     free(p->vertex.v);
+    free(p->corner.v);
+    free(p->place.v);
+    free(p->list.v);
     faces_free(&p->faces);
     free(p);
     return failed;

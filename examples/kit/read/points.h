@@ -22,9 +22,24 @@ static inline double points_radius(const float *p, size_t n, size_t step)
     return square > 0 ? sqrt(square) * fmin(0.02, fmax(0.001, part)) : 1;
 }
 
+/* Drops the points that are not finite from the mesh of a model, and returns how many stay. */
+static inline size_t points_keep(mesh_reader *r, model *m, size_t n)
+{
+    float *p = m->mesh.positions, *c = m->mesh.colors;
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!mesh_finite(p + 3 * i)) continue;
+        memmove(p + 3 * kept, p + 3 * i, 3 * sizeof *p);
+        if (c) memmove(c + 3 * kept, c + 3 * i, 3 * sizeof *c);
+        kept++;
+    }
+    model_warn_dropped(m, r->name, n - kept, "points have coordinates");
+    return kept;
+}
+
 /* Makes n points, whose positions and colours, or NULL, the mesh of a model holds, a model of one
    part, and says so in its note.  Non-zero: a message of the reader says why not. */
-static inline int points_finish(mesh_reader *r, model *m, size_t n)
+static inline int points_show(mesh_reader *r, model *m, size_t n)
 {
     static const uint32_t face[8][3] = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
                                          { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
@@ -65,6 +80,17 @@ static inline int points_finish(mesh_reader *r, model *m, size_t n)
     if (step > 1)
         snprintf(m->note + strlen(m->note), sizeof m->note - strlen(m->note), ", one of %lu",
                  (unsigned long)step);
+    return 0;
+}
+
+/* The same of those that are finite; where the model wants them as they are, they stay points. */
+static inline int points_finish(mesh_reader *r, model *m, size_t n)
+{
+    n = points_keep(r, m, n);
+    if (!n) return mesh_fail(r, "no point of it is finite");
+    if (!m->points_wanted) return points_show(r, m, n);
+    if (n > INT_MAX) return mesh_fail(r, "more than 2^31 - 1 points");
+    mesh_link(&m->mesh, (int)n, 0);
     return 0;
 }
 #endif

@@ -1,6 +1,6 @@
-/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL and PLY by own
-   readers, other formats by assimp, the pictures on surfaces by stb_image.  A message names a
-   library that is missing. */
+/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL, PLY, OFF and
+   glTF by own readers, other formats by assimp, the pictures on surfaces by stb_image.  A message
+   names a library that is missing. */
 #ifndef MODEL_READ_H
 #define MODEL_READ_H
 
@@ -55,10 +55,9 @@ static int check_file(const char *path, const model_request *q, unsigned char *h
 /* 1: the file is for our own readers, by its extension or, where it has none, by its contents. */
 static int is_ours(model_kind kind, const unsigned char *head, size_t size)
 {
-    const char *const none = kind.text;
-    if (!strcmp(none, "obj") || !strcmp(none, "stl") || !strcmp(none, "ply")) return 1;
-    if (!strcmp(none, "")) return size < 4 || memcmp(head, "glTF", 4) != 0;
-    return mesh_is_ply("", head, size);
+    static const char *const ours[] = { "", "obj", "stl", "ply", "off", "gltf", "glb", NULL };
+    return option_among(ours, kind.text) || mesh_is_ply("", head, size) ||
+           mesh_is_gltf("a.a", head, size);
 }
 
 static int read_other(const char *path, model_kind kind, model *m, const model_request *q)
@@ -66,15 +65,15 @@ static int read_other(const char *path, model_kind kind, model *m, const model_r
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
 #ifdef MODEL_ASSIMP
     char dotted[sizeof kind.text + 2];
-    snprintf(dotted, sizeof dotted, ".%s", kind.text[0] ? kind.text : "glb");
-    if (!kind.text[0] || aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
+    snprintf(dotted, sizeof dotted, ".%s", kind.text);
+    if (aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
     return mesh_fail(&r, "neither %s nor assimp reads %s files", program_name, dotted);
 #else
     (void)m;
     return mesh_fail(&r,
-                     "%s%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
-                     "STL and PLY",
-                     kind.text[0] ? "." : "glTF", kind.text, program_name);
+                     ".%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
+                     "STL, PLY, OFF and glTF",
+                     kind.text, program_name);
 #endif
 }
 
@@ -84,6 +83,16 @@ static void show_invisible(model *m)
     for (int i = 0; i < m->surface_count; i++)
         if (m->surface[i].transparency >= 1) m->surface[i].transparency = 0;
 }
+
+#ifdef MODEL_ASSIMP
+/* 1: the first bytes tell that a file is for our own readers: what they refuse, assimp does not
+   draw. */
+static int is_certain(const unsigned char *head, size_t size)
+{
+    return mesh_is_gltf("", head, size) || mesh_is_off("", head, size) ||
+           mesh_is_ply("", head, size) || mesh_is_stl("", head, size);
+}
+#endif
 
 /* Reads a model from standard input, its format by the contents; files that it names, from the
    folder of work. */
@@ -99,8 +108,8 @@ static int read_input(model *m, const model_request *q)
     failed = size ? model_read_memory(bytes, size, model_input, m, q)
                   : mesh_fail(&r, "the file is empty");
 #ifdef MODEL_ASSIMP
-    if (failed && size) {
-        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+    if (failed && size && !is_certain(bytes, size)) {
+        const model_request silent = { NULL, 0, NULL, NULL, q->most, 0 };
         failed = assimp_read(model_input, bytes, size, m, &silent);
     }
 #endif
@@ -121,11 +130,30 @@ static int read_path(const char *path, model *m, const model_request *q)
     else
         failed = read_other(path, kind, m, q);
 #ifdef MODEL_ASSIMP
-    if (failed && !kind.text[0]) { /* no extension: assimp may know the contents */
-        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+    if (failed && !kind.text[0] && !is_certain(head, size)) { /* assimp may know the contents */
+        const model_request silent = { NULL, 0, NULL, NULL, q->most, 0 };
         failed = assimp_read(path, NULL, 0, m, &silent);
     }
 #endif
+    return failed;
+}
+
+/* Drops vertices that no triangle has: pictures and drawings show what has faces.  1: out of
+   memory. */
+static int model_drop_unused(model *m)
+{
+    const shade_mesh *v = &m->mesh.view;
+    uint32_t last = 0;
+    char *used = (char *)calloc((size_t)v->vertex_count + 1, 1);
+    int count = 0, failed = !used;
+    for (int i = 0; i < v->index_count && !failed; i++) used[m->mesh.indices[i]] = 1;
+    for (int i = 0; i < v->vertex_count && !failed; i++) count += used[i];
+    free(used);
+    if (failed || count == v->vertex_count) return failed;
+    failed = mesh_renumber(&m->mesh);
+    for (int i = 0; i < v->index_count && !failed; i++)
+        if (m->mesh.indices[i] > last) last = m->mesh.indices[i];
+    mesh_link(&m->mesh, (int)last + 1, v->index_count);
     return failed;
 }
 
@@ -135,12 +163,19 @@ static int model_read(const char *path, model *m, const model_request *q)
     int failed;
     *m = empty;
     failed = path == model_input ? read_input(m, q) : read_path(path, m, q);
+    if (!failed && model_drop_unused(m)) {
+        const mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+        mesh_reader says = r;
+        model_free(m);
+        failed = mesh_fail(&says, "out of memory");
+    }
     if (!failed) {
         show_invisible(m);
-        read_pictures(m, path);
+        read_pictures(m, path, q->outside);
     }
     return failed;
 }
+
 /* ---- for the programs ------------------------------------------------------------------------ */
 
 /* 1: the message says that memory was out. */
@@ -168,13 +203,22 @@ static int model_shows(const model *m)
     return 0;
 }
 
+/* Returns 1 with a line on stderr where nothing of a model can be seen. */
+static int model_blank(const model *m)
+{
+    if (model_shows(m)) return 0;
+    return complain("%s: no triangle of it has an area, so nothing of it can be seen",
+                    m->path ? m->path : "the model");
+}
+
 /* Reads the model that the options ask for; - is standard input.  Returns 1 with a line on
    stderr. */
 static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
                       void *user)
 {
     char error[400] = "";
-    const model_request q = { error, sizeof error, progress, user, (size_t)o->max_triangles };
+    const model_request q = { error,     sizeof error, progress, user, (size_t)o->max_triangles,
+                              o->outside };
     int failed;
     if (!strcmp(path, "-")) path = model_input;
     guard_doing = "reading ";
@@ -185,8 +229,7 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
     if (m->note[0] && !o->quiet) complain("%s: %s", path, m->note);
-    if (!o->quiet && !model_shows(m))
-        complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
+    m->path = path;
     return 0;
 }
 
@@ -206,12 +249,13 @@ static int model_up(const model *m, const model_options *o, int picture)
     return up;
 }
 
-/* Makes a model ready to be drawn: upright, turned, with normals and chunks.  Returns 1 with a line
-   on stderr. */
+/* Makes a model ready for a picture: upright, turned, with normals and chunks.  Returns 1 with a
+   line on stderr, also where a picture would show nothing. */
 static int model_prepare(model *m, const model_options *o, float turn)
 {
     const int flat = o->shading == SHADE_SHADING_PER_FACE;
     int failed = 0;
+    if (model_blank(m)) return 1;
     relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
     if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
     if (!failed) failed = mesh_chunk_parts(m);

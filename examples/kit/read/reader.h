@@ -213,8 +213,9 @@ static inline int mesh_fill_normals(owned_mesh *m, int apart)
     welded.indices = (uint32_t *)malloc(sizeof(uint32_t) * (size_t)indices);
     mean = (shade_vec3 *)malloc(sizeof(shade_vec3) * count);
     if (!welded.positions || !welded.indices || !mean) goto done;
-    for (size_t i = 0; i < 3 * (size_t)vertices; i++)
-        biggest = fmaxf(biggest, fabsf(m->positions[i]));
+    for (int i = 0; i < 3 * indices; i++)
+        biggest =
+            fmaxf(biggest, fabsf(m->positions[3 * (size_t)m->indices[i / 3] + (size_t)i % 3]));
     for (size_t i = 0; i < 3 * count; i++) { /* to 1: squares of any size stay in range */
         float v = m->positions[i];
         if (!apart) memcpy(&v, &places.triple[i / 3].k[i % 3], sizeof v);
@@ -307,10 +308,6 @@ static inline int mesh_at_word_end(const mesh_reader *r)
            (*r->at == '\\' && mesh_line_end(r, r->at + 1));
 }
 
-#ifndef MODEL_CENTRED
-#define MODEL_CENTRED 1 /* 0: for callers that centre what they read by themselves */
-#endif
-
 /* Where positions are counted from: coordinates of surveyors are large beside their model, and
    floats have no digits for both.  0, or the whole number below the first position where that is
    farther than 4096. */
@@ -319,12 +316,25 @@ typedef struct mesh_origin {
     int known;
 } mesh_origin;
 
+static inline int mesh_finite(const float *p)
+{
+    return fabsf(p[0]) <= FLT_MAX && fabsf(p[1]) <= FLT_MAX && fabsf(p[2]) <= FLT_MAX;
+}
+
+/* Other numbers that are not finite count as 0. */
+static inline float mesh_or_zero(double v) { return fabs(v) <= (double)FLT_MAX ? (float)v : 0; }
+
+/* A position that is not finite stays so: the faces around it are dropped. */
 static inline void mesh_relative(mesh_origin *o, const double *v, float *out)
 {
-    for (int k = 0; k < 3 && MODEL_CENTRED && !o->known; k++)
+    const int finite = fabs(v[0]) <= DBL_MAX && fabs(v[1]) <= DBL_MAX && fabs(v[2]) <= DBL_MAX;
+    for (int k = 0; k < 3 && !o->known && finite; k++)
         if (fabs(v[k]) > 4096 && fabs(v[k]) < 1e12) o->at[k] = floor(v[k]);
-    o->known = 1;
-    for (int k = 0; k < 3; k++) out[k] = (float)(v[k] - o->at[k]);
+    o->known |= finite;
+    for (int k = 0; k < 3; k++) {
+        const double from = v[k] - o->at[k];
+        out[k] = fabs(from) <= (double)FLT_MAX ? (float)from : NAN;
+    }
 }
 
 /* The next few bytes as printable text, for messages */
@@ -419,6 +429,19 @@ static inline int mesh_take_double(mesh_reader *r, double *out)
         r->at = begin;
     }
     return mesh_fail(r, "expected a number, found %s", mesh_here(r).text);
+}
+
+/* The same for a position, which scanners write as nan, -nan or inf where they saw nothing */
+static inline int mesh_take_coordinate(mesh_reader *r, double *out)
+{
+    mesh_reader word = *r;
+    word.at += word.at < word.end && (*word.at == '-' || *word.at == '+');
+    if (!mesh_take_word(&word, "nan") && !mesh_take_word(&word, "inf") &&
+        !mesh_take_word(&word, "infinity"))
+        return mesh_take_double(r, out);
+    r->at = word.at;
+    *out = (double)NAN;
+    return 0;
 }
 
 static inline int mesh_take_number(mesh_reader *r, float *out)

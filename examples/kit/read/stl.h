@@ -1,5 +1,6 @@
 /* stl.h - reads triangles from STL, text or binary.  Equal positions become one vertex; the normals
-   of the file are ignored. */
+   of the file are ignored.  Binary files may have a colour for each triangle, in one of two
+   dialects that differ in the order of red and blue and in the meaning of the highest bit. */
 #ifndef MODEL_STL_H
 #define MODEL_STL_H
 
@@ -8,22 +9,40 @@
 typedef struct stl_data {
     mesh_set places;
     mesh_uints indices;
-    mesh_origin origin; /* of text; binary files hold floats */
+    mesh_origin origin;         /* of text; binary files hold floats */
+    size_t dropped;             /* triangles with a corner that is not finite */
+    mesh_uints word;            /* the last two bytes of each triangle of a binary file */
+    int colored;                /* some say more than nothing */
+    const unsigned char *usual; /* the header of Materialise Magics: red, green, blue, alpha behind
+                                   COLOR=; NULL: the dialect of VisCAM and SolidView */
 } stl_data;
+
+enum { STL_NOWHERE = INT_MAX }; /* the number of a position that is not finite */
 
 static inline int stl_place(mesh_reader *r, stl_data *s, const float *p, uint32_t *number)
 {
-    for (int k = 0; k < 3; k++)
-        if (!(p[k] >= -FLT_MAX && p[k] <= FLT_MAX)) return mesh_fail(r, "a position is not finite");
-    if (mesh_set_add(&s->places, mesh_position_key(p), number))
+    *number = STL_NOWHERE;
+    if (mesh_finite(p) && mesh_set_add(&s->places, mesh_position_key(p), number))
         return mesh_fail(r, "out of memory");
     return 0;
 }
 
 static inline int stl_triangle(mesh_reader *r, stl_data *s, uint32_t a, uint32_t b, uint32_t c)
 {
+    if (a == STL_NOWHERE || b == STL_NOWHERE || c == STL_NOWHERE) {
+        s->dropped++;
+        return 0;
+    }
     if (mesh_check_triangles(r, s->indices.count / 3 + 1)) return 1;
     return mesh_push_triangle(&s->indices, a, b, c) ? mesh_fail(r, "out of memory") : 0;
+}
+
+/* The word of the triangle that was added last, unless that was dropped */
+static inline int stl_word(mesh_reader *r, stl_data *s, uint32_t word)
+{
+    if (s->word.count == s->indices.count / 3) return 0;
+    s->colored |= s->usual ? word != 0 : word >> 15 != 0;
+    return mesh_push_uint(&s->word, word) ? mesh_fail(r, "out of memory") : 0;
 }
 
 static inline uint32_t stl_uint(const unsigned char *p)
@@ -43,6 +62,8 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
         return mesh_fail(r, "ends after %lld of %lld triangles", (long long)((size - 84) / 50),
                          (long long)count);
     r->at = r->begin + 84;
+    for (const unsigned char *p = r->begin; p < r->begin + 70 && !s->usual; p++)
+        if (!memcmp(p, "COLOR=", 6)) s->usual = p + 6;
     for (uint64_t i = 0; i < count; i++, r->at += 50) {
         uint32_t corner[3];
         if (r->progress && i % 65536 == 0) r->progress(r->user, (double)i / (double)count);
@@ -55,6 +76,7 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
             if (stl_place(r, s, p, &corner[k / 3])) return 1;
         }
         if (stl_triangle(r, s, corner[0], corner[1], corner[2])) return 1;
+        if (stl_word(r, s, (uint32_t)r->at[48] | (uint32_t)r->at[49] << 8)) return 1;
     }
     return 0;
 }
@@ -65,7 +87,7 @@ static inline int stl_vertex(mesh_reader *r, stl_data *s, uint32_t *number)
     float p[3];
     for (int k = 0; k < 3; k++) {
         mesh_skip_lines(r);
-        if (mesh_take_double(r, &v[k])) return 1;
+        if (mesh_take_coordinate(r, &v[k])) return 1;
     }
     mesh_relative(&s->origin, v, p);
     return stl_place(r, s, p, number);
@@ -131,13 +153,66 @@ static inline int stl_is_text(const mesh_reader *r)
     return mesh_take_word(&copy, "solid") && !memchr(r->begin, 0, head);
 }
 
+/* The colour of a word: with the highest bit triangles of Magics have the usual one, those of the
+   other dialect one of their own. */
+static inline shade_vec3 stl_color(const stl_data *s, uint32_t word)
+{
+    const float low = (float)(word & 31) / 31, high = (float)(word >> 10 & 31) / 31;
+    const float green = (float)(word >> 5 & 31) / 31;
+    shade_vec3 c = s->usual ? shade_v3(low, green, high) : shade_v3(high, green, low);
+    const int own = (word >> 15 != 0) == !s->usual;
+    if (!own && !s->usual) c = shade_v3(0.75f, 0.75f, 0.75f);
+    if (!own && s->usual)
+        c = shade_v3((float)s->usual[0] / 255, (float)s->usual[1] / 255, (float)s->usual[2] / 255);
+    return shade_linear_from_srgb(c);
+}
+
+/* Gives each place a vertex for each colour that its triangles have. */
+static inline int stl_paint(const stl_data *s, model *out)
+{
+    static const mesh_set empty;
+    owned_mesh *m = &out->mesh;
+    mesh_set vertices = empty;
+    float *positions, *normals;
+    int failed = model_add_surface(out, "", 0) < 0;
+    if (failed) return 1;
+    out->surface->material.diffuse = out->surface->material.ambient = shade_v3(1, 1, 1);
+    out->surface->set = 1;
+    for (int i = 0; i < m->view.index_count && !failed; i++) {
+        const mesh_triple key = { { m->indices[i], s->word.v[i / 3], 0 } };
+        failed = mesh_set_add(&vertices, key, &m->indices[i]);
+    }
+    positions = (float *)malloc((vertices.count + 1) * 12);
+    normals = (float *)calloc(vertices.count + 1, 12);
+    m->colors = (float *)malloc((vertices.count + 1) * 12);
+    failed |= !positions || !normals || !m->colors;
+    for (size_t i = 0; i < vertices.count && !failed; i++) {
+        const shade_vec3 c = stl_color(s, vertices.triple[i].k[1]);
+        memcpy(positions + 3 * i, m->positions + 3 * (size_t)vertices.triple[i].k[0], 12);
+        memcpy(m->colors + 3 * i, &c, sizeof c);
+    }
+    free(m->positions);
+    free(m->normals);
+    m->positions = positions;
+    m->normals = normals;
+    mesh_link(m, (int)vertices.count, m->view.index_count);
+    free(vertices.triple);
+    free(vertices.slot);
+    return failed;
+}
+
 static inline int stl_read(mesh_reader *r, model *out)
 {
     owned_mesh *m = &out->mesh;
     static const stl_data empty;
     stl_data s = empty;
-    int failed = stl_is_text(r) ? stl_read_text(r, &s) : stl_read_binary(r, &s);
-    if (!failed && !s.indices.count) failed = mesh_fail(r, "no triangles in it");
+    const int is_text = stl_is_text(r);
+    int failed;
+    if (is_text) model_place(out, &s.origin);
+    failed = is_text ? stl_read_text(r, &s) : stl_read_binary(r, &s);
+    if (!failed && !s.indices.count)
+        failed = mesh_fail(r, s.dropped ? "no triangle of it has corners that are all finite"
+                                        : "no triangles in it");
     if (!failed) {
         size_t n = s.places.count;
         m->positions = (float *)malloc(3 * sizeof(float) * n);
@@ -147,13 +222,16 @@ static inline int stl_read(mesh_reader *r, model *out)
         for (size_t i = 0; m->positions && i < n; i++)
             memcpy(m->positions + 3 * i, &s.places.triple[i], 3 * sizeof(float));
         mesh_link(m, (int)n, (int)s.indices.count);
-        memcpy(out->origin, s.origin.at, sizeof out->origin);
-        failed = !m->positions || !m->normals || mesh_fill_normals(m, 1);
+        model_placed(out, &s.origin);
+        model_warn_dropped(out, r->name, s.dropped, "triangles have corners");
+        failed = !m->positions || !m->normals || (s.colored && stl_paint(&s, out)) ||
+                 mesh_fill_normals(m, !s.colored);
         if (failed) mesh_fail(r, "out of memory");
     }
     free(s.places.triple);
     free(s.places.slot);
     free(s.indices.v);
+    free(s.word.v);
     return failed;
 }
 #endif

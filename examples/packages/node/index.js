@@ -1,7 +1,7 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
 import { boxOf, eyeOf, fitted, given, originOf, placed, studio, used } from "./camera.js";
-import { readGltf } from "./gltf.js";
+import { gltfReaderOf } from "./gltf.js";
 import encoded from "./module.js";
 import { mujocoOf } from "./mujoco.js";
 import { Picture } from "./picture.js";
@@ -9,11 +9,14 @@ import { rendererOf } from "./renderer.js";
 import { read3mf } from "./threemf.js";
 
 const { ShadeError } = check;
-export { Picture, ShadeError, read3mf, readGltf };
+export { Picture, ShadeError, read3mf };
 
 // Compiled at once, without await, which neither require nor a classic script can do.
 const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));
-const library = new WebAssembly.Instance(new WebAssembly.Module(binary)).exports;
+// The C library can print, which nothing here does: what it would call fails.
+const failing = () => 52;
+const system = { fd_close: failing, fd_seek: failing, fd_write: failing };
+const library = new WebAssembly.Instance(new WebAssembly.Module(binary), { wasi_snapshot_preview1: system }).exports;
 library._initialize();
 
 // Structs of module.c, in words of four bytes
@@ -311,6 +314,9 @@ export function render(meshes, options) {
 }
 
 // ---- cameras
+
+/** The meshes of a GLB: see index.d.ts. */
+export const readGltf = gltfReaderOf({ library, withMemory, put, floats, words, text });
 
 /** One scene and many cameras: see index.d.ts. */
 export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared });

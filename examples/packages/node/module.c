@@ -471,6 +471,46 @@ int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_pi
     return (int)renderer_draw(r, s, p);
 }
 
+/* ---- models ---------------------------------------------------------------------------------- */
+
+typedef struct module_model {
+    const float *positions, *normals, *texcoords, *colors;
+    const uint32_t *indices;
+    int vertices, corners, parts, normals_given;
+    const char *warning;
+    double origin[3];
+} module_model;
+
+/* Reads glTF, without anything beside it.  NULL with a line in error */
+EXPORT(model_open)
+model *module_model_open(const void *bytes, size_t size, char *error, size_t room);
+model *module_model_open(const void *bytes, size_t size, char *error, size_t room)
+{
+    model *m = (model *)calloc(1, sizeof *m);
+    const unsigned char *begin = model_text_of((const unsigned char *)bytes, &size);
+    mesh_reader r = { begin, begin, begin + size, "model", 1, error, room, NULL, NULL, 0 };
+    if (m && !gltf_read(&r, m)) return m;
+    python_unload(m);
+    return NULL;
+}
+
+EXPORT(model_close) void module_model_close(model *m);
+void module_model_close(model *m) { python_unload(m); }
+
+EXPORT(model_of) void module_model_of(const model *m, module_model *out);
+void module_model_of(const model *m, module_model *out)
+{
+    const shade_mesh *v = &m->mesh.view;
+    const module_model is = { v->positions,    v->normals,         v->texcoords,
+                              v->colors,       v->indices,         v->vertex_count,
+                              v->index_count,  m->part_count,      python_normals(m),
+                              python_warning(m), { m->origin[0], m->origin[1], m->origin[2] } };
+    *out = is;
+}
+
+EXPORT(model_part) void module_model_part(const model *m, int i, python_part *part);
+void module_model_part(const model *m, int i, python_part *part) { python_part_of(m, i, part); }
+
 /* ---- words, colours and sizes --------------------------------------------------------------- */
 
 EXPORT(words) const char *module_words(shade_result result);
@@ -494,8 +534,9 @@ int module_size(int which)
 {
     static const size_t size[] = { sizeof(asked_mesh), sizeof(asked_item), sizeof(asked_view),
                                    sizeof(shade_light), sizeof(renderer_object),
-                                   sizeof(renderer_picture) };
-    return which >= 0 && which < 6 ? (int)size[which] : 0;
+                                   sizeof(renderer_picture), sizeof(module_model),
+                                   sizeof(python_part) };
+    return which >= 0 && which < 8 ? (int)size[which] : 0;
 }
 
 EXPORT(take) void *module_take(size_t bytes);

@@ -2,9 +2,9 @@
 # thumbnailer.sh PREFIX - prints the entry by which file managers call build/thumbnail, installed as
 # shade-thumbnail.  The program shows whether it has assimp and stb.  Types that shared-mime-info
 # does not know have the names that f3d gives them, in mime.xml.
-types="model/obj model/stl application/vnd.ply"
-! grep -q aiImportFile build/thumbnail || types="$types model/gltf+json model/gltf-binary model/3mf \
-image/x-3ds application/vnd.fbx model/vnd.collada+xml"
+types="model/obj model/stl application/vnd.ply model/gltf+json model/gltf-binary"
+! grep -q aiImportFile build/thumbnail || types="$types model/3mf image/x-3ds application/vnd.fbx \
+model/vnd.collada+xml"
 png=
 ! grep -q IHDR build/thumbnail || png=' --png'
 cat <<END

@@ -4,7 +4,7 @@
    ./thumbnail bunny.obj bunny.ppm
 
    With libstb-dev it also reads textures and writes PNG, with libassimp-dev it reads more formats
-   than OBJ, STL and PLY:
+   than OBJ, STL, PLY and glTF:
    cc -O2 -pthread -I. -DMODEL_STB -DMODEL_ASSIMP examples/programs/thumbnail/thumbnail.c \
       -lassimp -lm -o thumbnail
 
@@ -59,7 +59,10 @@ static int read_model(const options *o, model *m, progress *p)
     report_next(p, "");
     if (!failed) failed = check_inputs(o, m);
     if (failed) return failed;
-    if (o->drawing.view_count) return model_cut(m, &o->how, 0, 0, shade_v3(1, 1, 1));
+    if (o->drawing.view_count) { /* lines that it has are drawn */
+        if (!o->how.quiet) model_blank(m);
+        return model_cut(m, &o->how, 0, 0, shade_v3(1, 1, 1));
+    }
     return portrait_prepare(m, &o->picture, &o->how);
 }
 

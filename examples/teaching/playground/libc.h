@@ -70,6 +70,25 @@ static inline int strcmp(const char *a, const char *b)
     return *a - *b;
 }
 
+static inline int strncmp(const char *a, const char *b, size_t n)
+{
+    for (; n && *a && *a == *b; a++, b++) n--;
+    return n ? *a - *b : 0;
+}
+
+static inline char *strchr(const char *s, int c)
+{
+    while (*s && *s != (char)c) s++;
+    return *s == (char)c ? (char *)(uintptr_t)s : NULL;
+}
+
+static inline char *strstr(const char *s, const char *part)
+{
+    const size_t n = strlen(part);
+    while (*s && strncmp(s, part, n)) s++;
+    return strncmp(s, part, n) ? NULL : (char *)(uintptr_t)s;
+}
+
 /* ---- memory: blocks in a row from the end of the program on, first fit ----------------------- */
 
 typedef struct libc_block { uint32_t size, used, unused[2]; } libc_block;    /* 16 bytes */
@@ -215,12 +234,15 @@ __attribute__((noreturn)) static inline void exit(int status) { (void)status, __
 
 /* ---- numbers: each one instruction ----------------------------------------------------------- */
 
+#define NAN __builtin_nanf("")
+#define HUGE_VAL __builtin_huge_val()
 static inline double sqrt(double x) { return __builtin_sqrt(x); }
 static inline float sqrtf(float x) { return __builtin_sqrtf(x); }
 static inline double fabs(double x) { return __builtin_fabs(x); }
 static inline double floor(double x) { return __builtin_floor(x); }
 static inline float fabsf(float x) { return __builtin_fabsf(x); }
 static inline float fmaxf(float a, float b) { return a > b ? a : b; }
+static inline float fminf(float a, float b) { return a < b ? a : b; }
 static inline double fmax(double a, double b) { return a > b ? a : b; }
 static inline double fmin(double a, double b) { return a < b ? a : b; }
 #endif

@@ -168,8 +168,8 @@ async function openFile(file) {
         const room = new Uint8Array(wasm.memory.buffer, at, bytes.length + name.length + 1);
         room.set(bytes), room.set(name, bytes.length), room[room.length - 1] = 0;
         const wrong = text(wasm.page_load(at, bytes.length, at + bytes.length));
-        if (wrong) throw Error(/\.(obj|stl|ply)$/i.test(file.name) ? wrong
-            : file.name + ': is no model; OBJ, STL and PLY can be opened');
+        if (wrong) throw Error(/\.(obj|stl|ply|gltf|glb)$/i.test(file.name) ? wrong
+            : file.name + ': is no model; OBJ, STL, PLY and glTF can be opened');
         fileName = file.name;
         S.shape = 2;
         say(fileName + ': ' + wasm.page_triangles(2).toLocaleString('en') + ' triangles');
@@ -310,7 +310,7 @@ function presets() {
 }
 
 function buildControls() {
-    const file = make('input', { type: 'file', accept: '.obj,.stl,.ply',
+    const file = make('input', { type: 'file', accept: '.obj,.stl,.ply,.gltf,.glb',
         'aria-label': 'Open a model', onchange: () => {
             if (file.files[0]) openFile(file.files[0]);
             file.value = '';

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import struct
 import sys
-from ctypes import (POINTER, Structure, c_char_p, c_float, c_int, c_size_t, c_uint,
+from ctypes import (POINTER, Structure, c_char_p, c_double, c_float, c_int, c_size_t, c_uint,
                     c_void_p)
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -117,7 +117,11 @@ class Chunk(Structure):
 class Run(Structure):
     """python_part"""
     _fields_ = [("first", c_int), ("count", c_int), ("color", c_float * 3),
-                ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int)]
+                ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int),
+                ("surface", c_int), ("physical", c_int), ("material", Material),
+                ("alpha_cutoff", c_float), ("blended", c_int), ("bytes", c_void_p),
+                ("size", c_size_t), ("wrap", c_int * 2),
+                ("kind", c_char_p)]
 
 
 class Edge(Structure):
@@ -149,6 +153,8 @@ def _open() -> Any:
             ("python_read", POINTER(OwnedMesh),
              [c_char_p, c_size_t, c_char_p, c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
+            ("python_origin", POINTER(c_double), [POINTER(OwnedMesh)]),
+            ("python_normals", c_int, [POINTER(OwnedMesh)]),
             ("python_warning", c_char_p, [POINTER(OwnedMesh)]),
             ("python_upright", c_int, [POINTER(OwnedMesh)]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),

@@ -1,14 +1,13 @@
-"""Point clouds as small balls, and OFF files."""
+"""Point clouds as small balls."""
 from __future__ import annotations
 
-import re
 import warnings
 from typing import Any
 
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import Array, Doubles, Error
+from ._native import Array, Doubles
 
 MOST = 500_000    # points; of more, every second, third, ... is drawn
 _CORNERS = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1.0]])
@@ -39,125 +38,3 @@ def balls(points: object, options: dict[str, Any]) -> tuple[Doubles, Array, dict
                 len(np.asarray(value)) == len(given):
             out[name] = np.repeat(np.asarray(value)[good], 6, 0)
     return vertices, faces, out
-
-
-KINDS = {b"double": "f8", b"float64": "f8", b"float": "f4", b"float32": "f4", b"int": "i4",
-         b"uint": "u4", b"int32": "i4", b"uint32": "u4", b"short": "i2", b"ushort": "u2",
-         b"int16": "i2", b"uint16": "u2", b"char": "i1", b"uchar": "u1", b"int8": "i1",
-         b"uint8": "u1"}
-
-
-def ply_points(data: bytes) -> tuple[Doubles, dict[str, Any]] | None:
-    """The vertices of a PLY file without faces, with their colours.  None where it has faces, or
-    its first element is another."""
-    end = re.search(rb"(?m)^end_header[^\n]*\n", data[:65536])
-    if end is None:
-        return None
-    head = [line.split() for line in data[:end.start()].splitlines()]
-    form = next((w[1] for w in head if w[:1] == [b"format"] and len(w) > 1), b"")
-    elements = [w for w in head if w[:1] == [b"element"] and len(w) == 3]
-    if not elements or elements[0][1] != b"vertex" or not elements[0][2].isdigit() or \
-            len(elements[0][2]) > 10 or any(w[1] == b"face" and w[2] != b"0" for w in elements):
-        return None
-    first = head.index(elements[0])
-    rest = next((i for i in range(first + 1, len(head)) if head[i][:1] == [b"element"]), len(head))
-    rows = [w for w in head[first + 1:rest] if w[:1] == [b"property"]]
-    names = [w[-1] for w in rows]
-    if not {b"x", b"y", b"z"} <= set(names) or any(len(w) != 3 or w[1] not in KINDS for w in rows):
-        return None
-    count, start = int(elements[0][2]), end.end()
-    table = _ascii(data[start:], count, len(rows)) if form == b"ascii" else _binary(
-        data, start, count, [KINDS[w[1]] for w in rows], ">" if b"big" in form else "<")
-    points = np.stack([table[names.index(k)] for k in (b"x", b"y", b"z")], 1).astype(np.float64)
-    found: dict[str, Any] = {"up": None}
-    if {b"red", b"green", b"blue"} <= set(names):
-        colors = np.stack([table[names.index(k)] for k in (b"red", b"green", b"blue")], 1)
-        whole = rows[names.index(b"red")][1] in (b"uchar", b"uint8")
-        found["color"] = np.clip(np.nan_to_num(colors / (255 if whole else 1)), 0, 1)
-    return points, found
-
-
-def _ascii(text: bytes, count: int, columns: int) -> list[Array]:
-    words = text.split(None, count * columns)[:count * columns]
-    if len(words) < count * columns:
-        raise Error("ends too early")
-    try:
-        values = np.array(words, dtype="S32").astype(np.float64).reshape(count, columns)
-    except ValueError:
-        raise Error("a vertex has something that is no number") from None
-    return list(values.T)
-
-
-def _binary(data: bytes, start: int, count: int, kinds: list[str], order: str) -> list[Array]:
-    kind = np.dtype([(f"p{i}", order + k) for i, k in enumerate(kinds)])
-    if start + count * kind.itemsize > len(data):
-        raise Error("ends too early")
-    rows = np.frombuffer(data, kind, count, start)
-    return [rows[name].astype(np.float64) for name in kind.names or ()]
-
-
-# ---- OFF -----------------------------------------------------------------------------------------
-
-def is_off(data: bytes) -> bool:
-    """Does a file begin as OFF, COFF, NOFF, STOFF or CNOFF do?"""
-    return re.match(rb"\s*(#[^\n]*\n\s*)*(ST)?C?N?OFF\b", data[:4096]) is not None
-
-
-def read_off(data: bytes) -> tuple[tuple[Doubles, Array], dict[str, Any]]:
-    """Vertices, triangles and colours of an OFF file of text.  Its polygons are cut in fans."""
-    rows = [(number, words) for number, line in enumerate(data.split(b"\n"), 1)
-            if (words := line.split(b"#", 1)[0].split())]
-    if not rows or b"BINARY" in rows[0][1]:
-        raise Error("binary OFF is not read" if rows else "is empty")
-    kind, rows[0] = rows[0][1][0], (rows[0][0], rows[0][1][1:])
-    rows = rows if rows[0][1] else rows[1:]
-    count, many = (int(v) for v in _numbers(rows, 0, 2, "the counts"))
-    if not 0 <= count < len(rows) or not 0 <= many < len(rows):
-        raise Error(f"line {rows[0][0]}: {count} vertices and {many} faces are said, but "
-                    f"{len(rows) - 1} lines follow")
-    vertices = np.array([_numbers(rows, i, 3, "a vertex") for i in range(1, count + 1)])
-    faces, tints = [], []
-    for i in range(count + 1, count + many + 1):
-        size = int(_numbers(rows, i, 1, "a face")[0])
-        if not 0 <= size <= len(rows[min(i, len(rows) - 1)][1]):
-            raise Error(f"line {rows[i][0]}: a face of {size} corners")
-        corners = [int(v) for v in _numbers(rows, i, size + 1, "a face")[1:]]
-        if any(not 0 <= v < count for v in corners):
-            raise Error(f"line {rows[i][0]}: a corner that is none of {count} vertices")
-        tint = _tint(rows[i][1][size + 1:])
-        for k in range(1, size - 1):
-            faces.append((corners[0], corners[k], corners[k + 1]))
-            tints.append(tint)
-    out: dict[str, Any] = {"up": None}
-    shift = 3 + 3 * (b"N" in kind)
-    own = [_tint(words[shift:]) for _, words in rows[1:count + 1]] if b"C" in kind else []
-    if own and all(tint is not None for tint in own):
-        out["color"] = np.array(own)
-    elif any(tint is not None for tint in tints) and len(faces) != count:
-        out["color"] = np.array([tint or (0.75, 0.75, 0.75) for tint in tints])
-    return (vertices.reshape(-1, 3), np.array(faces, np.int64).reshape(-1, 3)), out
-
-
-def _numbers(rows: list[tuple[int, list[bytes]]], i: int, many: int, what: str) -> list[float]:
-    if i >= len(rows):
-        raise Error(f"line {rows[-1][0] if rows else 1}: ends before {what}")
-    try:
-        got = [float(word) for word in rows[i][1][:many]]
-    except ValueError:
-        got = []
-    if len(got) < many or many < 3 and not all(abs(v) < 1e15 and v == int(v) for v in got):
-        raise Error(f"line {rows[i][0]}: {what} of {many} numbers is expected")
-    if what == "a face" and not all(abs(v) < 1e15 for v in got):
-        raise Error(f"line {rows[i][0]}: a corner is no number of a vertex")
-    return got
-
-
-def _tint(words: list[bytes]) -> tuple[float, ...] | None:
-    """Red, green and blue from 0 to 1: whole numbers are bytes."""
-    try:
-        got = [float(word) for word in words[:3]]
-    except ValueError:
-        return None
-    scale = 1 if any(b"." in word for word in words[:3]) else 255
-    return tuple(min(max(v / scale, 0.0), 1.0) if v == v else 0.0 for v in got) \
-        if len(got) == 3 else None

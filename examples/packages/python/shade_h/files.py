@@ -4,7 +4,6 @@ from __future__ import annotations
 import ctypes
 import io
 import os
-import re
 import warnings
 from importlib import import_module
 from typing import Any
@@ -14,7 +13,8 @@ import numpy as np
 from . import cloud
 from ._native import Array, Bytes, Error, Run, library, pointer
 from .annotate import display as _display
-from .mesh import Mesh, Surface, origin_of
+from .light import Material
+from .mesh import WRAPS, Mesh, Surface
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
 MODEL_BYTES = 4_000_000_000
@@ -70,7 +70,7 @@ def _warn(words: str) -> None:
     warnings.warn(words, stacklevel=4)
 
 
-# ---- OBJ, STL and PLY, by the reader of the programs ---------------------------------------------
+# ---- by the reader of the programs ---------------------------------------------------------------
 
 def _runs(owned: Any) -> list[Any]:
     """The runs of triangles of one surface."""
@@ -80,32 +80,53 @@ def _runs(owned: Any) -> list[Any]:
     return runs
 
 
+def _texture(run: Any, model: str, images: dict[Any, Any]) -> Any:
+    """The pixels of a run's picture, inside the file or beside it; None where there is none."""
+    if run.map is not None and run.map not in images and len(images) < 256:
+        if run.bytes:
+            try:
+                images[run.map] = decoded(ctypes.string_at(run.bytes, run.size), "a picture")
+            except Error as why:
+                _warn(f"{model}: {why}; its faces are drawn without it")
+        elif not run.physical:
+            images[run.map] = _image(model, os.fsdecode(run.map))
+    return images.get(run.map)
+
+
+def _look(run: Any, image: Any) -> Surface:
+    """A surface as Mesh takes it."""
+    opacity, holes = 1 - run.transparency, image is not None and not run.opaque
+    if not run.physical:
+        return Surface(None, image, run.transparency > 0, opacity,
+                       0.5 if holes and not run.transparency else 0.0)
+    k = run.material
+    vectors = (tuple(getattr(k, name)[:]) for name in ("emission", "ambient", "diffuse",
+                                                       "specular"))
+    return Surface(Material(*vectors, k.shininess), image, bool(run.blended), opacity,
+                   run.alpha_cutoff if holes else 0.0, (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
+
+
 def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:
     """What the file says of its surfaces, as options of Mesh."""
     runs = _runs(owned)
     tints = np.zeros((faces, 3), np.float32)
     number, looks = np.zeros(faces, int), [Surface()]
-    known: dict[tuple[Any, ...], int] = {(None, 0.0, True): 0}
+    known: dict[Any, int] = {(None, 0.0, True): 0}
     images: dict[Any, Any] = {}
     for run in runs:
         where = slice(run.first // 3, (run.first + run.count) // 3)
         tints[where] = run.color[:]
-        name = run.map if uv is not None else None
-        if name is not None and name not in images and len(images) < 256:
-            images[name] = _image(model, os.fsdecode(name))
-        image = images.get(name)
-        key = (name if image is not None else None, run.transparency, bool(run.opaque))
-        if image is None and not run.transparency:
+        image = _texture(run, model, images) if uv is not None else None
+        key = run.surface if run.physical else \
+            (run.map if image is not None else None, run.transparency, bool(run.opaque))
+        if not run.physical and image is None and not run.transparency:
             continue
         if key not in known:
             known[key] = len(looks)
-            holes = image is not None and not run.opaque
-            looks.append(Surface(None, image, blend=run.transparency > 0,
-                                 opacity=1 - run.transparency,
-                                 cutoff=0.5 if holes and not run.transparency else 0.0))
+            looks.append(_look(run, image))
         number[where] = known[key]
     out: dict[str, Any] = {}
-    if any(run.set for run in runs):
+    if any(run.set and not run.physical for run in runs):
         out["color"] = _display(tints)
     if len(looks) > 1:
         if any(look.texture is not None for look in looks):
@@ -125,19 +146,23 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
         view, own = owned.contents.view, owned.contents
         vertices = _copied(own.positions, view.vertex_count, 3, ctypes.c_float)
         faces = _copied(own.indices, view.index_count // 3, 3, ctypes.c_uint)
-        if vertices is None or faces is None:
-            raise Error(f"{name} has no triangles")
+        origin = np.array(library.python_origin(owned)[:3])
+        if origin.any():
+            vertices = vertices + origin
         colors = _copied(own.colors, view.vertex_count, 3, ctypes.c_float)
         uv = _copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
-        found = _surfaces(owned, name, len(faces), uv)
-        found["up"] = AXES[library.python_upright(owned)]
+        found = {"up": None} if faces is None else _surfaces(owned, name, len(faces), uv)
+        if library.python_normals(owned):
+            found["normals"] = _copied(own.normals, view.vertex_count, 3, ctypes.c_float)
+        if faces is not None:
+            found["up"] = AXES[library.python_upright(owned)]
         if library.python_warning(owned):
             _warn(library.python_warning(owned).decode("utf-8", "replace"))
     finally:
         library.python_unload(owned)
     if colors is not None:
         found["color"] = _display(colors)
-    elif "color" in found and len(faces) == len(vertices):
+    elif faces is not None and "color" in found and len(faces) == len(vertices):
         # a vertex that no face has, so that the colours cannot be taken for those of vertices
         vertices = np.concatenate([vertices, vertices[:1]])
         if "uv" in found:
@@ -145,117 +170,15 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
     return (vertices, faces), found
 
 
-def _number(text: bytes) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return float("nan")
-
-
-def _moved_text(data: bytes, origin: Array, word: bytes) -> bytes:
-    """The text with positions, which stand behind a word, that count from an origin in double."""
-    def line(found: re.Match[bytes]) -> bytes:
-        moved = [_number(found[k + 2]) - origin[k] for k in range(3)]
-        return found[1] + b" ".join(repr(float(v)).encode() for v in moved) \
-            if np.isfinite(moved).all() else found[0]
-
-    return re.sub(rb"(?mi)^([ \t]*" + word + rb"[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)", line, data)
-
-
-def _moved_ply(data: bytes, origin: Array) -> bytes | None:
-    """A PLY file whose first element is vertices with x, y and z in double, moved to an origin."""
-    end = re.search(rb"end_header[^\n]*\n", data)
-    head = re.findall(rb"(?m)^(format|element|property)\s+(\S+)\s+([^\r\n]*)", data[:end.end()]) \
-        if end else []
-    if end is None or len(head) < 2 or head[1][:2] != (b"element", b"vertex"):
-        return None
-    mark = {b"binary_little_endian": "<", b"binary_big_endian": ">", b"ascii": ""}.get(head[0][1])
-    kinds = {b"double": "f8", b"float64": "f8", b"float": "f4", b"float32": "f4", b"int": "i4",
-             b"uint": "u4", b"int32": "i4", b"uint32": "u4", b"short": "i2", b"ushort": "u2",
-             b"int16": "i2", b"uint16": "u2", b"char": "i1", b"uchar": "u1", b"int8": "i1",
-             b"uint8": "u1"}
-    rows = [(kind, name.strip()) for what, kind, name in
-            head[2:next((i for i, h in enumerate(head) if i > 1 and h[0] == b"element"),
-                        len(head))]]
-    names = [name for _, name in rows]
-    count = _number(head[1][2])
-    if mark is None or not {b"x", b"y", b"z"} <= set(names) or count != count or \
-            any(kind not in kinds for kind, _ in rows):
-        return None
-    start, count = end.end(), int(count)
-    places = [names.index(axis) for axis in (b"x", b"y", b"z")]
-    if not mark:
-        lines = data[start:].split(b"\n", count)
-        for i in range(min(count, len(lines))):
-            words = lines[i].split()
-            for k, place in enumerate(places):
-                if place < len(words):
-                    words[place] = repr(_number(words[place]) - float(origin[k])).encode()
-            lines[i] = b" ".join(words)
-        return data[:start] + b"\n".join(lines)
-    kind = np.dtype([(f"p{i}", mark + kinds[k]) for i, (k, _) in enumerate(rows)])
-    if start + count * kind.itemsize > len(data):
-        return None
-    values = np.frombuffer(data, kind, count, start).copy()
-    for k, place in enumerate(places):
-        values[f"p{place}"] -= origin[k]
-    return data[:start] + values.tobytes() + data[start + count * kind.itemsize:]
-
-
-def _far(data: bytes, name: str, path: bytes | None, first: Any) -> Any:
-    """Reads a file again whose positions lie so far from the origin that floats lose what they
-    tell: they are centred in double first.  None where the file itself has floats."""
-    vertices = first[0][0].astype(np.float64)
-    origin = origin_of(vertices.min(0), vertices.max(0))
-    if not np.isfinite(origin).all() or not origin.any():
-        return None
-    binary = data[84:] and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
-    if data[:3] == b"ply":
-        moved = _moved_ply(data, origin)
-    else:
-        moved = None if binary else _moved_text(
-            data, origin, b"vertex" if first[1]["up"] == "z" and b"facet" in data[:2000] else b"v")
-    if moved is None:
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")    # each was told once
-        (near, faces), found = _read(moved, name, path)
-    return (near + origin, faces), found
-
-
-def _gltf(data: bytes, name: str, path: bytes | None) -> Any:
-    """Reads glTF; files that it names lie in its folder or below."""
-    from . import gltf    # json and base64 are imported when they are needed
-
-    def file(uri: str) -> bytes:
-        if path is None:
-            raise Error(f"{uri[:60]!r} is beside a model that was read from memory")
-        return read_file(gltf.beside(os.path.dirname(name), uri), PICTURE_BYTES)
-
-    def picture(bytes_of: bytes | None, what: str) -> Bytes | None:
-        return decoded(bytes_of or b"", what)
-
-    return gltf.read(data, file, picture, lambda words: _warn(f"{name}: {words}"), _display)
-
-
 def _any(data: bytes, name: str, path: bytes | None) -> Any:
     """Vertices, faces and options of Mesh of a file of any kind, which its first bytes tell."""
     try:
-        if data[:4] == b"glTF" or name.lower().endswith((".gltf", ".glb")) or \
-                data.lstrip()[:1] == b"{":
-            return _gltf(data, name, path)
         if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
             from . import threemf
             return threemf.read(data)
-        if name.lower().endswith(".off") or cloud.is_off(data):
-            return cloud.read_off(data)
-        points = cloud.ply_points(data) if data[:3] == b"ply" else None
-        if points is not None:
-            return (points[0], None), points[1]
     except Error as why:
         raise Error(f"{name}: {why}") from None
-    made = _read(data, name, path)
-    return _far(data, name, path, made) or made
+    return _read(data, name, path)
 
 
 # ---- all -----------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from .camera import UPRIGHT
 from .cloud import balls
 from .light import Material
 
+WRAPS = ["repeat", "clamp", "mirror"]
 CREASE_TRIANGLES = 200_000
 COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
 
@@ -44,13 +45,15 @@ def _box(points: Doubles) -> tuple[Doubles, Doubles]:
 class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
     4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
-    cutoff texels of less alpha are holes; else alpha is ignored."""
+    cutoff texels of less alpha are holes; else alpha is ignored.  wrap, "repeat", "clamp" or
+    "mirror" for u and v, says how the texture goes on beyond its edges."""
 
     material: Material | None = None
     texture: object = None
     blend: bool = False
     opacity: float = 1.0
     cutoff: float = 0.0
+    wrap: tuple[str, str] = ("repeat", "repeat")
 
 
 class Piece:
@@ -79,6 +82,8 @@ class Piece:
             return None
         h, w = self.texture.shape[:2]
         out = Texture(pixels=pointer(self.texture), width=w, height=h, srgb=1, filter=2)
+        out.wrap_u, out.wrap_v = (WRAPS.index(arguments.choice("wrap", how, WRAPS))
+                                  for how in self.surface.wrap)
         self._mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
         self._levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
         check(library.shade_build_mipmaps(ctypes.byref(out), self._levels, pointer(self._mipmaps),
@@ -112,14 +117,14 @@ class Mesh:
         """Refuses arrays of a wrong shape, type or size by their names."""
         exact = arguments.array("vertices", points(vertices), (None, 3))
         self.origin = np.zeros(3)
-        if exact.dtype.itemsize > 4 and len(exact):
-            exact = exact.astype(np.float64)
-            self.origin = origin_of(*_box(exact))
-            exact = exact - self.origin if self.origin.any() else exact
-        self.local = arguments.floats("vertices", exact, (None, 3))
-        self.faces = arguments.faces("faces", _listed(faces), len(self.local))
+        self.faces = arguments.faces("faces", _listed(faces), len(exact))
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
+        if exact.dtype.itemsize > 4 and len(exact):
+            exact = exact.astype(np.float64)
+            self.origin = origin_of(*_box(self._used(exact) if len(self.faces) else exact))
+            exact = exact - self.origin if self.origin.any() else exact
+        self.local = arguments.floats("vertices", exact, (None, 3))
         self.up = None if up is None else arguments.choice("up", up, list(UPRIGHT))
         self.bar: Bar | None = None
         if scalars is not None:
@@ -319,10 +324,13 @@ class Mesh:
 
     def drawn_vertices(self) -> Floats:
         """The vertices that faces have, which count from the mesh's origin."""
-        used = np.zeros(len(self.local), bool)
-        used[self.faces.reshape(-1)] = True
-        out: Floats = self.local if used.all() else self.local[used]
+        out: Floats = self._used(self.local)
         return out
+
+    def _used(self, rows: Array) -> Array:
+        used = np.zeros(len(rows), bool)
+        used[self.faces.reshape(-1)] = True
+        return rows if used.all() else rows[used]
 
     def native(self, piece: Piece | None = None) -> Any:
         """The struct of the library, which points into this mesh: all of it, or a piece."""
@@ -424,6 +432,9 @@ def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:
         if image is not None and uv is not None and len(uv) == count[0]:
             convert = getattr(image, "convert", None)
             out = {"uv": uv, "texture": np.asarray(convert("RGBA") if convert else image)}
+            factor = getattr(material, "baseColorFactor", None)
+            if factor is not None:    # which multiplies the picture
+                out["color"] = np.asarray(factor)[:3]
         elif material is not None and hasattr(material, "main_color"):
             out["color"] = np.asarray(material.main_color)[:3]
     return out

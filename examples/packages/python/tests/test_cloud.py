@@ -58,7 +58,7 @@ def test_ply_files_without_faces_are_clouds_with_their_colours(tmp_path, form, k
         wanted = shade.render(GRID, color=colors / 255, view="top", **FLAT)
     assert got == wanted and not got.blank
     (tmp_path / "b.ply").write_bytes(ply(GRID, form, colors, kind)[:-6])
-    with pytest.raises(shade.Error, match="ends too early"):
+    with pytest.raises(shade.Error, match="ends too early|expected a number"):
         shade.load(tmp_path / "b.ply")
 
 
@@ -90,23 +90,30 @@ def test_off_files_are_what_they_say(tmp_path):
     faces = np.asarray(faces).tolist()
     for far in (0.0, 1e8):
         (tmp_path / "a.off").write_text(off(vertices + far, faces), "utf-8")
-        assert shade.render(tmp_path / "a.off", **FLAT) == shade.render(vertices, faces, **FLAT)
+        assert shade.render(tmp_path / "a.off", **FLAT) == \
+            shade.render(vertices, faces, up="y", **FLAT)
     (tmp_path / "b.off").write_text(off(vertices, faces, tail=" 214 39 40"), "utf-8")
-    red = shade.Mesh(vertices, faces, color=np.tile([[214, 39, 40]], (12, 1)))
+    red = shade.Mesh(vertices, faces, color=np.tile([[214, 39, 40]], (12, 1)), up="y")
     assert shade.render(tmp_path / "b.off", **FLAT) == shade.render(red, **FLAT)
     colors = RNG.integers(0, 256, (8, 3))
     rows = np.concatenate([vertices, colors], 1)
+    faces = np.asarray(faces)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).tolist()
     (tmp_path / "c").write_text(off(rows, faces, "COFF").replace(".0", ""), "utf-8")
-    tinted = shade.Mesh(vertices, faces, color=colors / 255)
+    tinted = shade.Mesh(vertices, faces, color=colors / 255, up="y")
     assert shade.render(tmp_path / "c", **FLAT) == shade.render(tinted, **FLAT)
+    corners = [[0, 0, 0], [8, 0, 0], [8, 8, 0], [7, 8, 0], [7, 1, 0], [0, 1, 0]]
+    (tmp_path / "d.off").write_text(off(corners, [range(6)]), "utf-8")
+    mesh = shade.load(tmp_path / "d.off")    # concave: an L, cut inside of it
+    sides = [mesh.vertices[mesh.faces[:, k]] - mesh.vertices[mesh.faces[:, 0]] for k in (1, 2)]
+    assert np.allclose(np.cross(*sides)[:, 2].sum() / 2, 15) and (np.cross(*sides)[:, 2] >= 0).all()
 
 
 @pytest.mark.parametrize("text,why", [
-    ("OFF\n", "ends before the counts"), ("OFF\n9 1 0\n0 0 0\n", "9 vertices and 1 faces are said"),
-    ("OFF\n1 1 0\n0 0 x\n3 0 0 0\n", "line 3: a vertex"), ("OFF BINARY\n", "binary OFF"),
-    ("OFF\n1 1 0\n0 0 0\n3 0 0 7\n", "line 4: a corner"), ("OFF\n1 1 0\n0 0 0\n-1 0\n", "line 4"),
-    ("OFF\n1 1 0\n0 0 0\n3 0 0 nan\n", "line 4"), ("OFF\n1 1 0\n0 0 0\n99999 0\n", "line 4"),
-    ("OFF\n1.5 1 0\n0 0 0\n3 0 0 0\n", "line 2"), ("OFF\n1 1 0\n0 0 0\n1e99 0\n", "line 4")])
+    ("OFF\n", "ends before the counts"), ("OFF\n9 1 0\n0 0 0\n", "after 1 of 9 vertices and 1 faces"),
+    ("OFF\n1 1 0\n0 0 x\n3 0 0 0\n", ":3: expected a number"), ("OFF BINARY\n", "binary OFF"),
+    ("OFF\n1 1 0\n0 0 0\n3 0 0 7\n", ":4: a corner"), ("OFF\n1 1 0\n0 0 0\n-1 0\n", ":4: "),
+    ("OFF\n1 1 0\n0 0 0\n3 0 0 nan\n", ":4: "), ("OFF\n1 1 0\n0 0 0\n99999 0\n", ":4: "),
+    ("OFF\n1.5 1 0\n0 0 0\n3 0 0 0\n", ":2: "), ("OFF\n1 1 0\n0 0 0\n1e99 0\n", ":4: ")])
 def test_damaged_off_files_are_refused_with_the_line(tmp_path, text, why):
     (tmp_path / "a.off").write_text(text, "utf-8")
     with pytest.raises(shade.Error, match=why):
@@ -130,7 +137,7 @@ def test_the_command_takes_angles_and_writes_ppm(tmp_path):
     for view, wanted in (("30,20", (30, 20)), ("-30,-20", (-30, -20)), ("front", "front")):
         subprocess.run([sys.executable, "-m", "shade_h", "a.off", "a.ppm", f"--view={view}",
                         "--size", "60x40"], cwd=tmp_path, check=True)
-        got = shade.render((vertices, faces), view=wanted, size=(60, 40), edges=True)
+        got = shade.render((vertices, faces), up="y", view=wanted, size=(60, 40), edges=True)
         assert (tmp_path / "a.ppm").read_bytes() == got.ppm()
     for view in ("30,x", "north", "1,2,3", ""):
         done = subprocess.run([sys.executable, "-m", "shade_h", "a.off", "b.png", f"--view={view}"],

@@ -232,7 +232,8 @@ def test_cameras_lamps_and_poses_speak_the_callers_coordinates():
     assert around == pytest.approx(0.8, abs=0.02)
 
 
-@pytest.mark.parametrize("kind", ["obj", "stl", "ply", "binary"])
+@pytest.mark.parametrize("kind", ["obj", "stl", "ply", "binary", "wrapped ply", "wrapped stl",
+                                  "spare ply"])
 def test_files_of_surveyors_are_centred_in_double(tmp_path, kind):
     vertices, faces, _ = torus(24)
     vertices, triangles = grid(vertices), faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
@@ -241,12 +242,14 @@ def test_files_of_surveyors_are_centred_in_double(tmp_path, kind):
         "property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n"
     if kind == "obj":
         text = obj_text(far, triangles).encode()
-    elif kind == "stl":
-        text = ("solid a\n" + "".join(
+    elif kind.endswith("stl"):
+        text = (f"solid {'a' * 3000}\n" + "".join(
             "facet normal 0 0 0\nouter loop\n" + "".join(
                 "vertex {!r} {!r} {!r}\n".format(*p) for p in t) + "endloop\nendfacet\n"
             for t in far[triangles].tolist()) + "endsolid a\n").encode()
-    elif kind == "ply":
+    elif kind.endswith("ply"):
+        if kind == "spare ply":    # a vertex that no face has comes first
+            far, triangles = np.concatenate([[[1.25, 1e3, -7]], far]), triangles + 1
         text = (head.format("ascii", len(far), len(triangles)) + "".join(
             "{!r} {!r} {!r}\n".format(*p) for p in far.tolist()) + "".join(
             "3 {} {} {}\n".format(*t) for t in triangles.tolist())).encode()
@@ -255,10 +258,15 @@ def test_files_of_surveyors_are_centred_in_double(tmp_path, kind):
         rows["n"], rows["i"] = 3, triangles
         text = head.format("binary_little_endian", len(far), len(triangles)).encode() + \
             far.astype("<f8").tobytes() + rows.tobytes()
-    name = tmp_path / ("a.ply" if kind == "binary" else f"a.{kind}")
+    if kind.startswith("wrapped"):    # words stand on any line, and lines may be empty
+        start = text.index(b"end_header\n") + 11 if kind.endswith("ply") else text.index(b"\n") + 1
+        text = text[:start] + b"\n\n" + text[start:].replace(b"\n", b" ").replace(b" ", b"\n", 7)
+    name = tmp_path / f"a.{'ply' if kind == 'binary' else kind[-3:]}"
     name.write_bytes(text)
     mesh = shade.load(name)
-    low, high = mesh.vertices.min(0), mesh.vertices.max(0)
+    used = mesh.vertices[np.unique(mesh.faces)]
+    far, triangles = far[np.unique(triangles)], triangles - triangles.min()
+    low, high = used.min(0), used.max(0)
     assert np.array_equal(low, far.min(0)) and np.array_equal(high, far.max(0))
     got = shade.render(mesh, up="z", normals="flat", **SMALL)
     plain = shade.render(vertices, triangles, normals="flat", **SMALL)

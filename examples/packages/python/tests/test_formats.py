@@ -5,6 +5,7 @@ import struct
 import subprocess
 import sys
 import zipfile
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -148,6 +149,115 @@ def test_strips_fans_vertex_colours_and_normalised_integers():
     assert area == pytest.approx([0.5] * 4)
     row = drawn(made.bytes()).rgba[24].astype(int)
     assert (row[:, 1] - row[:, 0]).max() > 100
+
+
+def corners(data):
+    """The corners of the triangles that a file shows."""
+    got = shade.load(io.BytesIO(data))
+    return got.vertices[got.faces]
+
+
+QUAD = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])[[0, 1, 2, 0, 2, 3]].reshape(2, 3, 3)
+
+
+@pytest.mark.parametrize("kind, most", [("<i1", 127), ("<u1", 255), ("<i2", 32767), ("<u2", 65535)])
+def test_quantized_positions_are_what_they_stand_for(kind, most):
+    for normalized in (True, False):
+        made = Glb()
+        mesh = made.quad()
+        points = np.array([[0, 0, 0, 0], [1, 0, 0, 0], [1, 1, 0, 0], [0, 1, 0, 0]]) * most
+        number = made.accessor(points.astype(kind), "VEC3", normalized=normalized)
+        made.json["bufferViews"][-1]["byteStride"] = 4 * np.dtype(kind).itemsize
+        made.json["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"] = number
+        made.json["extensionsRequired"] = ["KHR_mesh_quantization"]
+        made.node(mesh=mesh, scale=[1 if normalized else 1 / most] * 3)
+        assert np.allclose(corners(made.bytes()), QUAD, atol=1e-6)
+
+
+def test_skins_and_morph_targets_are_at_rest():
+    made = Glb()
+    mesh = made.quad()
+    part = made.json["meshes"][mesh]["primitives"][0]
+    back = np.eye(4)
+    back[3, :3] = 0, -5, 0    # undoes a translation by 5 in y
+    part["attributes"]["JOINTS_0"] = made.accessor(np.array([[1, 0, 0, 0]] * 4, "<u1"), "VEC4")
+    part["attributes"]["WEIGHTS_0"] = made.accessor(np.array([[1, 0, 0, 0]] * 4, "<f4"), "VEC4")
+    made.json["skins"] = [{"joints": [1, 2], "inverseBindMatrices": made.accessor(
+        np.stack([np.eye(4), back]).astype("<f4").reshape(2, 16), "MAT4")}]
+    made.node(mesh=mesh, skin=0, translation=[100, 0, 0])    # which counts for no skin
+    made.node(translation=[0, 3, 0], children=[2])
+    made.node(translation=[7, 4, 0])
+    assert np.allclose(corners(made.bytes()), QUAD + [7, 2, 0], atol=1e-6)
+    made = Glb()
+    mesh = made.quad()
+    moved = made.accessor(np.array([[0, 0, 2]] * 4, "<f4"), "VEC3")
+    made.json["meshes"][mesh]["primitives"][0]["targets"] = [{"POSITION": moved}] * 2
+    made.json["meshes"][mesh]["weights"] = [0.25, 0.5]
+    made.node(mesh=mesh)
+    assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 1.5], atol=1e-6)
+    made.json["nodes"][0]["weights"] = [1, 0]
+    assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 2], atol=1e-6)
+
+
+def test_instances_and_sparse_accessors():
+    made = Glb()
+    mesh = made.quad()
+    places = np.array([[0, 0, 0], [4, 0, 0], [0, 9, 0]], "<f4")
+    made.node(mesh=mesh, scale=[2, 2, 2], extensions={"EXT_mesh_gpu_instancing": {"attributes": {
+        "TRANSLATION": made.accessor(places, "VEC3")}}})
+    wanted = np.concatenate([2 * QUAD + 2 * place for place in places.astype(float)])
+    assert np.allclose(corners(made.bytes()), wanted, atol=1e-5)
+    made = Glb()
+    mesh = made.quad()
+    number = made.json["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"]
+    made.json["accessors"][number]["sparse"] = {
+        "count": 1, "indices": {"bufferView": made.view(b"\1"), "componentType": 5121},
+        "values": {"bufferView": made.view(np.array([3, 0, 0], "<f4").tobytes())}}
+    made.node(mesh=mesh)
+    wanted = QUAD.copy()
+    wanted[0, 1, 0] = 3
+    assert np.allclose(corners(made.bytes()), wanted)
+
+
+@pytest.mark.parametrize("change, uv, wanted", [
+    ({"offset": [0, 1], "rotation": np.pi / 2}, (0.25, 0.25), (0, 0, 1)),
+    ({"scale": [3, 1]}, (0.25, 0.25), (0, 1, 0)),
+    ({"clamp": True}, (1.3, 0.25), (0, 1, 0)),
+    ({}, (1.3, 0.25), (1, 0, 0)),
+])
+def test_where_a_texture_lies(change, uv, wanted):
+    texels = np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 0]]], np.uint8)
+    png = shade.Picture(np.dstack([texels, np.full((2, 2), 255, np.uint8)]).repeat(8, 0)
+                        .repeat(8, 1)).png()
+    made = Glb()
+    material = colored(1, 1, 1)
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {
+        "index": 0, "extensions": {"KHR_texture_transform": {
+            k: v for k, v in change.items() if k != "clamp"}}}
+    made.node(mesh=made.quad(material, [uv] * 4))
+    made.json["samplers"] = [{"wrapS": 33071 if "clamp" in change else 10497}]
+    made.json["textures"] = [{"source": 0, "sampler": 0}]
+    made.json["images"] = [{"bufferView": made.view(png)}]
+    middle = drawn(made.bytes()).rgba[24, 32, :3]
+    assert np.array_equal(middle > 100, np.array(wanted, bool)), middle
+
+
+def test_specular_glossiness_and_what_is_not_read():
+    made = Glb()
+    made.node(mesh=made.quad({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0, 0, 1, 1], "glossinessFactor": 0.1}}}))
+    middle = drawn(made.bytes()).rgba[24, 32].astype(int)
+    assert middle[2] > 100 > middle[0]
+    made.json["extensionsRequired"] = ["EXT_made_up"]
+    with pytest.raises(shade.Error, match="it needs EXT_made_up, which is not read"):
+        shade.load(io.BytesIO(made.bytes()))
+    made.json["extensionsRequired"] = []
+    made.json["textures"] = [{"extensions": {"EXT_texture_webp": {"source": 0}}}, {}]
+    made.json["materials"][0] = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}
+    with pytest.warns(UserWarning, match="EXT_texture_webp"):
+        assert not drawn(made.bytes()).blank
+    made.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1
+    assert not drawn(made.bytes()).blank
 
 
 # ---- 3MF -----------------------------------------------------------------------------------------
@@ -342,3 +452,17 @@ def test_mutants_of_good_files_are_drawn_or_refused(seed):
             assert len(str(why)) > 8
             refused += 1
     assert refused > 40 and drawn_ones > 8
+
+
+def test_the_picture_of_trimesh_is_multiplied_by_its_factor():
+    white = np.full((4, 4, 3), 255, np.uint8)
+    material = SimpleNamespace(baseColorTexture=white, image=None,
+                               baseColorFactor=np.array([255, 0, 0, 255], np.uint8))
+    visual = SimpleNamespace(kind="texture", material=material, uv=np.zeros((4, 2)))
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    mesh = SimpleNamespace(vertices=points, faces=np.array([[0, 1, 2], [0, 2, 3]]), visual=visual)
+    middle = shade.render(mesh, up="y", **FLAT).rgba[24, 32].astype(int)
+    assert middle[0] > 100 > middle[1]
+    del material.baseColorFactor
+    middle = shade.render(mesh, up="y", **FLAT).rgba[24, 32].astype(int)
+    assert middle[1] > 100

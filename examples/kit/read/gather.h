@@ -1,0 +1,76 @@
+/* gather.h - gathers vertices and faces of many meshes in one model. */
+#ifndef MODEL_GATHER_H
+#define MODEL_GATHER_H
+
+#include "faces.h"
+
+typedef struct gather {
+    mesh_floats positions, normals, texcoords, colors;
+    faces faces;
+    mesh_origin origin;
+    int textured, colored, lacks_normals; /* some vertex has a place in a picture, a colour; has no
+                                             normal */
+} gather;
+
+typedef struct gather_corner {
+    double position[3];
+    shade_vec3 normal, color; /* any length, zero: none; linear */
+    shade_vec2 uv;
+} gather_corner;
+
+static inline int gather_finite(shade_vec3 v)
+{
+    return fabsf(v.x) <= 1e30f && fabsf(v.y) <= 1e30f && fabsf(v.z) <= 1e30f;
+}
+
+/* Adds a vertex.  Faces around a position that is not finite are dropped at the end. */
+static inline int gather_vertex(mesh_reader *r, gather *g, const gather_corner *v)
+{
+    float place[3], uv[2] = { 0, 0 };
+    shade_vec3 N = shade_normalize(v->normal);
+    mesh_relative(&g->origin, v->position, place);
+    for (int k = 0; k < 3; k++)
+        if (!(fabsf(place[k]) <= 1e30f)) place[k] = NAN;
+    if (!gather_finite(N)) N = shade_v3(0, 0, 0);
+    if (N.x == 0 && N.y == 0 && N.z == 0) g->lacks_normals = 1;
+    if (fabsf(v->uv.x) < 1e6f && fabsf(v->uv.y) < 1e6f) memcpy(uv, &v->uv, sizeof uv);
+    if (mesh_push(&g->positions, place, 3) || mesh_push(&g->normals, (const float *)&N, 3) ||
+        mesh_push(&g->colors, (const float *)&v->color, 3) || mesh_push(&g->texcoords, uv, 2))
+        return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+static inline void gather_free(gather *g)
+{
+    free(g->positions.v);
+    free(g->normals.v);
+    free(g->texcoords.v);
+    free(g->colors.v);
+    faces_free(&g->faces);
+}
+
+static inline float *gather_take(mesh_floats *from)
+{
+    float *v = from->v;
+    from->v = NULL;
+    return v;
+}
+
+/* Moves all that was gathered into a model.  Returns non-zero with the error in r. */
+static inline int gather_finish(mesh_reader *r, gather *g, model *m)
+{
+    owned_mesh *mesh = &m->mesh;
+    const int vertices = (int)(g->positions.count / 3);
+    if (!g->faces.triangles) return mesh_fail(r, "no faces in it");
+    mesh->positions = gather_take(&g->positions);
+    mesh->normals = gather_take(&g->normals);
+    if (g->textured) mesh->texcoords = gather_take(&g->texcoords);
+    if (g->colored) mesh->colors = gather_take(&g->colors);
+    if (faces_finish(r, &g->faces, m, (size_t)vertices)) return 1;
+    mesh_link(mesh, vertices, 3 * (int)g->faces.triangles);
+    model_placed(m, &g->origin);
+    m->normals_given = !g->lacks_normals;
+    if (g->lacks_normals && mesh_fill_normals(mesh, 0)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+#endif

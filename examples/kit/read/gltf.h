@@ -1,0 +1,1149 @@
+/* gltf.h - reads glTF 2.0: GLB, and JSON with buffers and pictures inside or beside it.  Nodes with
+   their instances, skins and morph targets as they are at rest, triangles, strips and fans,
+   accessors of every type, sparse ones too, materials in the terms of shade.h.
+
+   An extension is drawn, or it changes nothing that a picture of shade.h has, or a file that
+   requires it is refused by its name (gltf_known).  A picture that only an extension could decode
+   is a warning, and so are points and lines. */
+#ifndef MODEL_GLTF_H
+#define MODEL_GLTF_H
+
+#include "gather.h"
+#include "json.h"
+
+enum { GLTF_NODES = 100000, GLTF_DEPTH = 500, GLTF_TRIANGLES = 20000000, GLTF_BARE = 10000000 };
+enum {
+    GLTF_ACCESSORS,
+    GLTF_VIEWS,
+    GLTF_BUFFERS,
+    GLTF_IMAGES,
+    GLTF_MATERIALS,
+    GLTF_MESHES,
+    GLTF_NODE,
+    GLTF_SAMPLERS,
+    GLTF_SCENES,
+    GLTF_SKINS,
+    GLTF_TEXTURES,
+    GLTF_LISTS
+};
+static const char *const gltf_lists[GLTF_LISTS] = { "accessors", "bufferViews", "buffers",
+                                                    "images",    "materials",   "meshes",
+                                                    "nodes",     "samplers",    "scenes",
+                                                    "skins",     "textures" };
+
+/* 1: drawn; 0: nothing of it shows in a picture of shade.h.  Others are in no list. */
+typedef struct gltf_extension {
+    const char *name;
+    int drawn;
+} gltf_extension;
+static const gltf_extension gltf_known[] = { { "KHR_mesh_quantization", 1 },
+                                             { "KHR_texture_transform", 1 },
+                                             { "KHR_materials_unlit", 1 },
+                                             { "KHR_materials_emissive_strength", 1 },
+                                             { "KHR_materials_pbrSpecularGlossiness", 1 },
+                                             { "EXT_mesh_gpu_instancing", 1 },
+                                             { "KHR_materials_specular", 0 },
+                                             { "KHR_materials_ior", 0 },
+                                             { "KHR_materials_clearcoat", 0 },
+                                             { "KHR_materials_sheen", 0 },
+                                             { "KHR_materials_transmission", 0 },
+                                             { "KHR_materials_volume", 0 },
+                                             { "KHR_materials_iridescence", 0 },
+                                             { "KHR_materials_anisotropy", 0 },
+                                             { "KHR_materials_dispersion", 0 },
+                                             { "KHR_materials_variants", 0 },
+                                             { "KHR_lights_punctual", 0 },
+                                             { "KHR_animation_pointer", 0 },
+                                             { "KHR_xmp_json_ld", 0 },
+                                             { "FB_ngon_encoding", 0 },
+                                             { "VRM", 0 },
+                                             { NULL, 0 } };
+
+typedef struct gltf_matrix {
+    double at[16];
+} gltf_matrix; /* columns, as in the files */
+
+typedef struct gltf_bytes {
+    const unsigned char *at;
+    size_t size;
+    unsigned char *owned;
+} gltf_bytes;
+
+/* Where the texture coordinates of a surface come from, and two rows that change u v 1 */
+typedef struct gltf_place {
+    double used, set, change[6];
+} gltf_place;
+
+typedef struct gltf {
+    mesh_reader *r;
+    model *m;
+    json_doc j;
+    uint32_t *item[GLTF_LISTS];
+    uint32_t count[GLTF_LISTS];
+    const unsigned char *binary; /* of GLB */
+    size_t binary_size;
+    gltf_bytes *buffer;
+    uint32_t *parent; /* of each node, + 1 */
+    gltf_place *place;
+    int plain; /* the surface of faces without a material; -1: not yet */
+    gather all;
+    int counting, nodes, depth, others; /* others: there are points or lines */
+    double triangles, vertices;
+} gltf;
+
+/* ---- numbers and objects of the JSON --------------------------------------------------------- */
+
+/* A whole number from 0 on */
+static inline int gltf_whole(gltf *g, uint32_t object, const char *name, double none, double *out)
+{
+    const uint32_t at = json_member(&g->j, object, name);
+    *out = at ? json_number_at(&g->j, at, -1) : none;
+    if (*out >= 0 && *out < 1e12 && *out == floor(*out)) return 0;
+    return mesh_fail(g->r, "%s is no whole number", name);
+}
+
+/* The object of a list that the number at a place means */
+static inline int gltf_item(gltf *g, int list, uint32_t at, uint32_t *out)
+{
+    const double n = json_number_at(&g->j, at, -1);
+    *out = 0;
+    if (!(n >= 0 && n < 1e9) || n != floor(n))
+        return mesh_fail(g->r, "a number of %s is wrong", gltf_lists[list]);
+    if (n >= (double)g->count[list])
+        return mesh_fail(g->r, "there is no %s[%lu]", gltf_lists[list], (unsigned long)n);
+    *out = g->item[list][(size_t)n];
+    if (g->j.value[*out].kind == JSON_OBJECT) return 0;
+    return mesh_fail(g->r, "%s[%lu] is no object", gltf_lists[list], (unsigned long)n);
+}
+
+/* Fails where an object has a member of that name which is not n numbers. */
+static inline int gltf_numbers(gltf *g, uint32_t object, const char *name, int n)
+{
+    double unused[16];
+    if (!json_member(&g->j, object, name) || json_array(&g->j, object, name, unused, n)) return 0;
+    return mesh_fail(g->r, "%s must be %d numbers", name, n);
+}
+
+static inline uint32_t gltf_extended(const gltf *g, uint32_t object, const char *name)
+{
+    const uint32_t extensions = json_of(&g->j, object, "extensions", JSON_OBJECT);
+    return extensions ? json_of(&g->j, extensions, name, JSON_OBJECT) : 0;
+}
+
+/* The places of the parts of each list at the top */
+static inline int gltf_index(gltf *g)
+{
+    for (int k = 0; k < GLTF_LISTS; k++) {
+        const uint32_t list = json_of(&g->j, JSON_ROOT, gltf_lists[k], JSON_ARRAY);
+        uint32_t at = list + 1;
+        g->count[k] = list ? g->j.value[list].count : 0;
+        g->item[k] = (uint32_t *)malloc(((size_t)g->count[k] + 1) * sizeof(uint32_t));
+        if (!g->item[k]) return mesh_fail(g->r, "out of memory");
+        for (uint32_t i = 0; i < g->count[k]; i++, at = g->j.value[at].end) g->item[k][i] = at;
+    }
+    return 0;
+}
+
+/* ---- bytes ----------------------------------------------------------------------------------- */
+
+static inline int gltf_base64(gltf *g, const char *text, gltf_bytes *out)
+{
+    size_t n = strlen(text), size = 0;
+    uint32_t bits = 0;
+    int filled = 0;
+    out->owned = (unsigned char *)malloc(n + 1);
+    out->at = out->owned;
+    if (!out->owned) return mesh_fail(g->r, "out of memory");
+    while (n && text[n - 1] == '=') n--;
+    for (size_t i = 0; i < n; i++) {
+        const int c = text[i];
+        const int digit = c >= 'A' && c <= 'Z'   ? c - 'A'
+                          : c >= 'a' && c <= 'z' ? c - 'a' + 26
+                          : c >= '0' && c <= '9' ? c - '0' + 52
+                          : c == '+'             ? 62
+                          : c == '/'             ? 63
+                                                 : -1;
+        if (digit < 0) return mesh_fail(g->r, "a data URI is no base64");
+        bits = bits << 6 | (uint32_t)digit;
+        filled += 6;
+        if (filled < 8) continue;
+        filled -= 8;
+        out->owned[size++] = (unsigned char)(bits >> filled);
+    }
+    out->size = size;
+    return 0;
+}
+
+/* Undoes %20 and its like, in place. */
+static inline void gltf_unescape(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++) {
+        const unsigned char digits[4] = { '0', '0', (unsigned char)from[1],
+                                          from[1] ? (unsigned char)from[2] : (unsigned char)0 };
+        const int code = *from == '%' ? json_hex(digits, digits + 4) : -1;
+        *to++ = code > 0 ? (char)code : *from;
+        if (code > 0) from += 2;
+    }
+    *to = 0;
+}
+
+/* What a URI means.  *path is where a file was found, to be freed. */
+static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
+{
+    char *text = json_copy(&g->j, at), *comma;
+    int failed;
+    if (!text) return mesh_fail(g->r, "out of memory");
+    comma = strchr(text, ',');
+    if (!strncmp(text, "data:", 5) && comma) {
+        failed = gltf_base64(g, comma + 1, out);
+        free(text);
+        return failed;
+    }
+    gltf_unescape(text);
+    for (char *c = text; *c; c++) *c = *c < ' ' && *c > 0 ? '?' : *c;
+    if (!model_is_beside(text)) {
+        failed = mesh_fail(g->r, "%s does not lie beside the model", text);
+    } else if (!g->m->beside) {
+        failed = mesh_fail(g->r, "%s is beside a model that was read from memory", text);
+    } else {
+        char error[200] = "out of memory";
+        failed = g->m->beside(g->m->path, text, &out->owned, &out->size, path, error, sizeof error);
+        out->at = out->owned;
+        if (failed) mesh_fail(g->r, "%s", error);
+    }
+    free(text);
+    return failed;
+}
+
+static inline int gltf_buffer(gltf *g, uint32_t number, gltf_bytes *out)
+{
+    gltf_bytes *b = &g->buffer[number];
+    const uint32_t object = g->item[GLTF_BUFFERS][number];
+    if (!b->at) {
+        const uint32_t uri = json_of(&g->j, object, "uri", JSON_TEXT);
+        char *path = NULL;
+        int failed = 0;
+        if (uri) failed = gltf_uri(g, uri, b, &path);
+        free(path);
+        if (failed) return 1;
+        if (!uri && !g->binary)
+            return mesh_fail(g->r, "buffers[%u] has no bytes", (unsigned)number);
+        if (!uri) b->at = g->binary;
+        if (!uri) b->size = g->binary_size;
+    }
+    *out = *b;
+    out->owned = NULL;
+    return 0;
+}
+
+/* The bytes of a view, and its stride or 0 */
+static inline int gltf_view(gltf *g, uint32_t at, gltf_bytes *out, double *stride)
+{
+    uint32_t view, buffer;
+    double start, size;
+    if (gltf_item(g, GLTF_VIEWS, at, &view)) return 1;
+    if (gltf_item(g, GLTF_BUFFERS, json_member(&g->j, view, "buffer"), &buffer)) return 1;
+    if (gltf_whole(g, view, "byteOffset", 0, &start) ||
+        gltf_whole(g, view, "byteLength", -1, &size) ||
+        gltf_whole(g, view, "byteStride", 0, stride))
+        return 1;
+    buffer = (uint32_t)json_number_of(&g->j, view, "buffer", 0);
+    if (gltf_buffer(g, buffer, out)) return 1;
+    if (start + size > (double)out->size) return mesh_fail(g->r, "a view ends behind its buffer");
+    out->at += (size_t)start;
+    out->size = (size_t)size;
+    return 0;
+}
+
+/* ---- accessors ------------------------------------------------------------------------------- */
+
+typedef struct gltf_values {
+    double *v;
+    size_t count;
+    int width;
+} gltf_values;
+
+enum { GLTF_BYTE = 5120 };
+static const int gltf_sizes[7] = { 1, 1, 2, 2, 0, 4, 4 };
+
+/* A number of a component type, brought to 0 .. 1 or -1 .. 1 if it is normalized */
+static inline double gltf_component(const unsigned char *p, int type, int normalized)
+{
+    static const double most[7] = { 127, 255, 32767, 65535, 1, 4294967295.0, 1 };
+    uint32_t bits = 0;
+    double value;
+    float single;
+    for (int k = 0; k < gltf_sizes[type]; k++) bits |= (uint32_t)p[k] << 8 * k;
+    if (type == 6) {
+        memcpy(&single, &bits, sizeof single);
+        return (double)single;
+    }
+    value = bits;
+    if (type == 0 && bits > 127) value -= 256;
+    if (type == 2 && bits > 32767) value -= 65536;
+    return normalized ? fmax(value / most[type], -1) : value;
+}
+
+/* Numbers of a view into v: count of so many components each, the i-th at to[i], or at i */
+typedef struct gltf_layout {
+    int type, width, normalized;
+    size_t count;
+} gltf_layout;
+static inline int gltf_fetch(gltf *g, uint32_t object, const gltf_layout *l, const double *to,
+                             double *v)
+{
+    const double size = gltf_sizes[l->type] * l->width;
+    gltf_bytes bytes;
+    double stride, start;
+    if (gltf_view(g, json_member(&g->j, object, "bufferView"), &bytes, &stride) ||
+        gltf_whole(g, object, "byteOffset", 0, &start))
+        return 1;
+    if (stride == 0) stride = size;
+    if (stride < size) return mesh_fail(g->r, "the stride of an accessor is less than its values");
+    if (l->count && start + ((double)l->count - 1) * stride + size > (double)bytes.size)
+        return mesh_fail(g->r, "an accessor ends behind its view");
+    for (size_t i = 0; i < l->count; i++) {
+        const unsigned char *from = bytes.at + (size_t)start + i * (size_t)stride;
+        double *out = v + (to ? (size_t)to[i] : i) * (size_t)l->width;
+        for (int k = 0; k < l->width; k++)
+            out[k] = gltf_component(from + k * gltf_sizes[l->type], l->type, l->normalized);
+    }
+    return 0;
+}
+
+/* The values of a sparse accessor that differ from the base */
+static inline int gltf_sparse(gltf *g, uint32_t sparse, const gltf_layout *l, double *v)
+{
+    const uint32_t indices = json_of(&g->j, sparse, "indices", JSON_OBJECT);
+    const uint32_t values = json_of(&g->j, sparse, "values", JSON_OBJECT);
+    gltf_layout where = { 0, 1, 0, 0 }, what = *l;
+    double count, type, *to;
+    int failed;
+    if (!indices || !values || gltf_whole(g, sparse, "count", -1, &count) ||
+        gltf_whole(g, indices, "componentType", 0, &type))
+        return mesh_fail(g->r, "a sparse accessor is wrong");
+    if (count > (double)l->count || (type != 5121 && type != 5123 && type != 5125))
+        return mesh_fail(g->r, "a sparse accessor is wrong");
+    where.type = (int)type - GLTF_BYTE;
+    where.count = what.count = (size_t)count;
+    to = (double *)malloc((where.count + 1) * sizeof *to);
+    if (!to) return mesh_fail(g->r, "out of memory");
+    failed = gltf_fetch(g, indices, &where, NULL, to);
+    for (size_t i = 0; i < where.count && !failed; i++)
+        if (to[i] >= (double)l->count) failed = mesh_fail(g->r, "a sparse accessor is wrong");
+    if (!failed) failed = gltf_fetch(g, values, &what, to, v);
+    free(to);
+    return failed;
+}
+
+/* How many values an accessor has */
+static inline int gltf_count_of(gltf *g, uint32_t at, double *count)
+{
+    uint32_t object;
+    return gltf_item(g, GLTF_ACCESSORS, at, &object) || gltf_whole(g, object, "count", -1, count);
+}
+
+/* All values of an accessor of least to most components; free v afterwards, also where it fails. */
+static inline int gltf_read_values(gltf *g, uint32_t at, int least, int most, gltf_values *out)
+{
+    static const char *const types[] = { "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4" };
+    static const int widths[] = { 1, 2, 3, 4, 16 };
+    gltf_layout l = { 0, 0, 0, 0 };
+    uint32_t object, kind, view, sparse;
+    double count, type;
+    out->v = NULL;
+    if (gltf_item(g, GLTF_ACCESSORS, at, &object) || gltf_whole(g, object, "count", -1, &count) ||
+        gltf_whole(g, object, "componentType", 0, &type))
+        return 1;
+    kind = json_member(&g->j, object, "type");
+    for (int k = 0; k < 5 && kind; k++)
+        if (json_is(&g->j, kind, types[k])) l.width = widths[k];
+    l.type = (int)type - GLTF_BYTE;
+    if (l.width < least || l.width > most || l.type < 0 || l.type > 6 || l.type == 4)
+        return mesh_fail(g->r, "an accessor has the wrong type");
+    l.normalized = json_of(&g->j, object, "normalized", JSON_TRUE) != 0;
+    view = json_member(&g->j, object, "bufferView");
+    sparse = json_of(&g->j, object, "sparse", JSON_OBJECT);
+    if (count > (view ? (double)INT_MAX : GLTF_BARE))
+        return mesh_fail(g->r, "an accessor has too many values");
+    l.count = out->count = (size_t)count;
+    out->width = l.width;
+    if (view) { /* the bytes are there before memory is taken */
+        gltf_bytes bytes;
+        double stride;
+        if (gltf_view(g, view, &bytes, &stride)) return 1;
+        if (count > (double)bytes.size) return mesh_fail(g->r, "an accessor ends behind its view");
+    }
+    out->v = (double *)calloc((l.count + 1) * (size_t)l.width, sizeof *out->v);
+    if (!out->v) return mesh_fail(g->r, "out of memory");
+    if (view && gltf_fetch(g, object, &l, NULL, out->v)) return 1;
+    return sparse ? gltf_sparse(g, sparse, &l, out->v) : 0;
+}
+
+/* The same of an attribute, for so many vertices; v is NULL where there is none. */
+static inline int gltf_attribute(gltf *g, uint32_t attributes, const char *name, int least,
+                                 int most, size_t count, gltf_values *out)
+{
+    const uint32_t at = json_member(&g->j, attributes, name);
+    out->v = NULL;
+    out->count = 0;
+    if (!at) return 0;
+    if (gltf_read_values(g, at, least, most, out)) return 1;
+    return out->count == count ? 0 : mesh_fail(g->r, "%s has not a value for each vertex", name);
+}
+
+/* ---- where things are ------------------------------------------------------------------------ */
+
+static inline gltf_matrix gltf_product(const gltf_matrix *a, const gltf_matrix *b)
+{
+    gltf_matrix m;
+    for (int c = 0; c < 4; c++) {
+        for (int k = 0; k < 4; k++) {
+            double sum = 0;
+            for (int i = 0; i < 4; i++) sum += a->at[4 * i + k] * b->at[4 * c + i];
+            m.at[4 * c + k] = sum;
+        }
+    }
+    return m;
+}
+
+static inline gltf_matrix gltf_moved(const double *t, const double *q, const double *s)
+{
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const double n = length > 0 ? 1 / length : 0;
+    const double x = q[0] * n, y = q[1] * n, z = q[2] * n, w = length > 0 ? q[3] * n : 1;
+    const gltf_matrix m = { { s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
+                              s[0] * 2 * (x * z - y * w), 0, s[1] * 2 * (x * y - z * w),
+                              s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w), 0,
+                              s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
+                              s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1 } };
+    return m;
+}
+
+/* A node in its parent */
+static inline gltf_matrix gltf_local(const gltf *g, uint32_t node)
+{
+    double t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
+    gltf_matrix m;
+    if (json_array(&g->j, node, "matrix", m.at, 16)) return m;
+    json_array(&g->j, node, "translation", t, 3);
+    json_array(&g->j, node, "rotation", q, 4);
+    json_array(&g->j, node, "scale", s, 3);
+    return gltf_moved(t, q, s);
+}
+
+static inline int gltf_parents(gltf *g)
+{
+    g->parent = (uint32_t *)calloc((size_t)g->count[GLTF_NODE] + 1, sizeof *g->parent);
+    if (!g->parent) return mesh_fail(g->r, "out of memory");
+    for (uint32_t i = 0; i < g->count[GLTF_NODE]; i++) {
+        const uint32_t node = g->item[GLTF_NODE][i];
+        const uint32_t children = json_of(&g->j, node, "children", JSON_ARRAY);
+        uint32_t at = children + 1;
+        if (gltf_numbers(g, node, "matrix", 16) || gltf_numbers(g, node, "translation", 3) ||
+            gltf_numbers(g, node, "rotation", 4) || gltf_numbers(g, node, "scale", 3))
+            return 1;
+        for (uint32_t k = 0; children && k < g->j.value[children].count; k++) {
+            const double lower = json_number_at(&g->j, at, -1);
+            if (lower >= 0 && lower < (double)g->count[GLTF_NODE]) g->parent[(size_t)lower] = i + 1;
+            at = g->j.value[at].end;
+        }
+    }
+    return 0;
+}
+
+/* A node in the world */
+static inline gltf_matrix gltf_world(const gltf *g, uint32_t node)
+{
+    gltf_matrix m = gltf_local(g, g->item[GLTF_NODE][node]);
+    for (int depth = 0; depth < GLTF_DEPTH && g->parent[node]; depth++) {
+        gltf_matrix above;
+        node = g->parent[node] - 1;
+        above = gltf_local(g, g->item[GLTF_NODE][node]);
+        m = gltf_product(&above, &m);
+    }
+    return m;
+}
+
+static inline double gltf_cofactor(const gltf_matrix *m, int row, int column)
+{
+    const int r[2] = { (row + 1) % 3, (row + 2) % 3 },
+              c[2] = { (column + 1) % 3, (column + 2) % 3 };
+    return m->at[4 * c[0] + r[0]] * m->at[4 * c[1] + r[1]] -
+           m->at[4 * c[1] + r[0]] * m->at[4 * c[0] + r[1]];
+}
+
+static inline double gltf_determinant(const gltf_matrix *m)
+{
+    return m->at[0] * gltf_cofactor(m, 0, 0) + m->at[4] * gltf_cofactor(m, 0, 1) +
+           m->at[8] * gltf_cofactor(m, 0, 2);
+}
+
+/* The matrices of a skin's joints; free them afterwards. */
+static inline int gltf_joints(gltf *g, uint32_t node, gltf_matrix **out, uint32_t *count)
+{
+    const uint32_t number = json_member(&g->j, node, "skin");
+    uint32_t skin, joints, at, inverse;
+    gltf_values bind = { NULL, 0, 0 };
+    *out = NULL;
+    if (!number) return 0;
+    if (gltf_item(g, GLTF_SKINS, number, &skin)) return 1;
+    joints = json_of(&g->j, skin, "joints", JSON_ARRAY);
+    if (!joints) return mesh_fail(g->r, "a skin has no joints");
+    *count = g->j.value[joints].count;
+    inverse = json_member(&g->j, skin, "inverseBindMatrices");
+    if (inverse && (gltf_read_values(g, inverse, 16, 16, &bind) || bind.count < *count)) {
+        free(bind.v);
+        return mesh_fail(g->r, "a skin has not a matrix for each joint");
+    }
+    *out = (gltf_matrix *)calloc((size_t)*count + 1, sizeof **out);
+    at = joints + 1;
+    for (uint32_t i = 0; *out && i < *count; i++, at = g->j.value[at].end) {
+        const double joint = json_number_at(&g->j, at, -1);
+        gltf_matrix from;
+        if (!(joint >= 0 && joint < (double)g->count[GLTF_NODE])) {
+            free(bind.v);
+            return mesh_fail(g->r, "a joint is no node");
+        }
+        (*out)[i] = gltf_world(g, (uint32_t)joint);
+        if (!bind.v) continue;
+        memcpy(from.at, bind.v + 16 * i, sizeof from.at);
+        (*out)[i] = gltf_product(&(*out)[i], &from);
+    }
+    free(bind.v);
+    return *out ? 0 : mesh_fail(g->r, "out of memory");
+}
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+static inline int gltf_wrap(const gltf *g, uint32_t sampler, const char *name)
+{
+    const double code = json_number_of(&g->j, sampler, name, 10497);
+    return code == 33071 ? SHADE_WRAP_CLAMP : code == 33648 ? SHADE_WRAP_MIRROR : SHADE_WRAP_REPEAT;
+}
+
+/* The kind of a picture, where the file says it in few letters */
+static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
+{
+    const uint32_t at = json_of(&g->j, image, "mimeType", JSON_TEXT);
+    const size_t size = at ? g->j.value[at].size : 0;
+    if (at && size < sizeof p->kind) memcpy(p->kind, g->j.text + g->j.value[at].from, size);
+}
+
+/* The picture of an image, with how it goes on beyond its edges.  *number is -1 where it cannot be
+   read, which is a warning. */
+static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int as_relief, int *number)
+{
+    const int wrap[2] = { gltf_wrap(g, sampler, "wrapS"), gltf_wrap(g, sampler, "wrapT") };
+    const uint32_t view = json_member(&g->j, image, "bufferView");
+    mesh_reader *const outer = g->r;
+    mesh_reader quiet = *outer;
+    gltf_bytes bytes = { NULL, 0, NULL };
+    char name[64], error[300] = "out of memory", *path = NULL;
+    double stride;
+    int failed;
+    snprintf(name, sizeof name, "picture %lu, %d, %d", (unsigned long)image, wrap[0], wrap[1]);
+    *number = picture_find(g->m, name, as_relief);
+    if (*number >= 0) return 0;
+    quiet.error = error;
+    quiet.error_size = sizeof error;
+    g->r = &quiet;
+    failed = view ? gltf_view(g, view, &bytes, &stride)
+                  : gltf_uri(g, json_member(&g->j, image, "uri"), &bytes, &path);
+    g->r = outer;
+    *number = picture_add(g->m, name, as_relief);
+    if (*number < 0) {
+        free(bytes.owned);
+        free(path);
+        return mesh_fail(g->r, "out of memory");
+    }
+    if (failed) {
+        model_warn(g->m, g->r->name, error);
+        free(bytes.owned);
+        free(path);
+    } else {
+        model_picture *p = &g->m->picture[*number];
+        if (!bytes.owned) bytes.owned = (unsigned char *)model_text(bytes.at, bytes.size);
+        if (!bytes.owned) return mesh_fail(g->r, "out of memory");
+        p->bytes = bytes.owned;
+        p->size = bytes.size;
+        gltf_kind(g, image, p);
+        p->path = path;
+        p->map.wrap_u = (shade_wrap)wrap[0];
+        p->map.wrap_v = (shade_wrap)wrap[1];
+    }
+    return 0;
+}
+
+/* Where the texture coordinates for a texture come from */
+static inline gltf_place gltf_placed(const gltf *g, uint32_t info)
+{
+    const uint32_t change = gltf_extended(g, info, "KHR_texture_transform");
+    gltf_place p = { 1, 0, { 1, 0, 0, 0, 1, 0 } };
+    double offset[2] = { 0, 0 }, scale[2] = { 1, 1 }, cosine, sine;
+    shade_mat4 turn;
+    p.set = fmin(99, fmax(0, json_number_of(&g->j, info, "texCoord", 0)));
+    if (!change) return p;
+    p.set = fmin(99, fmax(0, json_number_of(&g->j, change, "texCoord", p.set)));
+    json_array(&g->j, change, "offset", offset, 2);
+    json_array(&g->j, change, "scale", scale, 2);
+    turn =
+        shade_mat4_rotation((float)json_number_of(&g->j, change, "rotation", 0), shade_v3(0, 0, 1));
+    cosine = (double)turn.col[0].x;
+    sine = (double)turn.col[0].y;
+    p.change[0] = cosine * scale[0];
+    p.change[1] = sine * scale[1];
+    p.change[2] = offset[0];
+    p.change[3] = -sine * scale[0];
+    p.change[4] = cosine * scale[1];
+    p.change[5] = offset[1];
+    return p;
+}
+
+/* A texture of a material, unless its coordinates differ from those of the pictures before it.
+   *map becomes its name and *number its picture. */
+static inline int gltf_texture(gltf *g, gltf_place *place, uint32_t material, const char *name,
+                               int as_relief, char **map, int *number)
+{
+    const uint32_t info = json_of(&g->j, material, name, JSON_OBJECT);
+    const gltf_place own = gltf_placed(g, info);
+    uint32_t texture, source, image, sampler = 0, at;
+    if (!info) return 0;
+    if (place->used > 0 && memcmp(place, &own, sizeof own) != 0) {
+        model_warn(g->m, name, "it has other texture coordinates than the pictures before it");
+        return 0;
+    }
+    if (gltf_item(g, GLTF_TEXTURES, json_member(&g->j, info, "index"), &texture)) return 1;
+    source = json_member(&g->j, texture, "source");
+    if (!source && (gltf_extended(g, texture, "EXT_texture_webp") ||
+                    gltf_extended(g, texture, "KHR_texture_basisu"))) {
+        model_warn(g->m, g->r->name,
+                   "its pictures need EXT_texture_webp or KHR_texture_basisu, "
+                   "which is not read");
+        return 0;
+    }
+    if (!source) return 0;
+    at = json_member(&g->j, texture, "sampler");
+    if (gltf_item(g, GLTF_IMAGES, source, &image) ||
+        (at && gltf_item(g, GLTF_SAMPLERS, at, &sampler)) ||
+        gltf_image(g, image, sampler, as_relief, number))
+        return 1;
+    *place = own;
+    *map = model_text(g->m->picture[*number].name, strlen(g->m->picture[*number].name));
+    return *map ? 0 : mesh_fail(g->r, "out of memory");
+}
+
+static inline int gltf_alpha(gltf *g, model_surface *s, uint32_t material, double alpha)
+{
+    const uint32_t mode = json_member(&g->j, material, "alphaMode");
+    s->blended = mode && json_is(&g->j, mode, "BLEND");
+    s->opaque = !s->blended && !(mode && json_is(&g->j, mode, "MASK"));
+    if (s->blended) s->transparency = (float)(1 - fmin(1, fmax(0, alpha)));
+    if (!s->blended && !s->opaque)
+        s->alpha_cutoff = (float)fmax(1e-6, json_number_of(&g->j, material, "alphaCutoff", 0.5) /
+                                                fmax(alpha, 1e-3));
+    return 0;
+}
+
+static inline shade_vec3 gltf_color(const double *v)
+{
+    const shade_vec3 c = shade_v3((float)v[0], (float)v[1], (float)v[2]);
+    return shade_clamp(c, shade_v3(0, 0, 0), shade_v3(1, 1, 1));
+}
+
+static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gltf_place *place)
+{
+    const uint32_t gloss = gltf_extended(g, material, "KHR_materials_pbrSpecularGlossiness");
+    const uint32_t shine = gltf_extended(g, material, "KHR_materials_emissive_strength");
+    const uint32_t rough = json_of(&g->j, material, "pbrMetallicRoughness", JSON_OBJECT);
+    const uint32_t from = gloss ? gloss : rough, named = json_member(&g->j, material, "name");
+    const uint32_t bumps = json_of(&g->j, material, "normalTexture", JSON_OBJECT);
+    double base[4] = { 1, 1, 1, 1 }, glow[3] = { 0, 0, 0 }, metal, roughness, strength;
+    if (gltf_numbers(g, from, gloss ? "diffuseFactor" : "baseColorFactor", 4) ||
+        gltf_numbers(g, material, "emissiveFactor", 3))
+        return 1;
+    json_array(&g->j, from, gloss ? "diffuseFactor" : "baseColorFactor", base, 4);
+    json_array(&g->j, material, "emissiveFactor", glow, 3);
+    metal = gloss ? 0 : json_number_of(&g->j, rough, "metallicFactor", 1);
+    roughness = gloss ? 1 - json_number_of(&g->j, gloss, "glossinessFactor", 1)
+                      : json_number_of(&g->j, rough, "roughnessFactor", 1);
+    strength = fmin(100, fmax(0, json_number_of(&g->j, shine, "emissiveStrength", 1)));
+    s->material.diffuse = gltf_color(base);
+    s->material.emission = shade_scale(gltf_color(glow), (float)strength);
+    /* an exporter's material that says nothing: white, rough metal, without a name */
+    s->set = named || gloss || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
+             base[2] < 1 || glow[0] + glow[1] + glow[2] > 0;
+    model_rough(s, (float)metal, (float)roughness);
+    if (gltf_extended(g, material, "KHR_materials_unlit")) {
+        s->material.diffuse = s->material.ambient = gltf_color(base);
+        s->material.specular = shade_v3(0, 0, 0);
+        s->metal = 0;
+    }
+    gltf_alpha(g, s, material, base[3]);
+    if (gltf_texture(g, place, from, gloss ? "diffuseTexture" : "baseColorTexture", 0, &s->map,
+                     &s->picture) ||
+        gltf_texture(g, place, material, "normalTexture", 1, &s->relief.map, &s->relief.picture) ||
+        gltf_texture(g, place, material, "emissiveTexture", 0, &s->glow_map, &s->glow_picture))
+        return 1;
+    if (s->relief.map) s->relief.strength = (float)fabs(json_number_of(&g->j, bumps, "scale", 1));
+    if (s->map || s->glow_map) s->set = 1;
+    if (json_of(&g->j, material, "emissiveTexture", JSON_OBJECT) && !s->glow_map)
+        s->material.emission = shade_v3(0, 0, 0);
+    model_glow(s, 1);
+    return 0;
+}
+
+static inline int gltf_materials(gltf *g)
+{
+    const uint32_t n = g->count[GLTF_MATERIALS];
+    g->place = (gltf_place *)calloc((size_t)n + 1, sizeof *g->place);
+    if (!g->place) return mesh_fail(g->r, "out of memory");
+    if (n >= MODEL_SURFACES) return mesh_fail(g->r, "more than 10000 materials");
+    for (uint32_t i = 0; i < n; i++) {
+        char name[16];
+        const int length = snprintf(name, sizeof name, "%u", (unsigned)i);
+        if (model_add_surface(g->m, name, (size_t)length) < 0)
+            return mesh_fail(g->r, "out of memory");
+        if (gltf_material(g, g->item[GLTF_MATERIALS][i], &g->m->surface[i], &g->place[i])) return 1;
+    }
+    return 0;
+}
+
+/* The surface of a primitive, whose place is g->place of that number */
+static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
+{
+    const uint32_t at = json_member(&g->j, primitive, "material");
+    uint32_t material;
+    if (at) {
+        if (gltf_item(g, GLTF_MATERIALS, at, &material)) return 1;
+        *surface = (int)json_number_at(&g->j, at, 0);
+        return 0;
+    }
+    if (g->plain < 0) g->plain = model_add_surface(g->m, "plain", 5);
+    *surface = g->plain;
+    return g->plain < 0 ? mesh_fail(g->r, "out of memory") : 0;
+}
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+/* What a primitive has at its vertices */
+typedef struct gltf_vertices {
+    gltf_values position, normal, uv, color, joint[2], weight[2], index;
+    gltf_matrix *bone;
+    uint32_t bones;
+} gltf_vertices;
+
+static inline void gltf_free_vertices(gltf_vertices *v)
+{
+    free(v->position.v);
+    free(v->normal.v);
+    free(v->uv.v);
+    free(v->color.v);
+    free(v->index.v);
+    for (int k = 0; k < 2; k++) free(v->joint[k].v);
+    for (int k = 0; k < 2; k++) free(v->weight[k].v);
+}
+
+/* Adds the morph targets with their weights at rest: those of the node, else of the mesh. */
+static inline int gltf_morph(gltf *g, uint32_t primitive, uint32_t mesh, uint32_t node,
+                             gltf_vertices *v)
+{
+    const uint32_t targets = json_of(&g->j, primitive, "targets", JSON_ARRAY);
+    uint32_t weights = json_of(&g->j, node, "weights", JSON_ARRAY), target = targets + 1, at;
+    if (!weights) weights = json_of(&g->j, mesh, "weights", JSON_ARRAY);
+    if (!targets || !weights) return 0;
+    at = weights + 1;
+    for (uint32_t i = 0; i < g->j.value[targets].count && i < g->j.value[weights].count; i++) {
+        const double weight = json_number_at(&g->j, at, 0);
+        static const char *const names[2] = { "POSITION", "NORMAL" };
+        gltf_values *const base[2] = { &v->position, &v->normal };
+        for (int k = 0; k < 2 && weight != 0; k++) {
+            gltf_values moved;
+            int failed = gltf_attribute(g, target, names[k], 3, 3, v->position.count, &moved);
+            for (size_t c = 0; !failed && moved.v && base[k]->v && c < 3 * moved.count; c++)
+                base[k]->v[c] += weight * moved.v[c];
+            free(moved.v);
+            if (failed) return 1;
+        }
+        at = g->j.value[at].end;
+        target = g->j.value[target].end;
+    }
+    return 0;
+}
+
+static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_vertices *v)
+{
+    const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
+    const uint32_t index = json_member(&g->j, primitive, "indices");
+    char uv[24];
+    size_t n;
+    if (gltf_read_values(g, json_member(&g->j, attributes, "POSITION"), 3, 3, &v->position))
+        return 1;
+    n = v->position.count;
+    snprintf(uv, sizeof uv, "TEXCOORD_%d", surface == g->plain ? 0 : (int)g->place[surface].set);
+    if (gltf_attribute(g, attributes, "NORMAL", 3, 3, n, &v->normal) ||
+        gltf_attribute(g, attributes, uv, 2, 2, n, &v->uv) ||
+        gltf_attribute(g, attributes, "COLOR_0", 3, 4, n, &v->color) ||
+        gltf_attribute(g, attributes, "JOINTS_0", 4, 4, n, &v->joint[0]) ||
+        gltf_attribute(g, attributes, "WEIGHTS_0", 4, 4, n, &v->weight[0]) ||
+        gltf_attribute(g, attributes, "JOINTS_1", 4, 4, n, &v->joint[1]) ||
+        gltf_attribute(g, attributes, "WEIGHTS_1", 4, 4, n, &v->weight[1]))
+        return 1;
+    if (index && gltf_read_values(g, index, 1, 1, &v->index)) return 1;
+    for (size_t i = 0; v->index.v && i < v->index.count; i++)
+        if (!(v->index.v[i] >= 0 && v->index.v[i] < (double)n))
+            return mesh_fail(g->r, "an index points behind the vertices");
+    return 0;
+}
+
+/* Where a vertex is: its place in the world, or the mean of the places of its joints.  0: its
+   weights are wrong */
+static inline gltf_matrix gltf_bone(const gltf_vertices *v, size_t i, const gltf_matrix *at)
+{
+    gltf_matrix m = { { 0 } };
+    double sum = 0;
+    if (!v->bone || !v->joint[0].v || !v->weight[0].v) return *at;
+    for (size_t k = 0; k < 8; k++) {
+        const gltf_values *joint = &v->joint[k / 4], *weight = &v->weight[k / 4];
+        if (!joint->v || !weight->v) continue;
+        const double bone = joint->v[4 * i + k % 4], w = weight->v[4 * i + k % 4];
+        if (!(w > 0) || !(bone >= 0 && bone < (double)v->bones)) continue;
+        for (int c = 0; c < 16; c++) m.at[c] += w * v->bone[(size_t)bone].at[c];
+        sum += w;
+    }
+    for (int c = 0; c < 16 && sum > 0; c++) m.at[c] /= sum;
+    return sum > 0 ? m : *at;
+}
+
+static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const gltf_matrix *at,
+                              const gltf_place *place)
+{
+    const gltf_matrix m = gltf_bone(v, i, at);
+    const double *p = v->position.v + 3 * i, sign = gltf_determinant(&m) < 0 ? -1 : 1;
+    gather_corner c = { .color = { 1, 1, 1 } };
+    float normal[3] = { 0, 0, 0 };
+    for (int k = 0; k < 3; k++) {
+        c.position[k] = m.at[k] * p[0] + m.at[4 + k] * p[1] + m.at[8 + k] * p[2] + m.at[12 + k];
+        for (int l = 0; v->normal.v && l < 3; l++)
+            normal[k] += (float)(sign * gltf_cofactor(&m, k, l) * v->normal.v[3 * i + (size_t)l]);
+    }
+    memcpy(&c.normal, normal, sizeof normal);
+    if (v->color.v) c.color = gltf_color(v->color.v + (size_t)v->color.width * i);
+    if (v->uv.v && place) {
+        const double *uv = v->uv.v + 2 * i, *t = place->change;
+        c.uv = shade_v2(mesh_or_zero(t[0] * uv[0] + t[1] * uv[1] + t[2]),
+                        mesh_or_zero(t[3] * uv[0] + t[4] * uv[1] + t[5]));
+    }
+    return gather_vertex(g->r, &g->all, &c);
+}
+
+/* The triangles of a list (4), a strip (5) or a fan (6) */
+static inline int gltf_faces(gltf *g, const gltf_vertices *v, double mode, size_t first,
+                             int mirrored)
+{
+    const size_t n = v->index.v ? v->index.count : v->position.count;
+    const size_t step = mode == 4 ? 3 : 1;
+    for (size_t i = 0; i + 2 < n; i += step) {
+        size_t corner[3] = { mode == 6 ? 0 : i, i + 1, i + 2 };
+        const int turned = (mode == 5 && i % 2) != mirrored;
+        if (turned) {
+            corner[1] = i + 2;
+            corner[2] = i + 1;
+        }
+        if (faces_begin(&g->all.faces)) return mesh_fail(g->r, "out of memory");
+        for (int k = 0; k < 3; k++) {
+            const size_t at = v->index.v ? (size_t)v->index.v[corner[k]] : corner[k];
+            if (faces_corner(&g->all.faces, (uint32_t)(first + at)))
+                return mesh_fail(g->r, "out of memory");
+        }
+        faces_end(&g->all.faces);
+    }
+    return mesh_check_triangles(g->r, g->all.faces.triangles);
+}
+
+/* Counts what a primitive makes, before memory is taken. */
+static inline int gltf_count(gltf *g, uint32_t primitive, double mode, size_t instances)
+{
+    const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
+    const uint32_t index = json_member(&g->j, primitive, "indices");
+    const double most = g->r->most ? (double)g->r->most : GLTF_TRIANGLES;
+    double vertices, corners;
+    if (gltf_count_of(g, json_member(&g->j, attributes, "POSITION"), &vertices)) return 1;
+    corners = vertices;
+    if (index && gltf_count_of(g, index, &corners)) return 1;
+    g->vertices += vertices * (double)instances;
+    g->triangles += (mode == 4 ? floor(corners / 3) : fmax(0, corners - 2)) * (double)instances;
+    if (g->triangles > most) return mesh_fail(g->r, "more than %lu triangles", (unsigned long)most);
+    if (g->vertices > 4 * most + 1e6)
+        return mesh_fail(g->r, "more than %lu vertices", (unsigned long)(4 * most + 1e6));
+    return 0;
+}
+
+typedef struct gltf_instances {
+    const gltf_matrix *at;
+    size_t count;
+} gltf_instances;
+
+static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uint32_t node,
+                                 const gltf_instances *in)
+{
+    static const gltf_vertices none;
+    gltf_vertices v = none;
+    double mode;
+    int surface = 0, failed;
+    gltf_place *place;
+    if (gltf_whole(g, primitive, "mode", 4, &mode)) return 1;
+    if (gltf_extended(g, primitive, "KHR_draco_mesh_compression"))
+        return mesh_fail(g->r, "it needs KHR_draco_mesh_compression, which is not read");
+    if (mode < 4 || mode > 6) {
+        g->others = 1;
+        return 0;
+    }
+    if (g->counting) return gltf_count(g, primitive, mode, in->count);
+    if (gltf_surface(g, primitive, &surface)) return 1;
+    place = surface == g->plain ? NULL : &g->place[surface];
+    failed = gltf_load(g, primitive, surface, &v) || gltf_morph(g, primitive, mesh, node, &v) ||
+             gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
+    g->all.textured |= v.uv.v && place && place->used > 0;
+    g->all.colored |= v.color.v != NULL;
+    for (size_t k = 0; k < in->count && !failed; k++) {
+        const size_t first = g->all.positions.count / 3, n = v.position.count;
+        const gltf_matrix m = n ? gltf_bone(&v, 0, &in->at[k]) : in->at[k];
+        for (size_t i = 0; i < n && !failed; i++)
+            failed = gltf_vertex(g, &v, i, &in->at[k], place && place->used > 0 ? place : NULL);
+        if (!failed) failed = gltf_faces(g, &v, mode, first, gltf_determinant(&m) < 0);
+    }
+    free(v.bone);
+    gltf_free_vertices(&v);
+    return failed;
+}
+
+/* The places of the instances of a node; free them afterwards. */
+static inline int gltf_instanced(gltf *g, uint32_t node, const gltf_matrix *at, gltf_matrix **out,
+                                 size_t *count)
+{
+    const uint32_t extension = gltf_extended(g, node, "EXT_mesh_gpu_instancing");
+    const uint32_t list = json_of(&g->j, extension, "attributes", JSON_OBJECT);
+    static const char *const names[3] = { "TRANSLATION", "ROTATION", "SCALE" };
+    gltf_values v[3] = { { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
+    double n = -1, own;
+    int failed = 0;
+    *out = NULL;
+    for (int k = 0; k < 3 && extension; k++) {
+        const uint32_t from = json_member(&g->j, list, names[k]);
+        if (!from) continue;
+        if (gltf_count_of(g, from, &own)) return 1;
+        if (n >= 0 && n != own) return mesh_fail(g->r, "instances have counts that differ");
+        n = own;
+    }
+    if (n > GLTF_TRIANGLES) return mesh_fail(g->r, "more than %d instances", GLTF_TRIANGLES);
+    *count = n < 0 ? 1 : (size_t)n;
+    if (g->counting) return 0;
+    *out = (gltf_matrix *)malloc((*count + 1) * sizeof **out);
+    if (!*out) return mesh_fail(g->r, "out of memory");
+    for (int k = 0; k < 3 && n >= 0 && !failed; k++)
+        failed = gltf_attribute(g, list, names[k], k == 1 ? 4 : 3, k == 1 ? 4 : 3, *count, &v[k]);
+    for (size_t i = 0; i < *count && !failed; i++) {
+        static const double still[3] = { 0, 0, 0 }, straight[4] = { 0, 0, 0, 1 };
+        static const double same[3] = { 1, 1, 1 };
+        const gltf_matrix m =
+            gltf_moved(v[0].v ? v[0].v + 3 * i : still, v[1].v ? v[1].v + 4 * i : straight,
+                       v[2].v ? v[2].v + 3 * i : same);
+        (*out)[i] = n < 0 ? *at : gltf_product(at, &m);
+    }
+    for (int k = 0; k < 3; k++) free(v[k].v);
+    return failed;
+}
+
+static inline int gltf_mesh(gltf *g, uint32_t node, const gltf_matrix *at)
+{
+    uint32_t mesh, list, part;
+    gltf_matrix *places;
+    gltf_instances in = { NULL, 0 };
+    int failed;
+    if (gltf_item(g, GLTF_MESHES, json_member(&g->j, node, "mesh"), &mesh)) return 1;
+    list = json_of(&g->j, mesh, "primitives", JSON_ARRAY);
+    failed = gltf_instanced(g, node, at, &places, &in.count);
+    in.at = places;
+    if (!failed && !g->counting) {
+        char *name = json_copy(&g->j, json_member(&g->j, node, "name"));
+        const int object = name ? model_add_object(g->m, name, strlen(name)) : -1;
+        free(name);
+        if (object < 0 || faces_object(&g->all.faces, object))
+            failed = mesh_fail(g->r, "out of memory");
+    }
+    part = list + 1;
+    for (uint32_t i = 0; list && i < g->j.value[list].count && !failed; i++) {
+        if (g->j.value[part].kind == JSON_OBJECT) failed = gltf_primitive(g, part, mesh, node, &in);
+        part = g->j.value[part].end;
+    }
+    free(places);
+    return failed;
+}
+
+static inline int gltf_node(gltf *g, uint32_t at, const gltf_matrix *above)
+{
+    uint32_t node, children, lower;
+    gltf_matrix local, here;
+    int failed = 0;
+    if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
+        return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
+                         GLTF_DEPTH);
+    if (gltf_item(g, GLTF_NODE, at, &node)) return 1;
+    local = gltf_local(g, node);
+    here = gltf_product(above, &local);
+    if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &here);
+    children = json_of(&g->j, node, "children", JSON_ARRAY);
+    lower = children + 1;
+    g->depth++;
+    for (uint32_t i = 0; children && i < g->j.value[children].count && !failed; i++) {
+        failed = gltf_node(g, lower, &here);
+        lower = g->j.value[lower].end;
+    }
+    g->depth--;
+    return failed;
+}
+
+/* The scene of the file, or where there is none all nodes that have no parent */
+static inline int gltf_scene(gltf *g, int counting)
+{
+    static const gltf_matrix one = { { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
+    uint32_t scene = 0, roots, at = json_member(&g->j, JSON_ROOT, "scene");
+    int failed = 0;
+    g->counting = counting;
+    g->nodes = 0;
+    if (at && gltf_item(g, GLTF_SCENES, at, &scene)) return 1;
+    if (!at && g->count[GLTF_SCENES]) scene = g->item[GLTF_SCENES][0];
+    roots = json_of(&g->j, scene, "nodes", JSON_ARRAY);
+    at = roots + 1;
+    for (uint32_t i = 0; scene && roots && i < g->j.value[roots].count && !failed; i++) {
+        failed = gltf_node(g, at, &one);
+        at = g->j.value[at].end;
+    }
+    for (uint32_t i = 0; !scene && i < g->count[GLTF_NODE] && !failed; i++) {
+        const uint32_t node = g->item[GLTF_NODE][i];
+        if (g->parent[i] || g->j.value[node].kind != JSON_OBJECT) continue;
+        if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &one);
+    }
+    return failed;
+}
+
+/* ---- the file -------------------------------------------------------------------------------- */
+
+static inline uint32_t gltf_uint(const unsigned char *p)
+{
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+/* Sets the reader to the JSON of a GLB file and finds its buffer. */
+static inline int gltf_chunks(gltf *g)
+{
+    mesh_reader *r = g->r;
+    const size_t size = (size_t)(r->end - r->begin);
+    const unsigned char *text = NULL;
+    size_t length, text_size = 0;
+    r->line = 0;
+    if (size < 12) return mesh_fail(r, "the header of GLB is cut off");
+    if (gltf_uint(r->begin + 4) != 2)
+        return mesh_fail(r, "glTF %lu is not read, 2 is", (unsigned long)gltf_uint(r->begin + 4));
+    length = gltf_uint(r->begin + 8);
+    if (length > size) return mesh_fail(r, "GLB is cut off");
+    for (size_t at = 12; at + 8 <= length;) {
+        const size_t chunk = gltf_uint(r->begin + at), kind = gltf_uint(r->begin + at + 4);
+        if (chunk > length - at - 8) return mesh_fail(r, "a chunk of GLB is cut off");
+        if (kind == 0x4E4F534A && !text) {
+            text = r->begin + at + 8;
+            text_size = chunk;
+        } else if (kind == 0x004E4942 && !g->binary) {
+            g->binary = r->begin + at + 8;
+            g->binary_size = chunk;
+        }
+        at += 8 + chunk;
+    }
+    if (!text) return mesh_fail(r, "GLB has no JSON");
+    r->at = text;
+    r->end = text + text_size;
+    while (r->end > text && !r->end[-1]) r->end--; /* some writers fill up with zeros */
+    return 0;
+}
+
+static inline const gltf_extension *gltf_find(const json_doc *j, uint32_t name)
+{
+    const gltf_extension *known = gltf_known;
+    while (known->name && !json_is(j, name, known->name)) known++;
+    return known->name ? known : NULL;
+}
+
+/* Refuses a required extension that is not known, and tells of one that is used. */
+static inline int gltf_extensions(gltf *g, const char *list, int required)
+{
+    const uint32_t names = json_of(&g->j, JSON_ROOT, list, JSON_ARRAY);
+    uint32_t at = names + 1;
+    for (uint32_t i = 0; names && i < g->j.value[names].count; i++, at = g->j.value[at].end) {
+        char *name = gltf_find(&g->j, at) ? NULL : json_copy(&g->j, at), text[120];
+        if (!name) continue;
+        for (char *c = name; *c; c++) *c = *c < ' ' || *c == 127 ? '?' : *c;
+        snprintf(text, sizeof text, "it %s %s, which is not read", required ? "needs" : "has",
+                 name);
+        free(name);
+        if (required) return mesh_fail(g->r, "%s", text);
+        if (!strstr(text, "texture") && !strstr(text, "draco")) model_warn(g->m, g->r->name, text);
+    }
+    return 0;
+}
+
+static inline int gltf_version(gltf *g)
+{
+    const uint32_t asset = json_of(&g->j, JSON_ROOT, "asset", JSON_OBJECT);
+    char *version = json_copy(&g->j, json_member(&g->j, asset, "version"));
+    const int two = version && version[0] == '2' && (version[1] == '.' || !version[1]);
+    if (version)
+        for (char *c = version; *c; c++) *c = *c < ' ' || *c == 127 ? '?' : *c;
+    if (g->j.value[JSON_ROOT].kind != JSON_OBJECT)
+        mesh_fail(g->r, "its JSON is no object");
+    else if (!two)
+        mesh_fail(g->r, "glTF %s is not read, 2 is", version && *version ? version : "1");
+    free(version);
+    return !two;
+}
+
+static inline int gltf_build(gltf *g)
+{
+    if (gltf_version(g) || gltf_extensions(g, "extensionsRequired", 1) || gltf_index(g)) return 1;
+    g->buffer = (gltf_bytes *)calloc((size_t)g->count[GLTF_BUFFERS] + 1, sizeof *g->buffer);
+    if (!g->buffer) return mesh_fail(g->r, "out of memory");
+    if (gltf_parents(g) || gltf_scene(g, 1)) return 1;
+    if (g->triangles <= 0)
+        return mesh_fail(g->r,
+                         g->others ? "points and lines alone are not drawn" : "no faces in it");
+    if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
+    if (g->others) model_warn(g->m, g->r->name, "its points and lines");
+    if (gltf_extensions(g, "extensionsUsed", 0)) return 1;
+    return gather_finish(g->r, &g->all, g->m);
+}
+
+static inline int gltf_read(mesh_reader *r, model *m)
+{
+    static const gltf empty;
+    gltf g = empty;
+    int failed;
+    g.r = r;
+    g.m = m;
+    g.plain = -1;
+    model_place(m, &g.all.origin);
+    failed = r->end - r->begin >= 4 && !memcmp(r->begin, "glTF", 4) && gltf_chunks(&g);
+    if (!failed) failed = json_read(r, &g.j);
+    r->line = 0;
+    if (!failed) failed = gltf_build(&g);
+    m->up_told = m->physical = 1;
+    for (int k = 0; k < GLTF_LISTS; k++) free(g.item[k]);
+    for (uint32_t i = 0; g.buffer && i < g.count[GLTF_BUFFERS]; i++) free(g.buffer[i].owned);
+    free(g.buffer);
+    free(g.parent);
+    free(g.place);
+    free(g.j.value);
+    gather_free(&g.all);
+    return failed;
+}
+#endif

@@ -1,0 +1,217 @@
+/* off.h - reads OFF files of text: OFF with C (colours of vertices), N (normals), ST (texture
+   coordinates, which are skipped), counts, one vertex or face a line, comments; colours behind the
+   corners of faces, as whole numbers to 255 or as fractions with a point.  Polygons may be concave.
+   4OFF, nOFF and OFF BINARY are refused. */
+#ifndef MODEL_OFF_H
+#define MODEL_OFF_H
+
+#include "faces.h"
+
+typedef struct off_data {
+    mesh_floats position, color; /* color: of vertices, three each; of those before, where there */
+    mesh_uints tint;             /* of each face: 1 + its red, green and blue, or 0 */
+    mesh_origin origin;
+    faces faces;
+    int has_color, has_normal, tinted;
+} off_data;
+
+/* Moves to the next line with something on it.  Returns 1 where there is none. */
+static inline int off_line(mesh_reader *r)
+{
+    mesh_next_line(r, 0);
+    for (;;) {
+        mesh_skip_lines(r);
+        if (r->at == r->end || *r->at != '#') return r->at == r->end;
+        mesh_next_line(r, 0);
+    }
+}
+
+/* The next number of a line */
+static inline int off_number(mesh_reader *r, double *out)
+{
+    mesh_skip_blanks(r, 0);
+    return mesh_take_double(r, out);
+}
+
+static inline int off_coordinate(mesh_reader *r, double *out)
+{
+    mesh_skip_blanks(r, 0);
+    return mesh_take_coordinate(r, out);
+}
+
+static inline int off_count(mesh_reader *r, double *out)
+{
+    if (off_number(r, out)) return 1;
+    if (*out >= 0 && *out < INT_MAX && *out == floor(*out)) return 0;
+    return mesh_fail(r, "a count is no whole number");
+}
+
+/* The rest of a line as red, green and blue; 0: there are none. */
+static inline int off_color(mesh_reader *r, uint32_t rgb[3])
+{
+    mesh_reader ahead = *r;
+    double value[3];
+    int whole = 1;
+    ahead.error_size = 0;
+    for (int k = 0; k < 3; k++) {
+        const unsigned char *from;
+        mesh_skip_blanks(&ahead, 0);
+        from = ahead.at;
+        if (mesh_take_double(&ahead, &value[k])) return 0;
+        whole &= !memchr(from, '.', (size_t)(ahead.at - from));
+    }
+    for (int k = 0; k < 3; k++) {
+        const double v = whole ? value[k] : 255 * value[k];
+        rgb[k] = (uint32_t)(fmin(255, fmax(0, v)) + 0.5);
+    }
+    return 1;
+}
+
+static inline shade_vec3 off_linear(const uint32_t rgb[3])
+{
+    return shade_linear_from_srgb(
+        shade_v3((float)rgb[0] / 255, (float)rgb[1] / 255, (float)rgb[2] / 255));
+}
+
+static inline int off_vertex(mesh_reader *r, off_data *o)
+{
+    double v[3], unused;
+    uint32_t rgb[3];
+    shade_vec3 c;
+    float place[3];
+    for (int k = 0; k < 3; k++)
+        if (off_coordinate(r, &v[k])) return 1;
+    for (int k = 0; k < 3 && o->has_normal; k++)
+        if (off_coordinate(r, &unused)) return 1;
+    mesh_relative(&o->origin, v, place);
+    if (mesh_push(&o->position, place, 3)) return mesh_fail(r, "out of memory");
+    if (!o->has_color) return 0;
+    if (!off_color(r, rgb)) return mesh_fail(r, "a vertex of COFF has no colour");
+    c = off_linear(rgb);
+    return mesh_push(&o->color, (const float *)&c, 3) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int off_face(mesh_reader *r, off_data *o, double vertices)
+{
+    uint32_t rgb[3], tint = 0;
+    const size_t before = o->faces.triangles;
+    double corners, corner;
+    if (off_count(r, &corners)) return 1;
+    if (faces_begin(&o->faces)) return mesh_fail(r, "out of memory");
+    for (double i = 0; i < corners; i++) {
+        if (off_number(r, &corner)) return 1;
+        if (!(corner >= 0 && corner < vertices) || corner != floor(corner))
+            return mesh_fail(r, "a corner is none of %lu vertices", (unsigned long)vertices);
+        if (faces_corner(&o->faces, (uint32_t)corner)) return mesh_fail(r, "out of memory");
+    }
+    faces_end(&o->faces);
+    if (off_color(r, rgb)) tint = 1 + (rgb[0] << 16 | rgb[1] << 8 | rgb[2]);
+    o->tinted |= tint != 0;
+    if (o->faces.triangles > before && mesh_push_uint(&o->tint, tint))
+        return mesh_fail(r, "out of memory");
+    return mesh_check_triangles(r, o->faces.triangles);
+}
+
+static inline int off_header(mesh_reader *r, off_data *o, double *vertices, double *count)
+{
+    mesh_skip_lines(r);
+    while (r->at < r->end && *r->at == '#') off_line(r);
+    if (r->end - r->at > 2 && r->at[0] == 'S' && r->at[1] == 'T') r->at += 2;
+    o->has_color = r->at < r->end && *r->at == 'C';
+    r->at += o->has_color;
+    o->has_normal = r->at < r->end && *r->at == 'N';
+    r->at += o->has_normal;
+    if (!mesh_take_word(r, "off")) return mesh_fail(r, "expected OFF, found %s", mesh_here(r).text);
+    mesh_skip_blanks(r, 0);
+    if (mesh_take_word(r, "binary")) return mesh_fail(r, "binary OFF is not read");
+    if (mesh_at_word_end(r) && off_line(r)) return mesh_fail(r, "ends before the counts");
+    return off_count(r, vertices) || off_count(r, count);
+}
+
+/* Gives each vertex one for each colour that its faces have, and counts these. */
+static inline int off_paint(off_data *o, size_t *count, mesh_set *made)
+{
+    size_t face = 0;
+    int failed = 0;
+    for (size_t at = 0; at < o->faces.stream.count && !failed; face++) {
+        const size_t corners = o->faces.stream.v[at++];
+        for (size_t k = 0; k < corners && !failed; k++, at++) {
+            const mesh_triple key = { { o->faces.stream.v[at], o->tint.v[face], 0 } };
+            failed = mesh_set_add(made, key, &o->faces.stream.v[at]);
+        }
+    }
+    *count = made->count;
+    return failed;
+}
+
+static inline int off_finish(mesh_reader *r, off_data *o, model *out)
+{
+    static const mesh_set empty;
+    mesh_set made = empty;
+    owned_mesh *m = &out->mesh;
+    size_t n = o->position.count / 3;
+    int failed = 0;
+    r->line = 0;
+    if (!o->faces.triangles) return mesh_fail(r, "no face of it has three corners");
+    if (o->tinted) failed = off_paint(o, &n, &made);
+    m->positions = (float *)malloc((n + 1) * 12);
+    m->normals = (float *)calloc(n + 1, 12);
+    if (o->tinted || o->has_color) m->colors = (float *)malloc((n + 1) * 12);
+    failed |= !m->positions || !m->normals || (!m->colors && (o->tinted || o->has_color));
+    for (size_t i = 0; i < n && !failed; i++) {
+        const size_t vertex = o->tinted ? made.triple[i].k[0] : i;
+        const uint32_t tint = o->tinted ? made.triple[i].k[1] : 0;
+        const uint32_t bits = tint ? tint - 1 : 0xBFBFBFu;
+        const uint32_t rgb[3] = { bits >> 16, bits >> 8 & 255, bits & 255 };
+        const shade_vec3 c = off_linear(rgb);
+        memcpy(m->positions + 3 * i, o->position.v + 3 * vertex, 12);
+        if (!m->colors) continue;
+        if (!tint && o->has_color)
+            memcpy(m->colors + 3 * i, o->color.v + 3 * vertex, 12);
+        else
+            memcpy(m->colors + 3 * i, &c, sizeof c);
+    }
+    free(made.triple);
+    free(made.slot);
+    if (failed) return mesh_fail(r, "out of memory");
+    if (faces_finish(r, &o->faces, out, n)) return 1;
+    mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
+    model_placed(out, &o->origin);
+    return mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int off_read(mesh_reader *r, model *m)
+{
+    static const off_data empty;
+    off_data o = empty;
+    double vertices = 0, count = 0;
+    int failed;
+    model_place(m, &o.origin);
+    failed = off_header(r, &o, &vertices, &count);
+    for (double i = 0; i < vertices + count && !failed; i++) {
+        if (off_line(r))
+            failed = mesh_fail(r, "ends after %lu of %lu vertices and %lu faces", (unsigned long)i,
+                               (unsigned long)vertices, (unsigned long)count);
+        else
+            failed = i < vertices ? off_vertex(r, &o) : off_face(r, &o, vertices);
+    }
+    if (!failed) failed = off_finish(r, &o, m);
+    free(o.position.v);
+    free(o.color.v);
+    free(o.tint.v);
+    faces_free(&o.faces);
+    return failed;
+}
+
+/* 1: the bytes begin as OFF does, behind blanks and comments. */
+static inline int off_begins(const unsigned char *bytes, size_t size)
+{
+    mesh_reader r = { bytes, bytes, bytes + size, "", 1, NULL, 0, NULL, NULL, 0 };
+    mesh_skip_lines(&r);
+    while (r.at < r.end && *r.at == '#') off_line(&r);
+    if (r.end - r.at > 2 && r.at[0] == 'S' && r.at[1] == 'T') r.at += 2;
+    r.at += r.at < r.end && *r.at == 'C';
+    r.at += r.at < r.end && *r.at == 'N';
+    return r.end - r.at > 2 && !memcmp(r.at, "OFF", 3) && mesh_take_word(&r, "off");
+}
+#endif

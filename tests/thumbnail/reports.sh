@@ -1,0 +1,200 @@
+# reports.sh - files as other programs write them, each beside a plain OBJ of the same picture: a
+# wedge of four triangles.  Read by tests/scripts/thumbnail.sh.
+
+wedge="v 0 0 0\nv 2 0 0\nv 0 1.5 0\nv 0 0 1\n"
+faces="f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+mark='\357\273\277'
+ply_head="ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z
+element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+ply_faces="3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+facet() { printf 'facet normal 0 0 0\nouter loop\nvertex %s\nvertex %s\nvertex %s\nendloop\nendfacet\n' "$@"; }
+facets() {
+    facet "0 0 0" "0 1.5 0" "2 0 0"; facet "0 0 0" "2 0 0" "0 0 1"
+    facet "2 0 0" "0 1.5 0" "0 0 1"; facet "0 0 0" "0 0 1" "0 1.5 0"
+}
+# A file says one thing that is left out, and no more.
+said() { [ "$(wc -l <"$T/err")" -eq 1 ] && grep "$1 (left out)" "$T/err"; }
+
+reports() {
+    printf "$wedge$faces" >"$T/wedge.obj"
+    printf "v 1e6 -1e9 3\n${wedge}f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n" >"$T/spare.obj"
+    same "a vertex that no face has, first and far away" wedge.obj spare.obj 0 "--up y"
+    printf "$ply_head${wedge}-7e5 2e8 nan\n$ply_faces" | sed 's/^v //' >"$T/spare.ply"
+    same "in PLY, and it is no number" wedge.obj spare.ply 0 "--up y"
+    check "which is no fault" test ! -s "$T/err"
+    check "its drawing" "$THUMBNAIL" "$T/spare.obj" "$T/a.ppm" --views front --size 200x150
+    mkdir -p "$T/without" && cp "$T/wedge.obj" "$T/without/spare.obj"
+    check "the drawing without it" "$THUMBNAIL" "$T/without/spare.obj" "$T/b.ppm" --views front \
+        --size 200x150
+    check "one drawing" "$T/look" same "$T/a.ppm" "$T/b.ppm" 0
+
+    printf "$mark$wedge$faces" >"$T/mark.obj"
+    same "a byte order mark" wedge.obj mark.obj 0 "--up y"
+    printf "$mark$wedge${faces}v 9 9 9\n" >"$T/mark.obj"
+    same "which hides no vertex" wedge.obj mark.obj 0 "--up y"
+    printf "newmtl r\nKd 1 0 0\n" >"$T/red.mtl"
+    printf "${mark}newmtl r\nKd 1 0 0\n" >"$T/markred.mtl"
+    printf "mtllib red.mtl\nusemtl r\n$wedge$faces" >"$T/red.obj"
+    printf "${mark}mtllib markred.mtl\nusemtl r\n$wedge$faces" >"$T/markred.obj"
+    same "nor a library, nor its first material" red.obj markred.obj 0 "--up y"
+    { printf "$mark"; printf "$ply_head${wedge}0 0 0\n$ply_faces" | sed 's/^v //'; } >"$T/mark.ply"
+    same "in text PLY" wedge.obj mark.ply 0 "--up y"
+    { printf "${mark}solid a\n"; facets; echo endsolid; } >"$T/mark.stl"
+    same "in text STL" wedge.obj mark.stl 0 "--up y"
+
+    printf "v nan nan nan\nv -inf 0 1\n${wedge}f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2
+f 1 3 4\nf 2 3 4\n" >"$T/hole.obj"
+    same "faces with a corner that is nan or inf" wedge.obj hole.obj 0 "--up y"
+    check "are counted" said "hole.obj: 2 faces have corners that are no finite numbers"
+    { echo solid a; facets; facet "nan 0 0" "1 0 0" "0 1 0"; echo endsolid; } >"$T/hole.stl"
+    same "in STL" wedge.obj hole.stl 0 "--up y"
+    check "are counted" said "hole.stl: 1 triangles have corners that are no finite numbers"
+    printf "$ply_head${wedge}inf 0 0\n${ply_faces}3 0 1 4\n" |
+        sed 's/^v //; s/face 4/face 5/' >"$T/hole.ply"
+    same "in PLY" wedge.obj hole.ply 0 "--up y"
+    check "are counted" said "hole.ply: 1 faces have corners that are no finite numbers"
+    printf 'v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n' >"$T/none.obj"
+    bad_model "nothing else" none.obj "none.obj: no face of it has corners that are all finite"
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >"$T/points.obj"
+    printf 'v 0 0 0\nv 1 0 0\nv nan 0 0\nv 0 1 0\n' >"$T/points2.obj"
+    same "a point" points.obj points2.obj 0 "--up y"
+
+    sed 's/^f \([0-9]\) \([0-9]\) \([0-9]\)/f \1\/1 \2\/2 \3\/3/' "$T/wedge.obj" >"$T/bare.obj"
+    same "faces that name a vt where there is none" wedge.obj bare.obj 0 "--up y"
+    check "which is told" said "faces name a vt, and the file has none"
+}
+
+# glTF as text; the fourth corner is moved by what a file adds
+gltf_head='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]'
+gltf_reports() {
+    for k in KHR_draco_mesh_compression EXT_meshopt_compression KHR_texture_basisu \
+        EXT_texture_webp EXT_made_up; do
+        printf '%s,"extensionsRequired":["%s"]}' "$gltf_head" $k >"$T/needs.gltf"
+        bad_model "$k is needed" needs.gltf "needs.gltf: it needs $k, which is not read"
+    done
+    cp "$T/needs.gltf" "$T/needs"
+    bad_model "nor is it drawn under another name" needs "it needs EXT_made_up, which is not read"
+    sed "1s/^/$(printf "$mark")/; s/{/ {\n/" "$T/torus.gltf" >"$T/mark.gltf"
+    same "a byte order mark and line ends" torus.obj mark.gltf 0 "--up y"
+    cp "$T/mark.gltf" "$T/mark"
+    same "no name" torus.obj mark 0 "--up y"
+    sed 's/"asset"/"extensionsUsed":["EXT_made_up"],&/' "$T/torus.gltf" >"$T/used.gltf"
+    same "an extension that is used" torus.obj used.gltf 0 "--up y"
+    check "and not read is told" said "used.gltf: it has EXT_made_up, which is not read"
+    for k in '{' '{"asset":{"version":"2.0"},}' '{"asset":{"version":"2.0"}} 1' "{'asset':1}" \
+        '{"asset":{"version":02}}' '{"asset":"\x"}' '{"asset":nul}'; do
+        printf '%s' "$k" >"$T/wrong.gltf"
+        bad_model "$k" wrong.gltf "wrong.gltf:1: its JSON is wrong: expected"
+    done
+    sed 's/"mesh":0/&,"scale":[1,null,1]/' "$T/torus.gltf" >"$T/scale.gltf"
+    bad_model "a scale that is no number" scale.gltf "scale must be 3 numbers"
+    awk 'BEGIN { for (i = 0; i < 200; i++) printf "["; for (i = 0; i < 200; i++) printf "]" }' \
+        >"$T/deep.gltf"
+    bad_model "200 deep" deep.gltf "its JSON is more than 100 deep"
+    printf '{"asset":{"version":"1.0"}}' >"$T/one.gltf"
+    bad_model "glTF 1" one.gltf "glTF 1.0 is not read, 2 is"
+    printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"count":3,
+        "type":"VEC3","componentType":5126,"bufferView":0}],"bufferViews":[{"buffer":0,
+        "byteLength":36}],"buffers":[{"uri":"../torus.gltf"}]}' "$gltf_head" >"$T/out.gltf"
+    bad_model "a buffer outside of its folder" out.gltf "torus.gltf does not lie beside the model"
+    printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[' >"$T/bomb.gltf"
+    for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30; do
+        printf '{"children":[%d,%d]},' $k $k >>"$T/bomb.gltf"
+    done
+    printf '{"mesh":0}],"meshes":[{"primitives":[]}]}' >>"$T/bomb.gltf"
+    bad_model "nodes that double 30 times" bomb.gltf "more than 100000 nodes"
+}
+
+# What a model of four triangles shows by other formats: its colours, in an OBJ with four materials
+painted() {                     # name, four colours of MTL
+    printf 'newmtl a\nKd %s\nnewmtl b\nKd %s\nnewmtl c\nKd %s\nnewmtl d\nKd %s\n' "$2" "$3" "$4" \
+        "$5" >"$T/$1.mtl"
+    { printf "mtllib $1.mtl\n$wedge"
+        printf 'usemtl a\nf 1 3 2\nusemtl b\nf 1 2 4\nusemtl c\nf 2 3 4\nusemtl d\nf 1 4 3\n'; } \
+        >"$T/$1.obj"
+}
+# file, header, and for each triangle its last two bytes: the wedge as binary STL
+stl_colors() {
+    zero='\000\000\000\000' two='\000\000\000\100' half='\000\000\300\077' one='\000\000\200\077'
+    a=$zero$zero$zero b=$two$zero$zero c=$zero$half$zero d=$zero$zero$one none=$zero$zero$zero
+    printf "%-80.80s" "$2" >"$T/$1"
+    printf "\004\000\000\000$none$a$c$b$3$none$a$b$d$4$none$b$c$d$5$none$a$d$c$6" >>"$T/$1"
+}
+color_reports() {
+    plain="--up y --model lambert --no-shadow"
+    painted four "1 0 0" "0 1 0" "0 0 1" "1 1 0"
+    stl_colors magics.stl "COLOR=@@@@" '\037\000' '\340\003' '\000\174' '\377\003'
+    same "colours of Magics" four.obj magics.stl 2 "$plain"
+    stl_colors viscam.stl "made by hand" '\000\374' '\340\203' '\037\200' '\340\377'
+    same "of VisCAM" four.obj viscam.stl 2 "$plain"
+    stl_colors junk.stl "made by hand" '\000\000' '\022\000' '\377\177' '\000\000'
+    same "words that are no colours" wedge.obj junk.stl 0 "$plain"
+    stl_colors bare.stl "COLOR=@@@@" '\000\000' '\000\000' '\000\000' '\000\000'
+    same "and no words" wedge.obj bare.stl 0 "$plain"
+
+    printf "v 0 0 0 1 0 0\nv 2 0 0 0 1 0\nv 0 1.5 0 0 0 1\nv 0 0 1 1 1 1\n$faces" >"$T/tint.obj"
+    ply_colored() {             # file, names of three properties, the greatest value
+        { printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n'
+            printf 'property float z\n'; printf 'property float %s\n' $2
+            printf 'element face 4\nproperty list uchar int vertex_indices\nend_header\n'
+            printf '0 0 0 %s 0 0\n2 0 0 0 %s 0\n0 1.5 0 0 0 %s\n0 0 1 %s %s %s\n' $3 $3 $3 $3 $3 $3
+            printf "$ply_faces"; } >"$T/$1"
+    }
+    ply_colored rgb.ply "r g b" 1
+    same "colours r g b" tint.obj rgb.ply 0 "$plain"
+    ply_colored bytes.ply "red green blue" 255
+    same "floats to 255" tint.obj bytes.ply 0 "$plain"
+    ply_colored diffuse.ply "diffuse_red diffuse_green diffuse_blue" 1
+    same "diffuse_red" tint.obj diffuse.ply 0 "$plain"
+
+    printf "COFF\n4 4 0\n0 0 0 255 0 0 1\n2 0 0 0 255 0 1\n0 1.5 0 0 0 255 1\n0 0 1 255 255 255 1
+$ply_faces" >"$T/tint.off"
+    same "COFF" tint.obj tint.off 0 "$plain"
+    printf "# wedge\nOFF 4 4 6\n\n$wedge$ply_faces" | sed 's/^v //' >"$T/wedge.off"
+    same "OFF" wedge.obj wedge.off 0 "$plain"
+
+    cp "$T/red.mtl" "$T/one.mtl"
+    printf 'newmtl g\nKd 0 1 0\n' >"$T/two.mtl"
+    printf "mtllib one.mtl two.mtl\nusemtl r\n${wedge}f 1 3 2\nf 1 2 4\nusemtl g\nf 2 3 4\nf 1 4 3\n" \
+        >"$T/names.obj"
+    painted half "1 0 0" "1 0 0" "0 1 0" "0 1 0"
+    same "two names in mtllib" half.obj names.obj 0 "$plain"
+    check "which is no fault" test ! -s "$T/err"
+}
+# a picture of four colours: red, green; blue, yellow
+map_reports() {
+    printf 'P6\n2 2\n255\n\377\000\000\000\377\000\000\000\377\377\377\000' >"$T/quarters.ppm"
+    mkdir -p "$T/inside"
+    printf 'newmtl q\nmap_Kd ../quarters.ppm\n' >"$T/inside/out.mtl"
+    printf "mtllib out.mtl\n${wedge}vt .75 .75\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\n" \
+        >"$T/inside/out.obj"
+    printf 'newmtl q\n' >"$T/inside/bare.mtl"
+    sed 's/out.mtl/bare.mtl/' "$T/inside/out.obj" >"$T/inside/bare.obj"
+    same "a picture outside of the folder is not read" inside/bare.obj inside/out.obj 0 "--up y"
+    check "but told" said "quarters.ppm: it lies outside of the model's folder; --outside reads it"
+    check "asked for, it is" draw inside/out.obj a.ppm --up y --outside
+    check "without a word" test ! -s "$T/err"
+    check "and shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    printf 'newmtl q\nmap_Kd -s 1 1 1 -o .5 0 0 quarters.ppm\n' >"$T/moved.mtl"
+    printf 'newmtl q\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
+    printf "mtllib moved.mtl\n${wedge}vt .25 .25\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 2/1 3/1 4/1
+f 1/1 4/1 3/1\n" >"$T/moved.obj"
+    sed 's/moved.mtl/still.mtl/; s/vt .25/vt .75/' "$T/moved.obj" >"$T/still.obj"
+    same "-o moves the picture" still.obj moved.obj 0 "--up y"
+    check "without a word" test ! -s "$T/err"
+    sed 's/still.mtl/none.mtl/; s/usemtl q//' "$T/still.obj" >"$T/plain.obj"
+    check "plain" draw plain.obj b.ppm --up y
+    check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    printf 'newmtl q\nmap_Kd -s 3 1 -o 0 .5 quarters.ppm\n' >"$T/moved.mtl"
+    sed -i 's/vt .75 .25/vt .75 .75/' "$T/still.obj"
+    same "-s stretches it" still.obj moved.obj 0 "--up y"
+    printf 'ply\nformat ascii 1.0\ncomment TextureFile quarters.ppm\nelement vertex 4
+property float x\nproperty float y\nproperty float z\nelement face 4
+property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header
+0 0 0\n2 0 0\n0 1.5 0\n0 0 1\n' >"$T/corner.ply"
+    for k in "3 0 2 1" "3 0 1 3" "3 1 2 3" "3 0 3 2"; do
+        printf '%s 6 .75 .75 .75 .75 .75 .75\n' "$k" >>"$T/corner.ply"
+    done
+    printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
+    same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
+}
