@@ -8308,8 +8308,6 @@ static int shade__view_by_rows(const shade__survey *s)
     shade__survey q = *s;
     if (!shade__is_transposed(&s->state.view)) return 0;
     q.state.view = shade_mat4_transpose(s->state.view);
-    if (shade__is_transposed(&s->state.projection))
-        q.state.projection = shade_mat4_transpose(s->state.projection);
     return shade__covered(&q) || shade__covered(s);
 }
 
@@ -9309,7 +9307,7 @@ static const char *shade__doubt(const shade__survey *s)
 /* ---- the way through the ladders */
 
 /* Does the advice help by itself, with all else as it is given?  That on lamps behind the surface
-   has been tried. */
+   and on normals of 0 has been proven. */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
@@ -9323,8 +9321,7 @@ static int shade__helps(const shade__survey *seen, const char *why)
         shade__whiten(&q);
         q.mesh.colors = seen->mesh.colors;
         q.white_map = seen->white_map;
-    } else if (why == shade__no_normals) q.mesh.normals = NULL;
-    else if (why == shade__fall_off) shade__light_everywhere(&q);
+    } else if (why == shade__fall_off) shade__light_everywhere(&q);
     else if (why == shade__no_color) shade__light_from_eye(&q);
     else if (why == shade__no_cone) {
         shade__own_lamps(&q);
