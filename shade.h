@@ -8308,6 +8308,8 @@ static int shade__view_by_rows(const shade__survey *s)
     shade__survey q = *s;
     if (!shade__is_transposed(&s->state.view)) return 0;
     q.state.view = shade_mat4_transpose(s->state.view);
+    if (shade__is_transposed(&s->state.projection))
+        q.state.projection = shade_mat4_transpose(s->state.projection);
     return shade__covered(&q) || shade__covered(s);
 }
 
@@ -9094,7 +9096,8 @@ static int shade__highlights_are_wide(shade__survey *q)
 }
 
 /* Does the picture differ, once the camera stands in view alone, and does light take another eye
-   now?  A one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
+   now?  A one-point projection, with w = 1 at the origin of view, is meant to have its eye
+   elsewhere. */
 static int shade__eye_is_astray(shade__survey *q)
 {
     const shade__camera *c = &q->camera;
