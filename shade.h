@@ -8153,7 +8153,7 @@ static void shade__light_from_eye(shade__survey *q)
                                 (float)c->perspective), 0);
 }
 
-/* The lamps lose their cones.   pre: shade__light_everywhere */
+/* The lamps lose their cones.   pre: shade__own_lamps */
 static void shade__open_cones(shade__survey *q)
 {
     for (int i = 0; i < q->state.lighting.light_count; i++)
@@ -9328,7 +9328,7 @@ static int shade__helps(const shade__survey *seen, const char *why)
     else if (why == shade__no_color) shade__light_from_eye(&q);
     else if (why == shade__no_cone) {
         shade__own_lamps(&q);
-        for (int i = 0; i < q.state.lighting.light_count; i++) q.lamp[i].spot_cos_cutoff = -1;
+        shade__open_cones(&q);
     } else return 1;
     return shade__lights_up(&q);
 }
