@@ -7907,7 +7907,7 @@ static int shade__is_stored(const shade_target *t, int x, int y)
     const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * bytes;
     int any = 0;
     for (size_t k = 0; k < bytes - (bytes > 2 ? bytes / 4 : 0); k++) any |= p[k];    /* no alpha */
-    return any;
+    return any != 0;
 }
 
 /* The fragment shader of experiments: it discards what does not count. */
@@ -8124,15 +8124,21 @@ static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flag
     q->lamp[0].position = position;
 }
 
-/* The first of the given lamps, without attenuation and exponent. */
-static void shade__light_everywhere(shade__survey *q)
+/* Copies the first of the given lamps into the survey. */
+static void shade__own_lamps(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
     l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
     q->own_lamps = 1;
-    for (int i = 0; i < l->light_count; i++) {
+    for (int i = 0; i < l->light_count; i++) q->lamp[i] = l->lights[i];
+}
+
+/* The first of the given lamps, without attenuation and exponent. */
+static void shade__light_everywhere(shade__survey *q)
+{
+    shade__own_lamps(q);
+    for (int i = 0; i < q->state.lighting.light_count; i++) {
         shade_light *lamp = &q->lamp[i];
-        *lamp = l->lights[i];
         lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
     }
 }
@@ -8147,7 +8153,7 @@ static void shade__light_from_eye(shade__survey *q)
                                 (float)c->perspective), 0);
 }
 
-/* The lamps lose their cones.   pre: shade__light_everywhere */
+/* The lamps lose their cones.   pre: shade__own_lamps */
 static void shade__open_cones(shade__survey *q)
 {
     for (int i = 0; i < q->state.lighting.light_count; i++)
@@ -8296,6 +8302,17 @@ static int shade__scales_w(const shade_mat4 *m)
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
+/* Is the view transposed, in a way that shows? */
+static int shade__view_by_rows(const shade__survey *s)
+{
+    shade__survey q = *s;
+    if (!shade__is_transposed(&s->state.view)) return 0;
+    q.state.view = shade_mat4_transpose(s->state.view);
+    if (shade__is_transposed(&s->state.projection))
+        q.state.projection = shade_mat4_transpose(s->state.projection);
+    return shade__covered(&q) || shade__covered(s);
+}
+
 static const char *shade__bad_matrix(const shade__survey *s)
 {
     const shade_mat4 *model = &s->state.model, *view = &s->state.view, *p = &s->state.projection;
@@ -8304,7 +8321,7 @@ static const char *shade__bad_matrix(const shade__survey *s)
     if (shade__is_transposed(model))
         return "state.model looks transposed (row-major): its translation belongs in col[3]; pass "
                "it through shade_mat4_transpose.";
-    if (shade__is_transposed(view))
+    if (shade__view_by_rows(s))
         return "state.view looks transposed (row-major): its translation belongs in col[3]; pass "
                "it through shade_mat4_transpose.";
     if (shade__scales_w(model) || shade__scales_w(view))
@@ -8472,6 +8489,8 @@ static int shade__is_beside(shade__survey *q)
     return stats.clipped + stats.rejected == stats.triangles;
 }
 
+static int shade__model_projects(shade__survey *q) { return !shade__is_affine(&q->state.model); }
+
 static int shade__projection_is_none(shade__survey *q)
 {
     return shade__is_rigid(&q->state.projection) && shade__is_beside(q);
@@ -8520,6 +8539,7 @@ static const shade__rung shade__nothing[] = {
     { shade__projection_by_rows,
       "state.projection looks transposed (row-major): its -1 belongs in col[2].w, its "
       "translation in col[3]; pass it through shade_mat4_transpose." },
+    { shade__model_projects, NULL },
     { shade__projection_is_none,
       "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, or no "
       "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
@@ -8604,6 +8624,17 @@ static int shade__shader_discards(shade__survey *q)
     return q->given_stats && q->given_state->fragment && shade__passed(q);
 }
 
+/* Is the depth of all pixels that of the far plane, with this bias or none, so that they never pass
+   a test without equality? */
+static int shade__is_far(const shade__survey *s)
+{
+    const shade_compare test = s->given_state->raster.depth_test;
+    shade__survey q = *s;
+    shade__look_at_all(&q);
+    q.apart = FLT_MIN;
+    return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
+}
+
 /* Without stats the mesh itself may be stored. */
 static int shade__depth_uncleared(shade__survey *q)
 {
@@ -8612,7 +8643,10 @@ static int shade__depth_uncleared(shade__survey *q)
     if (!q->given_stats && shade__covered(q)) return 0;
     shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
     q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
-    return !shade__covered(q);
+    if (shade__covered(q)) return 0;
+
+    q->state.raster.depth_bias = 0;
+    return !shade__is_far(q);
 }
 
 /* Is the mesh hidden in the whole picture, and no detail of a scene? */
@@ -8637,7 +8671,8 @@ static int shade__depth_is_far(shade__survey *q)
 
 static int shade__depth_hides(shade__survey *q)
 {
-    if (!q->given_stats || !shade__all_hidden(q)) return 0;
+    const int hidden = q->given_stats || shade__is_far(q);    /* with the given bias */
+    if (!hidden || !shade__all_hidden(q)) return 0;
     q->apart = 1e-6f;    /* floats are too coarse to tell what is nearer */
     return shade__covered(q) > 0;
 }
@@ -8674,7 +8709,8 @@ static int shade__is_inside_out(const shade__survey *s)
     shade__probe probes[SHADE__PROBES];
     uint32_t fronts = 0, behind = 0;
     shade__survey q = *s;
-    if (shade__eye_inside(s)) return 0;
+    const int ahead = s->state.projection.col[2].z < 0;    /* depth grows away from the eye */
+    if (shade__eye_inside(s) || (!q.camera.perspective && ahead && q.farthest == 0)) return 0;
     if (q.camera.perspective) q.farthest = (float)!q.camera.reversed;    /* whatever the test is */
     shade__take_probes(&q, SHADE_CULL_NONE, probes);
     for (int k = 0; k < SHADE__PROBES; k++) {
@@ -8718,6 +8754,7 @@ static int shade__lacks_depth(shade__survey *q)
         if (!r->depth_read_only) return 0;
         shade__look_through(q, r->depth_test);
     }
+    if (q->camera.perspective) q->farthest = (float)!q->camera.reversed;    /* of any test */
     shade__take_probes(q, q->state.raster.cull, probes);
     for (int k = 0; k < SHADE__PROBES; k++)
         n += !shade__within(probes[k].last - probes[k].nearest, 1e-6f);
@@ -8808,6 +8845,18 @@ static int shade__material_is_black(shade__survey *q)
 
 static int shade__has_light(shade__survey *q) { return shade__shows(q); }
 
+static const char *const shade__transparent =
+    "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
+    "state.transparency, times that of state.diffuse_map.";
+static const char *const shade__coarse =
+    "state.shading lights vertices or middles of faces, which no light reaches, though it "
+    "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
+static const char *const shade__no_terms =
+    "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
+    "terms, and the model SHADE_MODEL_BLINN_PHONG.";
+static const char *const shade__black_material =
+    "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
+    "or specular, lighting.ambient needs material.ambient; NULL is white.";
 static const char *const shade__behind =
     "Every lamp is behind nine tenths or more of what is in view, on the side that the normals "
     "point away from: turn mesh.normals (without them the winding), move light.position, set "
@@ -8833,23 +8882,15 @@ static const char *const shade__multiply =
 
 /* Changes are kept. */
 static const shade__rung shade__black[] = {
-    { shade__alpha_is_zero,
-      "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
-      "state.transparency, times that of state.diffuse_map." },
-    { shade__shading_is_coarse,
-      "state.shading lights vertices or middles of faces, which no light reaches, though it "
-      "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
+    { shade__alpha_is_zero, shade__transparent },
+    { shade__shading_is_coarse, shade__coarse },
     { shade__has_light, shade__multiply },
     { shade__faces_are_lit, shade__multiply },
-    { shade__terms_are_few,
-      "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
-      "terms, and the model SHADE_MODEL_BLINN_PHONG." },
+    { shade__terms_are_few, shade__no_terms },
     { shade__has_light, shade__multiply },
     { shade__colors_are_black, shade__black_colors },
     { shade__has_light, shade__multiply },
-    { shade__material_is_black,
-      "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
-      "or specular, lighting.ambient needs material.ambient; NULL is white." },
+    { shade__material_is_black, shade__black_material },
     { NULL, NULL }
 };
 
@@ -8932,6 +8973,10 @@ static int shade__cones_miss(shade__survey *q)
 static int shade__sides_show(shade__survey *q)
 {
     q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    q->state.lighting.model = SHADE_MODEL_LAMBERT;
+    q->state.lighting.terms = SHADE_TERM_DIFFUSE;
+    if (q->state.shading == SHADE_SHADING_PER_FACE) q->mesh.normals = NULL;
+    shade__light_fragments(q);
     return shade__count(q, 0.05f) > 0;
 }
 
@@ -9050,8 +9095,9 @@ static int shade__highlights_are_wide(shade__survey *q)
     return shade__count(q, q->dim) < all;
 }
 
-/* Do highlights show, once the camera stands in view alone, and does light take another eye now?  A
-   one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
+/* Does the picture differ, once the camera stands in view alone, and does light take another eye
+   now?  A one-point projection, with w = 1 at the origin of view, is meant to have its eye
+   elsewhere. */
 static int shade__eye_is_astray(shade__survey *q)
 {
     const shade__camera *c = &q->camera;
@@ -9059,6 +9105,7 @@ static int shade__eye_is_astray(shade__survey *q)
     const shade_vec3 eye = shade__single3(c->eye), at = shade__xyz(camera.col[3]);
     shade_lighting *l = &q->state.lighting;
     shade_mat4 frame = shade__frame_of(c);
+    shade__survey given;
     if (c->perspective) frame.col[3] = shade__xyzw(eye, 1);
     if (l->flags & SHADE_FLAG_INFINITE_VIEWER
             ? shade_dot(shade__xyz(camera.col[2]), shade__xyz(frame.col[2])) >= 0
@@ -9067,11 +9114,13 @@ static int shade__eye_is_astray(shade__survey *q)
         return 0;
     if (l->terms && !(l->terms & SHADE_TERM_SPECULAR)) return 0;
     shade__look_at_all(q);
-    l->terms = SHADE_TERM_SPECULAR;
+    given = *q;
     q->state.view = shade__mat4_product(&q->state.view, &frame);
     q->state.projection = shade__mat4_product(&q->state.projection, &q->state.view);
     q->state.view = shade_mat4_inverse(frame);
-    return shade__shows(q);
+    for (float least = 0.5f; least > 0.03f; least *= 0.7f)
+        if (shade__count(q, least) != shade__count(&given, least)) return 1;
+    return 0;
 }
 
 static const shade__rung shade__wrong_light[] = {
@@ -9260,14 +9309,27 @@ static const char *shade__doubt(const shade__survey *s)
 
 /* ---- the way through the ladders */
 
-/* Does what is said of the lamps help by itself, with the surface as it is given? */
+/* Does the advice help by itself, with all else as it is given?  That on lamps behind the surface
+   and on normals of 0 has been proven. */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
-    if (why != shade__fall_off && why != shade__no_cone && why != shade__no_color) return 1;
-    shade__light_everywhere(&q);
-    if (why == shade__no_cone) shade__open_cones(&q);
-    if (why == shade__no_color) shade__light_from_eye(&q);
+    if (why == shade__transparent) q.state.raster.blend = SHADE_BLEND_REPLACE;
+    else if (why == shade__coarse) shade__light_fragments(&q);
+    else if (why == shade__no_terms) return shade__terms_are_few(&q);
+    else if (why == shade__black_colors) {
+        q.mesh.colors = NULL;
+        q.white_map = 1;
+    } else if (why == shade__black_material) {
+        shade__whiten(&q);
+        q.mesh.colors = seen->mesh.colors;
+        q.white_map = seen->white_map;
+    } else if (why == shade__fall_off) shade__light_everywhere(&q);
+    else if (why == shade__no_color) shade__light_from_eye(&q);
+    else if (why == shade__no_cone) {
+        shade__own_lamps(&q);
+        shade__open_cones(&q);
+    } else return 1;
     return shade__lights_up(&q);
 }
 
@@ -9282,23 +9344,40 @@ static const char *shade__why_black(const shade__survey *seen)
     return shade__helps(seen, why) ? why : shade__multiply;
 }
 
+/* Is all dark that the mesh may show, or black in the caller's picture?  A channel of least is not
+   dark. */
+static int shade__is_dark(const shade__survey *seen, float least)
+{
+    shade__survey q = *seen;
+    if ((!q.whole && shade__is_band(q.target)) || shade__black_is_meant(&q)) return 0;
+    if (!q.exact && !q.given_stats && !shade__passed(seen)) return 0;
+    if (!q.exact) shade__look_in_clip(&q);
+    q.stored = 1;
+    return !shade__count(&q, least);
+}
+
 /* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */
 static const char *shade__why_wrong(const shade__survey *s)
 {
-    shade__survey seen = *s;
+    shade__survey seen = *s, q;
     const char *why = shade__climb(s, shade__picture);
     shade__look_at_seen(&seen);
     if (why || !s->target->color || !shade__covered(&seen)) return why;
     if (s->given_state->fragment) {
-        seen.stored = 1;
-        return seen.exact && !shade__covered(&seen)
-                   ? "state.fragment leaves all pixels of the mesh black: does it "
-                     "write color for each lane?"
+        return s->given_state->raster.blend != SHADE_BLEND_OVER && shade__is_dark(&seen, 0)
+                   ? "state.fragment leaves all pixels of the mesh black: does it write color for "
+                     "each lane, or discard them?"
                    : NULL;
     }
     if (!shade__shows(&seen)) return shade__why_black(&seen);
     why = shade__climb(&seen, shade__wrong_light);
-    return why ? why : shade__climb_on(&seen, shade__flat);
+    if (why) return why;
+
+    q = seen;
+    why = shade__climb_on(&q, shade__flat);
+    if (!why && shade__is_dark(&seen, seen.dim)) return shade__multiply;
+    shade__lamps_alone(&seen);
+    return shade__helps(&seen, why) ? why : NULL;
 }
 
 static const char *shade__why(const shade__survey *s)
