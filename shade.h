@@ -73,11 +73,11 @@
        >>lines     6872  shade_draw_lines      >>camera    7051  where a draw is seen from
        >>shape     7130  normals, edges        >>chunks    7484  how boxes are made
        >>rays      7649  shade_pick            >>survey    7825  experiments on a draw
-       >>explain   8222  why nothing is seen   >>replay    9347  of lines, pipelines
-       >>image     9690  mipmaps, PPM           >>presets  10006  classic materials
+       >>explain   8228  why nothing is seen   >>replay    9426  of lines, pipelines
+       >>image     9769  mipmaps, PPM           >>presets  10085  classic materials
      Sources
-       >>refs     10082                        >>history  10112
-       >>license  10118
+       >>refs     10161                        >>history  10191
+       >>license  10197
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
