@@ -73,11 +73,11 @@
        >>lines     6872  shade_draw_lines      >>camera    7051  where a draw is seen from
        >>shape     7130  normals, edges        >>chunks    7484  how boxes are made
        >>rays      7649  shade_pick            >>survey    7825  experiments on a draw
-       >>explain   8228  why nothing is seen   >>replay    9426  of lines, pipelines
-       >>image     9769  mipmaps, PPM           >>presets  10085  classic materials
+       >>explain   8228  why nothing is seen   >>replay    9427  of lines, pipelines
+       >>image     9770  mipmaps, PPM           >>presets  10086  classic materials
      Sources
-       >>refs     10161                        >>history  10191
-       >>license  10197
+       >>refs     10162                        >>history  10192
+       >>license  10198
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8430,10 +8430,10 @@ static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
 
 /* ---- no pixel of the whole picture shows the mesh */
 
-static const char *const shade__left_out =
+static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
     "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
-static const char *const shade__wrong_box =
+static const char shade__wrong_box[] =
     "A box of mesh.chunks does not hold its triangles, which may vanish: make the chunks again "
     "with shade_mesh_chunks after the positions have changed.";
 
@@ -8761,7 +8761,7 @@ static int shade__lacks_depth(shade__survey *q)
     return n > 0;
 }
 
-static const char *const shade__inward =
+static const char shade__inward[] =
     "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
     "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
     "raster.cull.";
@@ -8845,38 +8845,38 @@ static int shade__material_is_black(shade__survey *q)
 
 static int shade__has_light(shade__survey *q) { return shade__shows(q); }
 
-static const char *const shade__transparent =
+static const char shade__transparent[] =
     "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
     "state.transparency, times that of state.diffuse_map.";
-static const char *const shade__coarse =
+static const char shade__coarse[] =
     "state.shading lights vertices or middles of faces, which no light reaches, though it "
     "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
-static const char *const shade__no_terms =
+static const char shade__no_terms[] =
     "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
     "terms, and the model SHADE_MODEL_BLINN_PHONG.";
-static const char *const shade__black_material =
+static const char shade__black_material[] =
     "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
     "or specular, lighting.ambient needs material.ambient; NULL is white.";
-static const char *const shade__behind =
+static const char shade__behind[] =
     "Every lamp is behind nine tenths or more of what is in view, on the side that the normals "
     "point away from: turn mesh.normals (without them the winding), move light.position, set "
     "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside of the mesh?";
-static const char *const shade__black_colors =
+static const char shade__black_colors[] =
     "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
     "check mesh.texcoords and the picture.";
-static const char *const shade__no_normals =
+static const char shade__no_normals[] =
     "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
     "shade_mesh_normals, or make mesh.normals NULL.";
-static const char *const shade__fall_off =
+static const char shade__fall_off[] =
     "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
     "constant, linear or quadratic, or raise the light's diffuse and specular.";
-static const char *const shade__no_cone =
+static const char shade__no_cone[] =
     "No cone of the lights shows in what is in view; check spot_direction and spot_cos_cutoff, "
     "the cosine of an angle in radians.";
-static const char *const shade__no_color =
+static const char shade__no_color[] =
     "The lights have no colour, or too little for what is in view: their diffuse is dark or "
     "meets it at a flat angle, and no highlight reaches the eye.";
-static const char *const shade__multiply =
+static const char shade__multiply[] =
     "What is in view is black or almost: state.material, mesh.colors, the map, alpha, "
     "lighting.terms and the lights multiply, and several of them may be at fault.";
 
@@ -8964,9 +8964,10 @@ static int shade__lamps_fall_off(shade__survey *q)
 
 static int shade__cones_miss(shade__survey *q)
 {
-    const int shows = shade__bright(q);
+    shade__survey white = *q;
+    shade__paint_lamps(&white, shade_v3(1, 1, 1));
     shade__open_cones(q);
-    return !shows && shade__bright(q) && shade__lights_up(q);
+    return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
 }
 
 /* Is there light after all, which meets the surface at no flat angle? */
