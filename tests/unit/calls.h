@@ -477,8 +477,8 @@ static const world_call world_calls[] = {
     { "shade_draw_lines", "depth_read_only", call_draw_lines, depth_read_only,
       "target, points, line_state, depth", "color, stats" },
     { "shade_explain", "", call_explain, drawn,
-      "target, mesh, positions, normals, texcoords, colors, indices, chunks, state, material, "
-      "lights, map, texels, mipmaps, mipmap_texels, depth, stats", "" },
+      "target, color, mesh, positions, normals, texcoords, colors, indices, chunks, state, "
+      "material, lights, map, texels, mipmaps, mipmap_texels, depth, stats", "" },
     { "shade_explain_draw", "", call_explain_draw, none,
       "target, pipeline, clip, indices, map, depth, stats", "" },
     { "shade_explain_lines", "", call_explain_lines, none,
