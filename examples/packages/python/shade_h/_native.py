@@ -38,7 +38,7 @@ class Mesh(Structure):
                 ("normal_stride", c_int), ("texcoords", c_void_p), ("texcoord_stride", c_int),
                 ("colors", c_void_p), ("color_stride", c_int), ("vertex_count", c_int),
                 ("indices", c_void_p), ("index_count", c_int), ("chunks", c_void_p),
-                ("chunk_count", c_int)]
+                ("chunk_count", c_int), ("indices16", c_void_p)]
 
 
 class Material(Structure):

@@ -100,10 +100,10 @@ def _look(run: Any, image: Any) -> Surface:
         return Surface(None, image, run.transparency > 0, opacity,
                        0.5 if holes and not run.transparency else 0.0)
     k = run.material
-    vectors = (tuple(getattr(k, name)[:]) for name in ("emission", "ambient", "diffuse",
-                                                       "specular"))
-    return Surface(Material(*vectors, k.shininess), image, bool(run.blended), opacity,
-                   run.alpha_cutoff if holes else 0.0, (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
+    material = Material(tuple(k.emission[:]), tuple(k.ambient[:]), tuple(k.diffuse[:]),
+                        tuple(k.specular[:]), k.shininess)
+    return Surface(material, image, bool(run.blended), opacity, run.alpha_cutoff if holes else 0.0,
+                   (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
 
 
 def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:

@@ -330,7 +330,8 @@ class Mesh:
     def _used(self, rows: Array) -> Array:
         used = np.zeros(len(rows), bool)
         used[self.faces.reshape(-1)] = True
-        return rows if used.all() else rows[used]
+        out: Array = rows if used.all() else rows[used]
+        return out
 
     def native(self, piece: Piece | None = None) -> Any:
         """The struct of the library, which points into this mesh: all of it, or a piece."""
