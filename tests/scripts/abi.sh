@@ -82,6 +82,9 @@ of_history() {                  # first line of the commit after it, list of has
     check "lessons" same "$(ls "$T/$3"/examples/[0-9]*.c | wc -l)" "$3"
     for source in "$T/$3"/examples/[0-9]*.c; do
         picture=${source##*/} picture=${picture%.c}.ppm
+        case $picture in 16_ray_cast.ppm | 37_rays.ppm)
+            continue ;;         # rays have been rounded once, from double, since 1.3
+        esac
         check "$picture before \"$1\"" draws "$source" "$T/$3/examples" "$2" "$picture"
     done
 }
