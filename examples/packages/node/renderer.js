@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture, of shade_mesh and of shade_light
-const OBJECT = 28, SHOT = 67, MESH = 13, LIGHT = 21;
+const OBJECT = 28, SHOT = 67, MESH = 14, LIGHT = 21;
 const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
@@ -120,7 +120,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const made = withMemory((room) => {
                 const at = arrays.map((array) => (array ? put(room(array.byteLength || 4), array) : 0));
                 const ask = Uint32Array.of(at[0], 0, at[1], 0, at[2], 0, 0, 0, vertices, at[4],
-                                           indices.length, 0, 0);
+                                           indices.length, 0, 0, 0);
                 return library.scene_mesh(this.#scene, put(room(4 * MESH), ask), kind === "smooth" ? 1 : 0);
             });
             if (made < 0) throw new RangeError("memory is not enough for the mesh");
