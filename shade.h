@@ -3295,7 +3295,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 /*------------------------------------------------------------------------------------------ >>state
    The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB
    at the defaults, the queue 12.4 and the batch 8.8 of these.  bench/stack.c measures whole calls:
-   a lit mesh with a map takes 44.7 kB where triangles are clipped, 47.1 kB with clang.
+   a lit mesh with a map takes 44.9 kB where triangles are clipped, 47.4 kB with clang.
 
      plan      >>drive       fixed before the first triangle, read by all stages
      supply    >>drive       the triangles that are still to come
