@@ -4327,7 +4327,7 @@ typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
     int      lane;                    /* of the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
-    shade__edges edges;               /* the steps; and e, set by shade__cover_narrow */
+    shade__edges edges;               /* the steps; and e, set by shade__cover_columns */
     float    x_ref, y_ref;
     float    z0, zx, zy, z_low, z_high;
 } shade__triangle;
@@ -5860,7 +5860,7 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
 
 /* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  A new mode needs
    its sum here, its number in shade__raster_fault, the effect of alpha on the colours of meshes in
-   shade__mesh_alpha, and in shade__why_dark whether black may be meant. */
+   shade__mesh_alpha, and in shade__black_is_meant whether black may be meant. */
 SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba,
                                 shade__out stored)
 {
