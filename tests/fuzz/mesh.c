@@ -140,7 +140,7 @@ static int mesh_lighting(fuzz_input *in, mesh_scene *s, float most)    /* 0: ref
 {
     shade_lighting *l = &s->s.lighting;
     uint32_t kind = fuzz_byte(in);
-    int bad = 0;
+    int bad = 0, no_cutoff = 0;
     l->model = (shade_model)fuzz_enum(in, 6, &bad);
     l->flags = fuzz_byte(in);
     l->terms = kind & 1 ? fuzz_byte(in) : 0;
@@ -149,8 +149,12 @@ static int mesh_lighting(fuzz_input *in, mesh_scene *s, float most)    /* 0: ref
     if (kind & 8) l->warm = fuzz_vec3(in, most > 0 ? 100.0f : 0);
     l->light_count = fuzz_int(in, 0, MESH_LIGHTS);
     l->lights = s->lights;
-    for (int i = 0; i < l->light_count; i++) s->lights[i] = mesh_light(in, most);
+    for (int i = 0; i < l->light_count; i++) {
+        s->lights[i] = mesh_light(in, most);
+        no_cutoff |= s->lights[i].spot_cos_cutoff != s->lights[i].spot_cos_cutoff;
+    }
     if (kind == 0xF0) l->light_count = -l->light_count;
+    bad |= no_cutoff && l->light_count > 0;
     if ((kind & 0xF0) == 0xE0) {
         l->lights = NULL;
         bad |= l->light_count > 0;

@@ -297,8 +297,10 @@ CALL(call_encode_ppm)
     unsigned sum = 0;
     return (int)shade_encode_ppm(sink, &sum, w->target) || !sum;
 }
+#ifndef SHADE_NO_STDIO
 /* Where there are pages there is /dev/null. */
 CALL(call_write_ppm) { return (int)shade_write_ppm("/dev/null", w->target); }
+#endif
 CALL(call_resolve) { return (int)shade_resolve(w->target, w->in, 2); }
 CALL(call_sample) { return !(shade_sample(w->map, 0.3f, 0.6f, 0.5f).w > 0); }
 CALL(call_sample_lanes)
@@ -438,8 +440,10 @@ static const world_call world_calls[] = {
       "target", "color, depth" },
     { "shade_encode_ppm", "", call_encode_ppm, none,
       "target, color", "" },
+#ifndef SHADE_NO_STDIO
     { "shade_write_ppm", "", call_write_ppm, none,
       "target, color", "" },
+#endif
     { "shade_resolve", "", call_resolve, none,
       "target, in, samples", "color" },
     { "shade_sample", "", call_sample, none,

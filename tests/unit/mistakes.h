@@ -334,11 +334,16 @@ MISTAKE(positions_of_doubles)
         memcpy(s->position + 2 * i, wide, sizeof wide);
     }
 }
+/* In hundredths.  0 for what is no number: the mistake may be made of a mesh that has one. */
+static inline int32_t stage_hundredths(float f)
+{
+    return f > -1e6f && f < 1e6f ? (int32_t)(f * 100) : 0;
+}
 MISTAKE(positions_of_integers)
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) {
-        const int32_t p[3] = { (int32_t)(s->position[i].x * 100), (int32_t)(s->position[i].y * 100),
-                               (int32_t)(s->position[i].z * 100) };
+        const shade_vec3 q = s->position[i];
+        const int32_t p[3] = { stage_hundredths(q.x), stage_hundredths(q.y), stage_hundredths(q.z) };
         memcpy(s->position + i, p, sizeof p);
     }
 }

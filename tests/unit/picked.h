@@ -87,7 +87,7 @@ typedef struct ray_camera {
     int ortho, reversed; /* infinite, z to [0, w] */
 } ray_camera;
 
-enum { RAY_WIDTH = 80, RAY_HEIGHT = 60, RAY_TRIANGLES = 400 };
+enum { RAY_WIDTH = 80, RAY_HEIGHT = 60, RAY_TRIANGLES = 800 };
 
 typedef struct ray_scene {
     shade_vec3 position[3 * RAY_TRIANGLES], normal[3 * RAY_TRIANGLES], color[3 * RAY_TRIANGLES];
