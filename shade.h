@@ -7,7 +7,7 @@
    fragment shaders to see it with.  It allocates nothing, keeps no global state, starts no threads
    and draws into memory that you own.  Every compiler and processor produces the same pixels, to
    the bit, because all arithmetic is IEEE single and double precision and is never contracted;
-   shaders of yours need -ffp-contract=off for that (>>config, "Fast math").
+   shaders of yours need -ffp-contract=off for that (>>plumbing, "Fast math").
 
    To use it, write in exactly one C or C++ file
 
@@ -50,34 +50,35 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     123  options               >>types      215  materials, lamps, targets, states
-       >>plumbing   390  compilers             >>light      549  the equation and its terms
-       >>draw       675  meshes and pixels     >>math       971  vectors and matrices
+       >>config     124  options               >>types      251  materials, lamps, targets, states
+       >>light      428  the equation, colour  >>draw       533  shaders, meshes, pixels
+       >>tools      683  why, lines, rays, ... >>plumbing   856  compilers, flags and bits
+       >>math       988  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1331  processors            >>base      1556  bits, masks, rows of vectors
-       >>matrix    1781  cameras, inverses     >>power     2075  x^n
-       >>pixels    2141  formats, sRGB
+       >>machine   1348  processors            >>base      1573  bits, masks, rows of vectors
+       >>matrix    1798  cameras, inverses     >>power     2092  x^n
+       >>pixels    2158  formats, sRGB
      Inside: light
-       >>lamps     2417  attenuation, cones    >>terms     2681  one term at one point
-       >>surface   2763  material and lights   >>lit       2884  the whole sum, at many points
+       >>lamps     2434  attenuation, cones    >>terms     2698  one term at one point
+       >>surface   2780  material and lights   >>lit       2901  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3295  who owns what         >>vertices  3501  shading, projection
-       >>triangles 3720  dropped, cut, edges   >>clip      4098  near, far, behind the eye
-       >>tiles     4294  pixels, depth test    >>cover     4663  what is hidden, tile by tile
-       >>fragments 4938  interpolation, lod    >>texture   5233  texels, mipmaps
-       >>store     5693  blending, packing
+       >>state     3312  who owns what         >>vertices  3518  shading, projection
+       >>triangles 3737  dropped, cut, edges   >>clip      4115  near, far, behind the eye
+       >>tiles     4311  pixels, depth test    >>cover     4680  what is hidden, tile by tile
+       >>fragments 4955  interpolation, lod    >>texture   5250  texels, mipmaps
+       >>store     5710  blending, packing
      Inside: calls of the renderer
-       >>check     5929  refusals              >>seen      6148  what can be seen, chunks
-       >>drive     6285  shade_draw            >>mesh      6466  shade_draw_mesh
+       >>check     5946  refusals              >>seen      6165  what can be seen, chunks
+       >>drive     6302  shade_draw            >>mesh      6483  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6872  shade_draw_lines      >>camera    7051  where a draw is seen from
-       >>shape     7130  normals, edges        >>chunks    7484  how boxes are made
-       >>rays      7649  shade_pick            >>survey    7825  experiments on a draw
-       >>explain   8228  why nothing is seen   >>replay    9427  of lines, pipelines
-       >>image     9770  mipmaps, PPM           >>presets  10086  classic materials
+       >>lines     6889  shade_draw_lines      >>camera    7068  where a draw is seen from
+       >>shape     7147  normals, edges        >>chunks    7501  how boxes are made
+       >>rays      7666  shade_pick            >>survey    7842  experiments on a draw
+       >>explain   8245  why nothing is seen   >>replay    9444  of lines, pipelines
+       >>image     9787  mipmaps, PPM           >>presets  10103  classic materials
      Sources
-       >>refs     10162                        >>history  10192
-       >>license  10198
+       >>refs     10179                        >>history  10209
+       >>license  10215
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -148,26 +149,6 @@
 
    You may define any macro whose name is one capital letter; in files without the implementation
    also e, g, i, j, o and q.
-
-   Fast math.  From gcc the implementation has the same bits with -ffast-math, -Ofast and their
-   parts.  clang cannot be told to keep them: the implementation refuses -ffast-math and
-   -ffinite-math-only.  clang does not report the other parts, nor -ffp-contract=fast, which
-   overrides the pragmas of >>plumbing: do not use them.  A program linked with -ffast-math flushes
-   denormal numbers to zero; only SHADE_FORMAT_RGBA32F and exponents far below 1 show it.
-     Inline functions are compiled into your files.  They have the same bits under all flags but
-   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
-   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
-     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
-   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
-   give the same bits everywhere with -ffp-contract=off.
-
-   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
-   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
-   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
-
-   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
-   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
-   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
                                                                                           >>types */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
 /* The one error inside a namespace, where these headers would declare their types. */
@@ -212,8 +193,63 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
 #define SHADE_NO_DISPATCH
 #endif
 
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE__GNU
+#define SHADE__ALWAYS_INLINE inline __attribute__((always_inline))
+#define SHADE__UNUSED __attribute__((unused))
+#define SHADE__64_BYTES __attribute__((aligned(64)))
+#elif defined(_MSC_VER)
+#define SHADE__ALWAYS_INLINE __forceinline
+#define SHADE__UNUSED
+#define SHADE__64_BYTES __declspec(align(64))
+#else
+#define SHADE__ALWAYS_INLINE inline
+#define SHADE__UNUSED
+#define SHADE__64_BYTES
+#endif
+
+#ifndef SHADEDEF
+#ifdef SHADE_STATIC
+#define SHADEDEF SHADE__UNUSED static
+#else
+#define SHADEDEF extern
+#endif
+#endif
+
+#if defined(__cplusplus) || defined(_MSC_VER)
+#define SHADE_RESTRICT __restrict
+#else
+#define SHADE_RESTRICT restrict
+#endif
+
+/* Rows of packets are aligned to the widest vector.  Unaligned vectors straddle two cache lines,
+   which costs 4 % of a lit floor and 12 % of a flat fill in cache.  Small packets are made for
+   small stacks and stay unaligned.  Packets are passed by pointer: MSVC for 32-bit x86 refuses
+   aligned parameters (C2719), and inlines no function that has one. */
+#if SHADE_LANES < 64
+#define SHADE_ALIGNED
+#else
+#define SHADE_ALIGNED SHADE__64_BYTES
+#endif
+
+/* MSVC's /W4 warns of constant conditions (4127) and of the padding of SHADE_ALIGNED (4324). */
+#ifdef _MSC_VER
+#define SHADE__QUIET __pragma(warning(push, 3))
+#define SHADE__LOUD __pragma(warning(pop))
+#else
+#define SHADE__QUIET
+#define SHADE__LOUD
+#endif
+#ifdef __cplusplus
+#define SHADE__OPEN SHADE__QUIET extern "C" {
+#define SHADE__CLOSE } SHADE__LOUD
+#else
+#define SHADE__OPEN SHADE__QUIET
+#define SHADE__CLOSE SHADE__LOUD
+#endif
+
 /*------------------------------------------------------------------------------------------ >>types
-   Plain structs, passed by value.  Where a field has a default, zero is the default. >>plumbing */
+   Plain structs, passed by value.  Where a field has a default, zero is the default.    >>light */
 
 typedef struct shade_vec2 { float x, y; } shade_vec2;
 typedef struct shade_vec3 { float x, y, z; } shade_vec3;
@@ -387,164 +423,7 @@ typedef struct shade_stats {
     long long fragments;         /* pixels in the clip rectangle that passed the depth test */
 } shade_stats;
 
-/*--------------------------------------------------------------------------------------- >>plumbing
-   What declarations and inline functions need of compilers.                              >>light */
-
-/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
-   once did; SHADE__BEGIN turns that off for this file. */
-#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
-#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
-#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
-s390x: -std=gnu99 or -fexcess-precision=fast"
-#else
-#define SHADE__EVAL_FLOAT
-#endif
-
-#if defined(__GNUC__) || defined(__clang__)
-#define SHADE__GNU
-#define SHADE__ALWAYS_INLINE inline __attribute__((always_inline))
-#define SHADE__UNUSED __attribute__((unused))
-#define SHADE__64_BYTES __attribute__((aligned(64)))
-#elif defined(_MSC_VER)
-#define SHADE__ALWAYS_INLINE __forceinline
-#define SHADE__UNUSED
-#define SHADE__64_BYTES __declspec(align(64))
-#else
-#define SHADE__ALWAYS_INLINE inline
-#define SHADE__UNUSED
-#define SHADE__64_BYTES
-#endif
-
-/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export what is static.
-   The implementation's are SHADE__INLINE: files with other options have other ones. */
-#define SHADE__INLINE static SHADE__ALWAYS_INLINE
-#ifdef __cplusplus
-#define SHADE__EXPORT SHADE__ALWAYS_INLINE
-#else
-#define SHADE__EXPORT SHADE__INLINE
-#endif
-
-/* Rows of packets are aligned to the widest vector.  Unaligned vectors straddle two cache lines,
-   which costs 4 % of a lit floor and 12 % of a flat fill in cache.  Small packets are made for
-   small stacks and stay unaligned.  Packets are passed by pointer: MSVC for 32-bit x86 refuses
-   aligned parameters (C2719), and inlines no function that has one. */
-#if SHADE_LANES < 64
-#define SHADE_ALIGNED
-#else
-#define SHADE_ALIGNED SHADE__64_BYTES
-#endif
-
-#ifndef SHADEDEF
-#ifdef SHADE_STATIC
-#define SHADEDEF SHADE__UNUSED static
-#else
-#define SHADEDEF extern
-#endif
-#endif
-
-#if defined(__cplusplus) || defined(_MSC_VER)
-#define SHADE_RESTRICT __restrict
-#else
-#define SHADE_RESTRICT restrict
-#endif
-
-/* Compilers fold the builtin with -ffreestanding as well. */
-#ifndef SHADE_MEMCPY
-#ifdef SHADE__GNU
-#define SHADE_MEMCPY __builtin_memcpy
-#else
-#include <string.h>
-#define SHADE_MEMCPY memcpy
-#endif
-#endif
-#ifdef SHADE_NO_LIBM
-#define SHADE__SQRT shade__own_sqrt
-#elif defined(__cplusplus) && defined(SHADE__GNU)
-#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
-#else
-#include <math.h>
-#define SHADE__SQRT sqrtf
-#endif
-
-/* A product in an inline function.  Where the processor has a fused a b + c, gcc fuses the sums of
-   your file, and a product that it inlines there, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  The fused a b + -0 has the bits of a b, and cannot be fused again. */
-#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
-    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
-#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
-#else
-#define SHADE__TIMES(a, b) ((a) * (b))
-#endif
-
-/* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
-   vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
-   they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
-   braces around the whole where it follows an if. */
-#if defined(__clang__)
-#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
-#define SHADE__UNROLL_4
-#elif defined(__GNUC__) && __GNUC__ >= 8
-#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
-#ifdef __OPTIMIZE_SIZE__
-#define SHADE__UNROLL_4
-#else
-#define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
-#endif
-#else
-#define SHADE__NO_UNROLL
-#define SHADE__UNROLL_4
-#endif
-#ifdef __TINYC__
-#define SHADE__COUNTER ptrdiff_t
-#else
-#define SHADE__COUNTER int
-#endif
-#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
-#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
-
-/* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
-   turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
-   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
-   caller to an inlined function: the implementation is exact, and so are the inline functions that
-   it calls; those that you call have SHADE__TIMES.  clang's ?: and calls stay fast; see >>machine.
-   SHADE__END restores the state before, or where clang keeps no stack of states, that of the
-   options.  MSVC restores float_control alone: behind this file contraction stays off, as
-   /fp:precise has it since 2022 and /fp:fast has not.
-   What its warnings of the fourth level speak of, constant conditions (4127) and the padding of
-   SHADE_ALIGNED (4324), is meant. */
-#ifdef __cplusplus
-#define SHADE__OPEN extern "C" {
-#define SHADE__CLOSE }
-#else
-#define SHADE__OPEN
-#define SHADE__CLOSE
-#endif
-#if defined(__clang__) && \
-    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
-     (__clang_major__ >= 16 && defined(__aarch64__)))
-#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
-    _Pragma("clang fp contract(off)") SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
-#elif defined(__clang__)
-#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
-#elif defined(_MSC_VER)
-#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
-    __pragma(fp_contract(off)) __pragma(warning(push, 3)) SHADE__OPEN
-#define SHADE__END SHADE__CLOSE __pragma(warning(pop)) __pragma(float_control(pop))
-#elif defined(__GNUC__)
-#define SHADE__BEGIN _Pragma("GCC push_options") \
-    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
-    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
-    SHADE__EVAL_FLOAT SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
-#else
-#define SHADE__BEGIN SHADE__OPEN
-#define SHADE__END SHADE__CLOSE
-#endif
-
-SHADE__BEGIN
+SHADE__OPEN
 
 /*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Every function is defined
@@ -644,61 +523,24 @@ SHADEDEF float shade_blinn_exponent(float phong_exponent);
    never NaN; its absolute error is below 2e-6 for n up to 1e6. */
 SHADEDEF float shade_power(float x, float n);
 
-/* The classic materials of the OpenGL "teapots" program, with its numbers, which are sRGB values.
-   Use them as they are with a target without srgb; pass them through shade_linear_material for a
-   target with srgb.  Shininess is the last column of the table times 128.        [Kilgard94] */
-typedef enum shade_preset {
-    SHADE_PRESET_EMERALD = 0, SHADE_PRESET_JADE, SHADE_PRESET_OBSIDIAN, SHADE_PRESET_PEARL,
-    SHADE_PRESET_RUBY, SHADE_PRESET_TURQUOISE,
-    SHADE_PRESET_BRASS, SHADE_PRESET_BRONZE, SHADE_PRESET_CHROME, SHADE_PRESET_COPPER,
-    SHADE_PRESET_GOLD, SHADE_PRESET_SILVER,
-    SHADE_PRESET_BLACK_PLASTIC, SHADE_PRESET_CYAN_PLASTIC, SHADE_PRESET_GREEN_PLASTIC,
-    SHADE_PRESET_RED_PLASTIC, SHADE_PRESET_WHITE_PLASTIC, SHADE_PRESET_YELLOW_PLASTIC,
-    SHADE_PRESET_BLACK_RUBBER, SHADE_PRESET_CYAN_RUBBER, SHADE_PRESET_GREEN_RUBBER,
-    SHADE_PRESET_RED_RUBBER, SHADE_PRESET_WHITE_RUBBER, SHADE_PRESET_YELLOW_RUBBER,
-    SHADE_PRESET_COUNT
-} shade_preset;
-/* A preset's material, and its name: "emerald", "black plastic", ...  A preset out of range is
-   white Lambert and its name is "". */
-SHADEDEF shade_material shade_preset_material(shade_preset preset);
-SHADEDEF const char    *shade_preset_name(shade_preset preset);
-
 /* From sRGB to linear light and back, component by component.  Components are clamped to [0, 1],
    NaN counts as 0, and the absolute error is below 4e-6.                              [IEC61966] */
 SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 display);
 SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 linear);
 /* The linear colour of the sRGB colour 0xRRGGBB; the upper 8 bits are ignored. */
 SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
-/* The material with its four colours passed through shade_linear_from_srgb. */
-SHADEDEF shade_material shade_linear_material(shade_material display);
 
 /*------------------------------------------------------------------------------------------- >>draw
    Vertex shader, clipping, rasterization, fragment shader, depth test, blending.  Bad arguments are
    refused before any pixel changes, in this order: NULLs, target, mesh, state, lights, texture,
    indices.  Nothing is ever written outside the target's rows, width and clip rectangle.
-                                                                                           >>math */
+                                                                                          >>tools */
 
 /* What a result means and which fields to look at, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
 /* Fills the clip rectangle of both buffers.  NaN as depth is SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
-
-/* Writes the picture, or the rows of a strip, as a binary PPM ("P6").  RGBA32F is clamped, and
-   encoded where srgb is set.  A sink that returns non-zero ends the call with SHADE_ERROR_IO; a
-   file that could not be written whole stays behind. */
-typedef int shade_write_fn(void *user, const void *bytes, size_t size);
-SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
-                                       const shade_target *target);
-#ifndef SHADE_NO_STDIO
-SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
-#endif
-
-/* Supersampling: each pixel of out becomes the mean of factor x factor pixels of in, in linear
-   light.  in must be factor times as wide and high, and so must row_offset and row_count of its
-   strip; factor is 1 .. 8.  Factor 1 converts formats, and may do so in place where the pixels are
-   of equal size.  Only the clip rectangle of out changes, and depth never. */
-SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
 /* The texture's linear RGBA at u, v.  lod is the level of detail: log2 of texels per pixel.  A
    negative lod counts as 0, and so do NaN and infinity in u, v and lod. */
@@ -707,15 +549,6 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
    not overlap the others. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
-/* The number of mipmaps below the full size, each half as wide and high, rounded down, to 1 x 1;
-   and the bytes that they take, packed tightly.  0 for a size or format that no texture has. */
-SHADEDEF int    shade_mipmap_count(int width, int height);
-SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
-/* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means in
-   linear light, and points the texture at them. */
-SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
-                                          void *memory, size_t bytes);
-
 /* Packets, the arguments of shaders.  Lanes from count on repeat lane count - 1, because shaders
    compute every lane. */
 typedef struct shade_vertex_ids {                 /* vertices to shade */
@@ -840,6 +673,17 @@ enum {
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
+/* 0 only if nothing in the box can reach a pixel of the target's clip rectangle and strip.
+   shade_draw_mesh skips chunks by this test; programs with their own pipelines can skip ranges of
+   indices by it.  It allows for all rounding of transforms and clipping, and for any w.  A zero
+   matrix is the identity.  1 for NaN, for low > high, and for a bad target. */
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
+
+/*------------------------------------------------------------------------------------------ >>tools
+   What calls the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
+                                                                                       >>plumbing */
+
 /* Says in one sentence why a draw gives no picture, or a wrong one, and which field to change; ""
    where nothing is suspicious; never NULL.  Call it after shade_draw_mesh, with the same arguments
    and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
@@ -874,13 +718,6 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
-/* 0 only if nothing in the box can reach a pixel of the target's clip rectangle and strip.
-   shade_draw_mesh skips chunks by this test; programs with their own pipelines can skip ranges of
-   indices by it.  It allows for all rounding of transforms and clipping, and for any w.  A zero
-   matrix is the identity.  1 for NaN, for low > high, and for a bad target. */
-SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
-                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
-
 typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
@@ -967,6 +804,186 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
    and checks the indices of no others. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
+
+/* Writes the picture, or the rows of a strip, as a binary PPM ("P6").  RGBA32F is clamped, and
+   encoded where srgb is set.  A sink that returns non-zero ends the call with SHADE_ERROR_IO; a
+   file that could not be written whole stays behind. */
+typedef int shade_write_fn(void *user, const void *bytes, size_t size);
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
+                                       const shade_target *target);
+#ifndef SHADE_NO_STDIO
+SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
+#endif
+
+/* Supersampling: each pixel of out becomes the mean of factor x factor pixels of in, in linear
+   light.  in must be factor times as wide and high, and so must row_offset and row_count of its
+   strip; factor is 1 .. 8.  Factor 1 converts formats, and may do so in place where the pixels are
+   of equal size.  Only the clip rectangle of out changes, and depth never. */
+SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
+
+/* The number of mipmaps below the full size, each half as wide and high, rounded down, to 1 x 1;
+   and the bytes that they take, packed tightly.  0 for a size or format that no texture has. */
+SHADEDEF int    shade_mipmap_count(int width, int height);
+SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
+/* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means in
+   linear light, and points the texture at them. */
+SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
+                                          void *memory, size_t bytes);
+
+/* The classic materials of the OpenGL "teapots" program, with its numbers, which are sRGB values.
+   Use them as they are with a target without srgb; pass them through shade_linear_material for a
+   target with srgb.  Shininess is the last column of the table times 128.        [Kilgard94] */
+typedef enum shade_preset {
+    SHADE_PRESET_EMERALD = 0, SHADE_PRESET_JADE, SHADE_PRESET_OBSIDIAN, SHADE_PRESET_PEARL,
+    SHADE_PRESET_RUBY, SHADE_PRESET_TURQUOISE,
+    SHADE_PRESET_BRASS, SHADE_PRESET_BRONZE, SHADE_PRESET_CHROME, SHADE_PRESET_COPPER,
+    SHADE_PRESET_GOLD, SHADE_PRESET_SILVER,
+    SHADE_PRESET_BLACK_PLASTIC, SHADE_PRESET_CYAN_PLASTIC, SHADE_PRESET_GREEN_PLASTIC,
+    SHADE_PRESET_RED_PLASTIC, SHADE_PRESET_WHITE_PLASTIC, SHADE_PRESET_YELLOW_PLASTIC,
+    SHADE_PRESET_BLACK_RUBBER, SHADE_PRESET_CYAN_RUBBER, SHADE_PRESET_GREEN_RUBBER,
+    SHADE_PRESET_RED_RUBBER, SHADE_PRESET_WHITE_RUBBER, SHADE_PRESET_YELLOW_RUBBER,
+    SHADE_PRESET_COUNT
+} shade_preset;
+/* A preset's material, and its name: "emerald", "black plastic", ...  A preset out of range is
+   white Lambert and its name is "". */
+SHADEDEF shade_material shade_preset_material(shade_preset preset);
+SHADEDEF const char    *shade_preset_name(shade_preset preset);
+/* The material with its four colours passed through shade_linear_from_srgb. */
+SHADEDEF shade_material shade_linear_material(shade_material display);
+
+SHADE__CLOSE
+
+/*--------------------------------------------------------------------------------------- >>plumbing
+   What inline functions and loops over lanes need of compilers, and what flags do to bits.
+
+   Fast math.  From gcc the implementation has the same bits with -ffast-math, -Ofast and their
+   parts.  clang cannot be told to keep them: the implementation refuses -ffast-math and
+   -ffinite-math-only.  clang does not report the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them.  A program linked with -ffast-math flushes
+   denormal numbers to zero; only SHADE_FORMAT_RGBA32F and exponents far below 1 show it.
+     Inline functions are compiled into your files.  They have the same bits under all flags but
+   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
+   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
+   give the same bits everywhere with -ffp-contract=off.
+
+   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
+   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
+   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
+
+   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
+   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
+   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
+                                                                                           >>math */
+
+/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
+   once did; SHADE__BEGIN turns that off for this file. */
+#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
+#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
+s390x: -std=gnu99 or -fexcess-precision=fast"
+#else
+#define SHADE__EVAL_FLOAT
+#endif
+
+/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export what is static.
+   The implementation's are SHADE__INLINE: files with other options have other ones. */
+#define SHADE__INLINE static SHADE__ALWAYS_INLINE
+#ifdef __cplusplus
+#define SHADE__EXPORT SHADE__ALWAYS_INLINE
+#else
+#define SHADE__EXPORT SHADE__INLINE
+#endif
+
+/* Compilers fold the builtin with -ffreestanding as well. */
+#ifndef SHADE_MEMCPY
+#ifdef SHADE__GNU
+#define SHADE_MEMCPY __builtin_memcpy
+#else
+#include <string.h>
+#define SHADE_MEMCPY memcpy
+#endif
+#endif
+#ifdef SHADE_NO_LIBM
+#define SHADE__SQRT shade__own_sqrt
+#elif defined(__cplusplus) && defined(SHADE__GNU)
+#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
+#else
+#include <math.h>
+#define SHADE__SQRT sqrtf
+#endif
+
+/* A product in an inline function.  Where the processor has a fused a b + c, gcc fuses the sums of
+   your file, and a product that it inlines there, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  The fused a b + -0 has the bits of a b, and cannot be fused again. */
+#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
+#else
+#define SHADE__TIMES(a, b) ((a) * (b))
+#endif
+
+/* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
+   vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
+   they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
+   braces around the whole where it follows an if. */
+#if defined(__clang__)
+#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
+#define SHADE__UNROLL_4
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
+#ifdef __OPTIMIZE_SIZE__
+#define SHADE__UNROLL_4
+#else
+#define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
+#endif
+#else
+#define SHADE__NO_UNROLL
+#define SHADE__UNROLL_4
+#endif
+#ifdef __TINYC__
+#define SHADE__COUNTER ptrdiff_t
+#else
+#define SHADE__COUNTER int
+#endif
+#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
+#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
+
+/* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
+   turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
+   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
+   caller to an inlined function: the implementation is exact, and so are the inline functions that
+   it calls; those that you call have SHADE__TIMES.  clang's ?: and calls stay fast; see >>machine.
+   SHADE__END restores the state before, or where clang keeps no stack of states, that of the
+   options.  MSVC restores float_control alone: behind this file contraction stays off, as
+   /fp:precise has it since 2022 and /fp:fast has not. */
+#if defined(__clang__) && \
+    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
+     (__clang_major__ >= 16 && defined(__aarch64__)))
+#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
+    _Pragma("clang fp contract(off)") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
+#elif defined(__clang__)
+#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
+#elif defined(_MSC_VER)
+#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
+    __pragma(fp_contract(off)) SHADE__OPEN
+#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
+#elif defined(__GNUC__)
+#define SHADE__BEGIN _Pragma("GCC push_options") \
+    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
+    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
+    SHADE__EVAL_FLOAT SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
+#else
+#define SHADE__BEGIN SHADE__OPEN
+#define SHADE__END SHADE__CLOSE
+#endif
+
+SHADE__BEGIN
 
 /*------------------------------------------------------------------------------------------- >>math
    Vectors are inline; the bodies of most matrix functions stand in >>matrix.  Names without a
