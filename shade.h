@@ -50,35 +50,35 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     124  options               >>types      251  materials, lamps, targets, states
-       >>light      428  the equation, colour  >>draw       533  shaders, meshes, pixels
-       >>tools      683  why, lines, rays, ... >>plumbing   856  compilers, flags and bits
-       >>math       988  vectors and matrices
+       >>config     124  options               >>types      250  materials, lamps, targets, states
+       >>light      427  the equation, colour  >>draw       534  shaders, meshes, pixels
+       >>tools      685  why, lines, rays, ... >>plumbing   858  compilers, flags and bits
+       >>math       990  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1348  processors            >>base      1573  bits, masks, rows of vectors
-       >>matrix    1798  cameras, inverses     >>power     2092  x^n
-       >>pixels    2158  formats, sRGB
+       >>machine   1350  processors            >>base      1575  bits, masks, rows of vectors
+       >>matrix    1800  cameras, inverses     >>power     2082  x^n
+       >>pixels    2148  formats, sRGB
      Inside: light
-       >>lamps     2434  attenuation, cones    >>terms     2698  one term at one point
-       >>surface   2780  material and lights   >>lit       2901  the whole sum, at many points
+       >>lamps     2406  attenuation, cones    >>terms     2658  one term at one point
+       >>surface   2733  material and lights   >>lit       2848  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3312  who owns what         >>vertices  3518  shading, projection
-       >>triangles 3737  dropped, cut, edges   >>clip      4115  near, far, behind the eye
-       >>tiles     4311  pixels, depth test    >>cover     4680  what is hidden, tile by tile
-       >>fragments 4955  interpolation, lod    >>texture   5250  texels, mipmaps
-       >>store     5710  blending, packing
+       >>state     3236  who owns what         >>vertices  3441  shading, projection
+       >>triangles 3650  dropped, cut, edges   >>clip      4011  near, far, behind the eye
+       >>tiles     4201  pixels, depth test    >>cover     4562  what is hidden, tile by tile
+       >>fragments 4831  interpolation, lod    >>texture   5119  texels, mipmaps
+       >>store     5565  blending, packing
      Inside: calls of the renderer
-       >>check     5946  refusals              >>seen      6165  what can be seen, chunks
-       >>drive     6302  shade_draw            >>mesh      6483  shade_draw_mesh
+       >>check     5786  refusals              >>seen      6004  what can be seen, chunks
+       >>drive     6136  shade_draw            >>mesh      6312  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6889  shade_draw_lines      >>camera    7068  where a draw is seen from
-       >>shape     7147  normals, edges        >>chunks    7501  how boxes are made
-       >>rays      7666  shade_pick            >>survey    7842  experiments on a draw
-       >>explain   8245  why nothing is seen   >>replay    9444  of lines, pipelines
-       >>image     9787  mipmaps, PPM           >>presets  10103  classic materials
+       >>lines     6688  shade_draw_lines      >>camera    6858  where a draw is seen from
+       >>shape     6936  normals, edges        >>chunks    7290  how boxes are made
+       >>rays      7448  shade_pick            >>survey    7621  experiments on a draw
+       >>explain   8020  why nothing is seen   >>replay    9210  of lines, pipelines
+       >>image     9553  mipmaps, PPM           >>presets   9865  classic materials
      Sources
-       >>refs     10179                        >>history  10209
-       >>license  10215
+       >>refs      9941                        >>history   9971
+       >>license   9977
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -139,8 +139,7 @@
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
                               and leaves assertions out
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
-     SHADE_NO_DISPATCH        builds each loop once, for the processor that the compiler was told
-                              of
+     SHADE_NO_DISPATCH        compiles each hot loop once, for the target of -march
      SHADE_ALLOW_FAST_MATH    lets clang compile the implementation with -ffast-math; the bits
                               change, and NaN may get through
 
@@ -313,10 +312,10 @@ enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The light that falls on a scene, and the equation that surfaces answer with.  Positions, normals
-   and eye must be in one space whose axes are orthogonal and of equal scale: world or eye space,
-   never clip space.  On the outline of a coarse mesh some interpolated normals point away from the
-   viewer; SHADE_FLAG_TWO_SIDED turns them, and specks show there.  A finer mesh has fewer.
+/* The light that falls on a scene, and the equation for what surfaces reflect.  Positions, normals
+   and eye must be in one space with orthogonal axes of equal scale: world or eye space, never clip
+   space.  On the outline of a coarse mesh some interpolated normals point away from the viewer.
+   SHADE_FLAG_TWO_SIDED flips these, which shows as specks; a finer mesh has fewer.
      Unlit: terms SHADE_TERM_AMBIENT and ambient 1, 1, 1 show k_a times vertex colour and map. */
 typedef struct shade_lighting {
     const shade_light *lights;         /* NULL: none; shade_draw_mesh refuses it with a count */
@@ -427,8 +426,8 @@ SHADE__OPEN
 
 /*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Every function is defined
-   for all inputs.  Vectors up to 1e12, with colours up to 1e6, never give NaN or infinity.  Where a
-   vector may have any length, that is 1e-18 to 1e18; a shorter one counts as zero.
+   for all inputs.  Vectors up to 1e12, with colours up to 1e6, never give NaN or infinity.  "Any
+   length" means 1e-18 to 1e18; a shorter vector counts as zero.
 
    Accuracy: the error against exact arithmetic is below
 
@@ -438,13 +437,14 @@ SHADE__OPEN
    coefficients >= 0, k <= 1 and lights up to 1e6, away from the jumps of the equation: N.L, L.S -
    cos(beta) and, with SHADE_FLAG_TWO_SIDED, N.V must differ from 0 by more than 1e-6, and |L + V|
    must exceed 2e-6.  A power with an exponent between 0 and 1 is infinitely steep at 0: its base
-   must differ from 0 by 1e-3.  A lamp whose w is neither 0 nor 1 stands at xyz / w, rounded to
+   must differ from 0 by 1e-3.  A lamp with another w than 0 and 1 stands at xyz / w, rounded to
    floats.                                                                                 >>draw */
 
 /* Lamps of one colour: I_d = I_s = color, no ambient light, no attenuation.  direction_of_travel is
-   the way the light flies, aim is where the lamp points; both may have any length.  cutoff_radians
-   goes from the axis to the edge of the cone, 0 .. pi; any other, 45 for 45 degrees say, makes
-   spot_cos_cutoff a NaN, which draws refuse: SHADE_ERROR_LIGHTS.  exponent is e >= 0. */
+   the direction in which the light travels, aim the direction in which the lamp points; both may
+   have any length.  cutoff_radians is the angle from the axis to the edge of the cone, 0 .. pi.
+   Any other value, for example 45 meant as degrees, gives a spot_cos_cutoff of NaN, which draws
+   refuse with SHADE_ERROR_LIGHTS.  exponent is e >= 0. */
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
@@ -462,10 +462,11 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount);
 
-/* The light that leaves P toward the eye, term by term.  N may have any length; a zero N leaves
-   emission and ambient light, or half of each tone.  eye is the viewer's position, or with
-   SHADE_FLAG_INFINITE_VIEWER the direction toward the viewer.  P, N, eye and the lights are in one
-   space.  material NULL is white Lambert: k_d = k_a = 1.  lighting NULL gives zeros. */
+/* The light that leaves P toward the eye, term by term.  N may have any length.  With N = 0 only
+   emission and ambient light remain; COOL_TO_WARM gives the mean of both tones.  eye is the
+   viewer's position, or with SHADE_FLAG_INFINITE_VIEWER the direction toward the viewer.  P, N, eye
+   and the lights are in one space.  material NULL is white Lambert: k_d = k_a = 1.  lighting NULL
+   gives zeros. */
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
                                     shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
@@ -473,8 +474,8 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
-/* What the lanes of a packet are lit with, as rows of SHADE_LANES floats.  Three rows follow each
-   other in memory: pass in->varying[k], or n[0] of a float n[3][SHADE_LANES]. */
+/* The surface points of a packet, in rows of SHADE_LANES floats.  A vector takes three rows that
+   follow each other: pass in->varying[k], for example, or n[0] of a float n[3][SHADE_LANES]. */
 typedef struct shade_rows {
     const float *position;      /* P: 3 rows, x, y and z */
     const float *normal;        /* N: 3 rows, of any length */
@@ -516,8 +517,8 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
 /* cool + k_w (warm - cool) with k_w = (1 + N.L) / 2.  N and L are unit vectors.      [Gooch98] */
 SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, shade_vec3 cool,
                                        shade_vec3 warm);
-/* 4 n: the Blinn-Phong exponent whose highlight looks like that of Phong's exponent n when the
-   light comes from the viewer's side. */
+/* 4 n: the Blinn-Phong exponent that gives a highlight of about the size of Phong's exponent n when
+   the light comes from the viewer's side. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
 /* x^n.  x is clamped to [0, 1], a negative n counts as 0, and x^0 is 1, 0^0 too.  The result is
    never NaN; its absolute error is below 2e-6 for n up to 1e6. */
@@ -573,8 +574,8 @@ typedef struct shade_fragments {                  /* pixels to shade, of any tri
 } shade_fragments;
 typedef struct shade_colors {
     SHADE_ALIGNED float color[4][SHADE_LANES];    /* linear RGBA, preset to 0, 0, 0, 1 */
-    uint32_t discard[SHADE_LANES];                /* preset to 0; another number keeps the pixel */
-                                                  /* as it was (pipelines need may_discard) */
+    uint32_t discard[SHADE_LANES];                /* preset to 0; any other value discards the */
+                                                  /* fragment (shade_draw needs may_discard) */
 } shade_colors;
 
 /* Shaders work on whole packets: the compiler turns plain loops with SHADE_EACH_LANE into vector
@@ -600,14 +601,15 @@ typedef struct shade_pipeline {
     int                    lod_varying;           /* k: varyings k, k + 1 are its u, v */
 } shade_pipeline;
 
-/* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  A vertex that nearby
-   triangles share is shaded about once.  Facing is decided once per triangle, on the screen.  stats
-   may be NULL.  Without a colour buffer the fragment shader runs only where may_discard is set.
-   A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses: the
-   diagonal of a picture of 16384 rows, of any width, takes less than 1 ms in depth that was just
-   cleared, or 2 ms where its memory has pages of 4 kB, one for each row (make bench).
-   Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
-   those of one thread, to the bit. */
+/* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  Vertices shared by
+   nearby triangles are usually shaded once.  Each triangle is front or back facing as a whole, by
+   its corners on the screen.  stats may be NULL.  Without a colour buffer the fragment shader runs
+   only where may_discard is set.
+     A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses:
+   the diagonal of a picture of 16384 rows, of any width, takes less than 1 ms in depth that was
+   just cleared, or 2 ms where its memory has pages of 4 kB, one for each row (make bench).
+     Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
+   the same as from one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats);
@@ -625,8 +627,8 @@ typedef struct shade_mesh {
 } shade_mesh;
 
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
-   with chunks is drawn and picked chunk after chunk; chunks whose box cannot be seen, or is not met
-   by the ray, are skipped whole.  A triangle in two chunks is drawn twice, one in none is not
+   with chunks is drawn and picked chunk after chunk.  A chunk is skipped whole if its box cannot be
+   seen, or if the ray misses it.  A triangle in two chunks is drawn twice, one in none is not
    drawn, and with chunk_count 0 nothing is.  The library trusts the box: one that is too small
    hides triangles, and does no other harm; one with NaN or low > high is never skipped. */
 typedef struct shade_chunk {
@@ -663,8 +665,8 @@ enum {
    projection, and where the camera looks along +z, as left-handed ones do, the backward axis points
    away from the viewer; negate eye there in a shader of your own.  shade_explain reports both.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
-   blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
-   are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
+   blends by alpha, ADD adds the colour times alpha.  Fragments with an alpha below alpha_cutoff are
+   discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
    the SHADE_VARYING_... above, lod of diffuse_map, and the eye of the equations: pass in->eye to
@@ -706,8 +708,9 @@ SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
-/* Cuts a mesh into chunks of so many triangles (0: 128) and computes their boxes.  Chunks that the
-   mesh already has are ignored; a corner that is NaN or infinite does not count for its box.
+/* Cuts a mesh into chunks of as many triangles as given (0: 128) and computes their boxes.  Chunks
+   that the mesh already has are ignored; a corner that is NaN or infinite does not count for its
+   box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
    where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
@@ -744,8 +747,8 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
                                         shade_vec3 *high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
-   as -w <= x, y <= w allows at all eight corners; near and far are not looked at.  A side of an
-   off-centre one that leaves out the line of sight is ignored.  A projection may turn and move the
+   as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
+   off-centre frustum that exclude the view axis are ignored.  A projection may turn and move the
    eye: the view undoes it, for example with a left-handed one, which looks along +z.  Without
    perspective the eye is one diagonal of the box away.  The identity for NaN, infinity and low >
    high. */
@@ -753,14 +756,14 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
                                    shade_vec3 toward_eye, shade_vec3 up);
 
 /* Fills normals[vertex_count] with the unit mean of the normals of the faces around each vertex,
-   weighted by their angles there.  It is zero for a vertex without faces; faces without area do not
-   count, for corners in a line to the bit.                                           [Thurmer98] */
+   weighted by their angles there.  Faces with all corners exactly on a line do not count.  The
+   normal of a vertex without faces is zero.                                          [Thurmer98] */
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
 /* Fills one normal for each corner of each triangle, index_count of them or, without indices,
-   vertex_count: the mean, as above, over those faces around the corner's position whose normal has
-   a cosine of at least cos_crease with that of the corner's own face.  Vertices of equal position
-   count as one.  Time grows with the square of the number of faces around a position.  memory must
-   be aligned to 4 and have shade_mesh_corner_normals_bytes, which is 0 for a bad mesh. */
+   vertex_count: the mean, as above, over the faces around the corner's position that turn by at
+   most the crease angle, n . n_face >= cos_crease, from the corner's own face.  Vertices of equal
+   position count as one.  Time grows with the square of the number of faces around a position.
+   memory must be aligned to 4 and have the bytes of the first call, which are 0 for a bad mesh. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
@@ -791,17 +794,16 @@ typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
 /* 1 if the ray meets the triangle, from either side: at origin + t direction with t >= 0, which is
-   barycentric.x a + barycentric.y b + barycentric.z c.  Corners in a line to the bit are never hit.
-   t and barycentric may be NULL.
-                                                                                      [Moller97] */
+   barycentric.x a + barycentric.y b + barycentric.z c.  A triangle with all corners exactly on a
+   line is never hit.  t and barycentric may be NULL.                                 [Moller97] */
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric);
 /* The index of the nearest triangle of a mesh that a world-space ray meets, in the sense of
    shade_intersect; ties go to the lowest index.  model places the mesh (zero: identity).
    Degenerate triangles are never hit, nor is a point that rounding puts outside of its triangle's
    box.  -1: no triangle is hit, or the mesh is bad; *t and *barycentric do not change then.  Either
-   may be NULL.  The call looks at every triangle, or with chunks at those whose box the ray meets,
-   and checks the indices of no others. */
+   may be NULL.  The call looks at every triangle, or with chunks at the triangles of each box that
+   the ray meets; indices of other triangles are not checked. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 
@@ -821,8 +823,8 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
    of equal size.  Only the clip rectangle of out changes, and depth never. */
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
-/* The number of mipmaps below the full size, each half as wide and high, rounded down, to 1 x 1;
-   and the bytes that they take, packed tightly.  0 for a size or format that no texture has. */
+/* The number of levels below the full size (each halves both sides, rounding down, until 1 x 1),
+   and the bytes they need, tightly packed.  0 for an invalid size or format. */
 SHADEDEF int    shade_mipmap_count(int width, int height);
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
 /* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means in
@@ -888,7 +890,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__EVAL_FLOAT
 #endif
 
-/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export what is static.
+/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
    The implementation's are SHADE__INLINE: files with other options have other ones. */
 #define SHADE__INLINE static SHADE__ALWAYS_INLINE
 #ifdef __cplusplus
@@ -955,10 +957,10 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
    processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
    caller to an inlined function: the implementation is exact, and so are the inline functions that
-   it calls; those that you call have SHADE__TIMES.  clang's ?: and calls stay fast; see >>machine.
-   SHADE__END restores the state before, or where clang keeps no stack of states, that of the
-   options.  MSVC restores float_control alone: behind this file contraction stays off, as
-   /fp:precise has it since 2022 and /fp:fast has not. */
+   it calls; those that you call have SHADE__TIMES.  clang still applies -ffast-math to ?: and to
+   calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
+   where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
+   contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
 #if defined(__clang__) && \
     ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
      (__clang_major__ >= 16 && defined(__aarch64__)))
@@ -1803,16 +1805,14 @@ SHADEDEF const char *shade_result_string(shade_result result)
 /* Sine and cosine.  The argument is reduced to r = x - k pi/2: pi/2 is the sum of two parts, the
    higher of 33 bits, so that k times it is exact and r off by 1e-16 up to |k| = 2^20; beyond, r is
    off by 2^-53 of x, far less than the distance of two floats.  Floats beyond 1e9 lie 64 or more
-   apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow, whose next
+   apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow; their next
    terms are below 5e-17. */
-static SHADE__COLD void shade__sincos(float radians, double *sine,
-                                      double *cosine)
+static SHADE__COLD void shade__sincos(float radians, double *sine, double *cosine)
 {
     if (!shade__within(radians, 1e9f)) radians = 0;
     double x = (double)radians, q = x * 0.63661977236758134;
     long long k = (long long)(q < 0 ? q - 0.5 : q + 0.5);
-    double r = (x - (double)k * 1.57079632673412561417) -
-               (double)k * 6.07710050650619224932e-11;
+    double r = (x - (double)k * 1.57079632673412561417) - (double)k * 6.07710050650619224932e-11;
     double t = r * r, s, c;
     s = r + r * t * (-1 / 6.0 + t * (1 / 120.0 + t * (-1 / 5040.0 + t * (1 / 362880.0 +
         t * (-1 / 39916800.0 + t * (1 / 6227020800.0 - t / 1307674368000.0))))));
@@ -1829,8 +1829,7 @@ static const float *shade__entries(const shade_mat4 *m) { return (const float *)
 
 static int shade__is_affine(const shade_mat4 *m)
 {
-    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 &&
-           m->col[3].w == 1;
+    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
 }
 
 SHADEDEF float shade_radians(float degrees)
@@ -1840,8 +1839,7 @@ SHADEDEF float shade_radians(float degrees)
 
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m)
 {
-    return shade__m3(shade__xyz(m.col[0]), shade__xyz(m.col[1]),
-                     shade__xyz(m.col[2]));
+    return shade__m3(shade__xyz(m.col[0]), shade__xyz(m.col[1]), shade__xyz(m.col[2]));
 }
 
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m)
@@ -1870,8 +1868,7 @@ SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
 }
 
 /* shade_mat4_mul as a call: one copy of its code. */
-static SHADE__NOINLINE shade_mat4 shade__mat4_product(const shade_mat4 *a,
-                                                      const shade_mat4 *b)
+static SHADE__NOINLINE shade_mat4 shade__mat4_product(const shade_mat4 *a, const shade_mat4 *b)
 {
     return shade_mat4_mul(*a, *b);
 }
@@ -1941,14 +1938,12 @@ static void shade__minors(const double *a, const double *b, double *m)
 
 /* Writes the entries e and the minors s of columns 0 and 1, c of columns 2 and 3; returns the
    determinant. */
-static double shade__expand(const shade_mat4 *m, double *e, double *s,
-                            double *c)
+static double shade__expand(const shade_mat4 *m, double *e, double *s, double *c)
 {
     shade__doubles(shade__entries(m), 16, e);
     shade__minors(e, e + 4, s);
     shade__minors(e + 8, e + 12, c);
-    return s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] +
-           s[5] * c[0];
+    return s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] + s[5] * c[0];
 }
 
 SHADEDEF float shade_mat4_determinant(shade_mat4 m)
@@ -2011,8 +2006,7 @@ SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
                      shade_v4(0, 0, 0, 1));
 }
 
-SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center,
-                                       shade_vec3 up)
+SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up)
 {
     shade_vec3 f = shade__unit_vector(shade_sub(center, eye)), r, u;
     if (shade__is_zero(f)) f = shade_v3(0, 0, -1);
@@ -2038,8 +2032,7 @@ static double shade__focal(float fovy)
     return fovy > 0 && fovy < 3.2f && c > 0 ? c / s : DBL_MAX;
 }
 
-SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect,
-                                           float near_z, float far_z)
+SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
 {
     const double y = shade__focal(fovy), x = y / (double)aspect;
     const double n = (double)near_z, f = (double)far_z, d = n - f;
@@ -2047,16 +2040,15 @@ SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect,
     return shade__projection(n > 0 && f > 0, e);
 }
 
-SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect,
-                                                    float near_z)
+SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z)
 {
     const double y = shade__focal(fovy), x = y / (double)aspect, n = (double)near_z;
     const double e[16] = { x, 0, 0, 0, 0, y, 0, 0, 0, 0, 0, -1, 0, 0, n, 0 };
     return shade__projection(n > 0, e);
 }
 
-/* The projection of a box in eye space, or of the frustum whose near face is that of the box; its
-   sides are l, r, b, t, n and f. */
+/* The projection of a box in eye space, or of the frustum on the box's near face.  The sides are l,
+   r, b, t, n and f. */
 static shade_mat4 shade__box_projection(int frustum, const float side[6])
 {
     double v[6], e[16] = { 0 };
@@ -2075,15 +2067,13 @@ static shade_mat4 shade__box_projection(int frustum, const float side[6])
     return shade__projection(!frustum || (n > 0 && f > 0), e);
 }
 
-SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t,
-                                       float n, float f)
+SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
 {
     const float side[6] = { l, r, b, t, n, f };
     return shade__box_projection(1, side);
 }
 
-SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
-                                     float n, float f)
+SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f)
 {
     const float side[6] = { l, r, b, t, n, f };
     return shade__box_projection(0, side);
@@ -2202,74 +2192,60 @@ static SHADE__NOINLINE float shade__decode(float c)
    >>image use v / full instead, which rounds differently for half of the values. */
 static const float shade__map_light[] = {
     /* of 5 bits */
-    0.0f, 0.002496754f, 0.005370535f, 0.009529466f, 0.015133498f, 0.022298891f,
-    0.031130087f, 0.041722555f, 0.05416453f, 0.06853846f, 0.084921464f,
-    0.103386834f, 0.12400404f, 0.14683922f, 0.1719559f, 0.19941482f, 0.2292746f,
-    0.26159173f, 0.29642117f, 0.33381578f, 0.3738262f, 0.41650215f, 0.4618934f,
-    0.5100463f, 0.561007f, 0.6148205f, 0.67153054f, 0.73117995f, 0.7938106f,
-    0.8594641f, 0.92818093f, 1.0f,
+    0.0f, 0.002496754f, 0.005370535f, 0.009529466f, 0.015133498f, 0.022298891f, 0.031130087f,
+    0.041722555f, 0.05416453f, 0.06853846f, 0.084921464f, 0.103386834f, 0.12400404f, 0.14683922f,
+    0.1719559f, 0.19941482f, 0.2292746f, 0.26159173f, 0.29642117f, 0.33381578f, 0.3738262f,
+    0.41650215f, 0.4618934f, 0.5100463f, 0.561007f, 0.6148205f, 0.67153054f, 0.73117995f,
+    0.7938106f, 0.8594641f, 0.92818093f, 1.0f,
     /* of 6 bits */
-    0.0f, 0.0012285616f, 0.0024571232f, 0.0037251292f, 0.005260758f,
-    0.007113466f, 0.009299629f, 0.011834532f, 0.0147324195f, 0.01800686f,
-    0.021670656f, 0.025735997f, 0.030214584f, 0.035117615f, 0.040455855f,
-    0.046239696f, 0.05247916f, 0.059184093f, 0.06636382f, 0.07402735f,
-    0.08218383f, 0.090841666f, 0.10000957f, 0.109695666f, 0.11990798f,
-    0.13065435f, 0.14194246f, 0.15377991f, 0.16617416f, 0.17913225f,
-    0.19266148f, 0.20676865f, 0.22146069f, 0.23674424f, 0.25262606f,
-    0.26911265f, 0.28621048f, 0.30392578f, 0.32226485f, 0.34123364f,
-    0.36083812f, 0.38108414f, 0.40197766f, 0.42352486f, 0.44573134f,
-    0.46860218f, 0.49214357f, 0.51636094f, 0.5412597f, 0.5668448f, 0.59312195f,
-    0.6200962f, 0.64777285f, 0.6761569f, 0.70525324f, 0.7350675f, 0.76560414f,
-    0.7968683f, 0.8288649f, 0.86159855f, 0.8950742f, 0.92929673f, 0.9642704f,
-    1.0f,
+    0.0f, 0.0012285616f, 0.0024571232f, 0.0037251292f, 0.005260758f, 0.007113466f, 0.009299629f,
+    0.011834532f, 0.0147324195f, 0.01800686f, 0.021670656f, 0.025735997f, 0.030214584f,
+    0.035117615f, 0.040455855f, 0.046239696f, 0.05247916f, 0.059184093f, 0.06636382f, 0.07402735f,
+    0.08218383f, 0.090841666f, 0.10000957f, 0.109695666f, 0.11990798f, 0.13065435f, 0.14194246f,
+    0.15377991f, 0.16617416f, 0.17913225f, 0.19266148f, 0.20676865f, 0.22146069f, 0.23674424f,
+    0.25262606f, 0.26911265f, 0.28621048f, 0.30392578f, 0.32226485f, 0.34123364f, 0.36083812f,
+    0.38108414f, 0.40197766f, 0.42352486f, 0.44573134f, 0.46860218f, 0.49214357f, 0.51636094f,
+    0.5412597f, 0.5668448f, 0.59312195f, 0.6200962f, 0.64777285f, 0.6761569f, 0.70525324f,
+    0.7350675f, 0.76560414f, 0.7968683f, 0.8288649f, 0.86159855f, 0.8950742f, 0.92929673f,
+    0.9642704f, 1.0f,
     /* of 8 bits */
-    0.0f, 3.03527e-4f, 6.07054e-4f, 9.1058103e-4f, 0.001214108f, 0.001517635f,
-    0.0018211621f, 0.002124689f, 0.002428216f, 0.002731743f, 0.00303527f,
-    0.003346533f, 0.003676508f, 0.004024719f, 0.0043914416f, 0.0047769533f,
-    0.0051815165f, 0.00560539f, 0.006048832f, 0.0065120906f, 0.0069954097f,
-    0.007499031f, 0.008023189f, 0.008568116f, 0.009134047f, 0.009721206f,
-    0.010329814f, 0.010960093f, 0.01161225f, 0.012286495f, 0.012983042f,
-    0.013702083f, 0.01444383f, 0.015208507f, 0.015996296f, 0.016807366f,
-    0.017641941f, 0.018500213f, 0.019382358f, 0.020288572f, 0.021219019f,
-    0.022173889f, 0.023153365f, 0.024157636f, 0.02518686f, 0.026241219f,
-    0.027320884f, 0.02842604f, 0.029556839f, 0.030713446f, 0.031896036f,
-    0.033104777f, 0.03433982f, 0.035601318f, 0.03688945f, 0.038204376f,
-    0.039546233f, 0.0409152f, 0.042311415f, 0.04373501f, 0.045186177f,
-    0.046665058f, 0.048171777f, 0.049706522f, 0.0512694f, 0.05286059f,
-    0.054480225f, 0.056128457f, 0.057805423f, 0.05951124f, 0.06124608f,
-    0.06301006f, 0.06480332f, 0.06662601f, 0.06847823f, 0.07036014f,
-    0.072271876f, 0.074213564f, 0.076185346f, 0.078187376f, 0.08021979f,
-    0.08228277f, 0.08437623f, 0.08650045f, 0.088655524f, 0.090841666f,
-    0.093058914f, 0.09530745f, 0.09758734f, 0.099898726f, 0.10224174f,
-    0.1046165f, 0.10702312f, 0.10946173f, 0.11193246f, 0.11443541f, 0.11697074f,
-    0.11953851f, 0.12213884f, 0.12477186f, 0.12743774f, 0.13013655f,
-    0.13286836f, 0.13563338f, 0.13843165f, 0.1412633f, 0.1441285f, 0.14702725f,
-    0.1499598f, 0.15292618f, 0.15592647f, 0.15896085f, 0.16202937f, 0.16513224f,
-    0.16826944f, 0.17144115f, 0.17464745f, 0.17788845f, 0.18116431f,
-    0.18447503f, 0.18782082f, 0.19120175f, 0.19461788f, 0.19806933f,
-    0.20155628f, 0.20507872f, 0.20863687f, 0.21223074f, 0.21586046f,
-    0.21952613f, 0.22322786f, 0.22696576f, 0.23073992f, 0.23455045f,
-    0.23839743f, 0.24228096f, 0.24620117f, 0.25015813f, 0.2541519f, 0.25818264f,
-    0.26225045f, 0.26635537f, 0.27049756f, 0.2746771f, 0.27889404f, 0.28314853f,
-    0.28744063f, 0.29177046f, 0.29613814f, 0.3005437f, 0.30498722f, 0.3094689f,
-    0.31398875f, 0.31854683f, 0.32314333f, 0.3277783f, 0.33245176f, 0.33716387f,
-    0.34191474f, 0.34670436f, 0.35153288f, 0.35640043f, 0.36130708f, 0.3662529f,
-    0.37123805f, 0.37626243f, 0.38132623f, 0.38642955f, 0.39157254f,
-    0.39675516f, 0.40197766f, 0.40724003f, 0.4125424f, 0.41788483f, 0.42326748f,
-    0.4286905f, 0.43415385f, 0.4396574f, 0.44520125f, 0.45078576f, 0.45641094f,
-    0.46207684f, 0.46778363f, 0.47353125f, 0.47931993f, 0.4851497f, 0.49102062f,
-    0.49693277f, 0.5028863f, 0.50888115f, 0.51491755f, 0.52099544f, 0.52711517f,
-    0.53327644f, 0.5394797f, 0.5457247f, 0.5520116f, 0.5583406f, 0.5647118f,
-    0.5711251f, 0.57758075f, 0.5840788f, 0.5906192f, 0.5972022f, 0.6038277f,
-    0.610496f, 0.61720693f, 0.6239608f, 0.6307576f, 0.6375973f, 0.6444801f,
-    0.65140605f, 0.65837526f, 0.6653877f, 0.67244357f, 0.67954284f, 0.6866856f,
-    0.69387203f, 0.70110214f, 0.70837593f, 0.7156937f, 0.72305536f, 0.73046106f,
-    0.73791075f, 0.7454045f, 0.75294244f, 0.76052475f, 0.76815134f, 0.7758224f,
-    0.7835379f, 0.79129803f, 0.79910284f, 0.80695236f, 0.81484663f, 0.8227858f,
-    0.8307699f, 0.838799f, 0.8468733f, 0.8549926f, 0.8631573f, 0.87136716f,
-    0.87962246f, 0.887923f, 0.8962694f, 0.9046611f, 0.91309875f, 0.9215818f,
-    0.930111f, 0.9386857f, 0.9473067f, 0.9559735f, 0.9646865f, 0.9734454f,
-    0.98225087f, 0.9911022f, 1.0f
+    0.0f, 3.03527e-4f, 6.07054e-4f, 9.1058103e-4f, 0.001214108f, 0.001517635f, 0.0018211621f,
+    0.002124689f, 0.002428216f, 0.002731743f, 0.00303527f, 0.003346533f, 0.003676508f, 0.004024719f,
+    0.0043914416f, 0.0047769533f, 0.0051815165f, 0.00560539f, 0.006048832f, 0.0065120906f,
+    0.0069954097f, 0.007499031f, 0.008023189f, 0.008568116f, 0.009134047f, 0.009721206f,
+    0.010329814f, 0.010960093f, 0.01161225f, 0.012286495f, 0.012983042f, 0.013702083f, 0.01444383f,
+    0.015208507f, 0.015996296f, 0.016807366f, 0.017641941f, 0.018500213f, 0.019382358f,
+    0.020288572f, 0.021219019f, 0.022173889f, 0.023153365f, 0.024157636f, 0.02518686f, 0.026241219f,
+    0.027320884f, 0.02842604f, 0.029556839f, 0.030713446f, 0.031896036f, 0.033104777f, 0.03433982f,
+    0.035601318f, 0.03688945f, 0.038204376f, 0.039546233f, 0.0409152f, 0.042311415f, 0.04373501f,
+    0.045186177f, 0.046665058f, 0.048171777f, 0.049706522f, 0.0512694f, 0.05286059f, 0.054480225f,
+    0.056128457f, 0.057805423f, 0.05951124f, 0.06124608f, 0.06301006f, 0.06480332f, 0.06662601f,
+    0.06847823f, 0.07036014f, 0.072271876f, 0.074213564f, 0.076185346f, 0.078187376f, 0.08021979f,
+    0.08228277f, 0.08437623f, 0.08650045f, 0.088655524f, 0.090841666f, 0.093058914f, 0.09530745f,
+    0.09758734f, 0.099898726f, 0.10224174f, 0.1046165f, 0.10702312f, 0.10946173f, 0.11193246f,
+    0.11443541f, 0.11697074f, 0.11953851f, 0.12213884f, 0.12477186f, 0.12743774f, 0.13013655f,
+    0.13286836f, 0.13563338f, 0.13843165f, 0.1412633f, 0.1441285f, 0.14702725f, 0.1499598f,
+    0.15292618f, 0.15592647f, 0.15896085f, 0.16202937f, 0.16513224f, 0.16826944f, 0.17144115f,
+    0.17464745f, 0.17788845f, 0.18116431f, 0.18447503f, 0.18782082f, 0.19120175f, 0.19461788f,
+    0.19806933f, 0.20155628f, 0.20507872f, 0.20863687f, 0.21223074f, 0.21586046f, 0.21952613f,
+    0.22322786f, 0.22696576f, 0.23073992f, 0.23455045f, 0.23839743f, 0.24228096f, 0.24620117f,
+    0.25015813f, 0.2541519f, 0.25818264f, 0.26225045f, 0.26635537f, 0.27049756f, 0.2746771f,
+    0.27889404f, 0.28314853f, 0.28744063f, 0.29177046f, 0.29613814f, 0.3005437f, 0.30498722f,
+    0.3094689f, 0.31398875f, 0.31854683f, 0.32314333f, 0.3277783f, 0.33245176f, 0.33716387f,
+    0.34191474f, 0.34670436f, 0.35153288f, 0.35640043f, 0.36130708f, 0.3662529f, 0.37123805f,
+    0.37626243f, 0.38132623f, 0.38642955f, 0.39157254f, 0.39675516f, 0.40197766f, 0.40724003f,
+    0.4125424f, 0.41788483f, 0.42326748f, 0.4286905f, 0.43415385f, 0.4396574f, 0.44520125f,
+    0.45078576f, 0.45641094f, 0.46207684f, 0.46778363f, 0.47353125f, 0.47931993f, 0.4851497f,
+    0.49102062f, 0.49693277f, 0.5028863f, 0.50888115f, 0.51491755f, 0.52099544f, 0.52711517f,
+    0.53327644f, 0.5394797f, 0.5457247f, 0.5520116f, 0.5583406f, 0.5647118f, 0.5711251f,
+    0.57758075f, 0.5840788f, 0.5906192f, 0.5972022f, 0.6038277f, 0.610496f, 0.61720693f, 0.6239608f,
+    0.6307576f, 0.6375973f, 0.6444801f, 0.65140605f, 0.65837526f, 0.6653877f, 0.67244357f,
+    0.67954284f, 0.6866856f, 0.69387203f, 0.70110214f, 0.70837593f, 0.7156937f, 0.72305536f,
+    0.73046106f, 0.73791075f, 0.7454045f, 0.75294244f, 0.76052475f, 0.76815134f, 0.7758224f,
+    0.7835379f, 0.79129803f, 0.79910284f, 0.80695236f, 0.81484663f, 0.8227858f, 0.8307699f,
+    0.838799f, 0.8468733f, 0.8549926f, 0.8631573f, 0.87136716f, 0.87962246f, 0.887923f, 0.8962694f,
+    0.9046611f, 0.91309875f, 0.9215818f, 0.930111f, 0.9386857f, 0.9473067f, 0.9559735f, 0.9646865f,
+    0.9734454f, 0.98225087f, 0.9911022f, 1.0f
 };
 
 SHADE__INLINE const float *shade__map_light_of(int full)
@@ -2289,9 +2265,8 @@ SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
 
 SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
 {
-    return shade_linear_from_srgb(shade_v3((float)(rgb >> 16 & 255) / 255,
-                                           (float)(rgb >> 8 & 255) / 255,
-                                           (float)(rgb & 255) / 255));
+    return shade_linear_from_srgb(shade_v3(
+        (float)(rgb >> 16 & 255) / 255, (float)(rgb >> 8 & 255) / 255, (float)(rgb & 255) / 255));
 }
 
 SHADEDEF shade_material shade_linear_material(shade_material display)
@@ -2350,8 +2325,7 @@ SHADE__INLINE int shade__shift(const shade__layout *l, int k)
 }
 
 /* Channel k of a packed pixel as a number from 0 to full. */
-SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l,
-                                   int k)
+SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l, int k)
 {
     return shade__number(packed >> shade__shift(l, k) & l->full[k]);
 }
@@ -2367,8 +2341,7 @@ SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 
 
 /* Loads a packed pixel.  One of 1 or 2 bytes gets the bit above it set.  4 bytes may also be the
    bits of a float. */
-SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes,
-                                          const int swapped)
+SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes, const int swapped)
 {
     uint32_t word;
     uint16_t half;
@@ -2427,8 +2400,7 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
 {
-    return (uint8_t *)t->color +
-           shade__offset_of(t, x, y) * shade__pixel_bytes(t->format);
+    return (uint8_t *)t->color + shade__offset_of(t, x, y) * shade__pixel_bytes(t->format);
 }
 
 /*------------------------------------------------------------------------------------------ >>lamps
@@ -2450,8 +2422,7 @@ static shade_light shade__plain_light(shade_vec4 position, shade_vec3 color)
     return light;
 }
 
-SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel,
-                                             shade_vec3 color)
+SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
     return shade__plain_light(shade__xyzw(shade_neg(direction_of_travel), 0), color);
 }
@@ -2461,9 +2432,8 @@ SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color)
     return shade__plain_light(shade__xyzw(position, 1), color);
 }
 
-SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim,
-                                      float cutoff_radians, float exponent,
-                                      shade_vec3 color)
+SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
+                                      float exponent, shade_vec3 color)
 {
     double s, c;
     shade_light light = shade_point_light(position, color);
@@ -2483,8 +2453,7 @@ SHADEDEF float shade_attenuation(float a, float b, float c, float r)
     return 1 / shade__maxf(a + b * r + c * (r * r), 1e-20f);
 }
 
-SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff,
-                          float exponent)
+SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff, float exponent)
 {
     shade_vec3 axis = shade_neg(shade__unit_vector(aim));
     float cosine = shade_dot(to_light, axis);
@@ -2518,8 +2487,7 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!shade__is_zero(lamp->axis)) lamp->axis = shade_neg(shade__unit_vector(lamp->axis));
     lamp->spot = !shade__is_zero(lamp->axis);
 
-    lamp->falls = !lamp->infinite &&
-                  !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
+    lamp->falls = !lamp->infinite && !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
     lamp->a = light->constant;
     lamp->nearest = lamp->a == 0 ? 1e-4f : 0.0f;
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
@@ -2535,8 +2503,7 @@ typedef struct shade__arrival {
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
 } shade__arrival;
 
-SHADE__INLINE void shade__come_from_infinity(const shade__lamp *lamp,
-                                             const int n,
+SHADE__INLINE void shade__come_from_infinity(const shade__lamp *lamp, const int n,
                                              shade__arrival *SHADE_RESTRICT a)
 {
     const shade_vec3 to_light = lamp->at;
@@ -2547,15 +2514,14 @@ SHADE__INLINE void shade__come_from_infinity(const shade__lamp *lamp,
 }
 
 /* L and r. */
-SHADE__INLINE void shade__come_from_point(const shade__lamp *lamp,
-                                          shade__in_v3 point, const int n,
+SHADE__INLINE void shade__come_from_point(const shade__lamp *lamp, shade__in_v3 point, const int n,
                                           shade__out r, shade__out_v3 to)
 {
     const shade_vec3 at = lamp->at;
     SHADE__FOR(i, n) {
         shade_vec3 to_light = shade_sub(at, shade__at(point, i));
         float square = shade_dot(to_light, to_light), root = shade__rsqrt(square);
-        /* the order of the next two matters to tcc: see >>config */
+        /* the order of the next two matters to tcc: see >>plumbing */
         r[i] = square * root;
         shade__put(to, i, shade_scale(to_light, root));
     }
@@ -2593,8 +2559,7 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
 }
 
 /* The same for b = c = 0; but 0 where P is so far away that r is NaN. */
-SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
-                                           shade__arrival *SHADE_RESTRICT to)
+SHADE__INLINE void shade__attenuate_evenly(float a, const int n, shade__arrival *SHADE_RESTRICT to)
 {
     const float even = 1 / shade__maxf(a, 1e-20f);
     SHADE__FOR(i, n) {
@@ -2603,8 +2568,7 @@ SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
 }
 
 /* amount times (L.S)^e inside the cone, times 0 outside. */
-SHADE__INLINE void shade__apply_cone(float exponent, const int n,
-                                     shade__arrival *SHADE_RESTRICT a)
+SHADE__INLINE void shade__apply_cone(float exponent, const int n, shade__arrival *SHADE_RESTRICT a)
 {
     const float e = shade__minf(exponent, FLT_MAX);
     SHADE__FOR(i, n) { a->halvings[i] = shade__power_log(a->ls[i], e); }
@@ -2612,8 +2576,7 @@ SHADE__INLINE void shade__apply_cone(float exponent, const int n,
 }
 
 /* The same for e = 0. */
-SHADE__INLINE void shade__apply_cone_evenly(const int n,
-                                            shade__arrival *SHADE_RESTRICT a)
+SHADE__INLINE void shade__apply_cone_evenly(const int n, shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
         const uint32_t inside = shade__mask(a->ls[i] > SHADE__NEVER);
@@ -2621,8 +2584,7 @@ SHADE__INLINE void shade__apply_cone_evenly(const int n,
     }
 }
 
-SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp,
-                                      const shade__v3 *point, const int n,
+SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp, const shade__v3 *point, const int n,
                                       shade__arrival *a)
 {
     if (lamp->infinite) shade__come_from_infinity(lamp, n, a);
@@ -2640,9 +2602,7 @@ SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp,
 }
 
 /* A single point is computed as one vector of equal lanes, by the build for any processor. */
-enum {
-    SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES
-};
+enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES };
 
 /* The number of points that a loop runs over.  The AVX builds always run over a whole packet.  The
    build for any processor rounds n down to whole vectors, so that the compiler emits no remainder
@@ -2708,8 +2668,7 @@ SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
 
 /* R.V = 1 - |R - V|^2 / 2 for unit vectors; 0 where L or V is zero.  In this form errors in the
    lengths of the vectors cancel near 1, where a power would magnify them. */
-SHADE__INLINE float shade__mirror_cosine(shade_vec3 normal, shade_vec3 to_light,
-                                         shade_vec3 to_eye)
+SHADE__INLINE float shade__mirror_cosine(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye)
 {
     shade_vec3 mirrored = shade_scale(normal, 2 * shade_dot(normal, to_light));
     shade_vec3 d = shade_sub(mirrored, shade_add(to_light, to_eye));
@@ -2717,15 +2676,12 @@ SHADE__INLINE float shade__mirror_cosine(shade_vec3 normal, shade_vec3 to_light,
     return none ? 0 : 1 - 0.5f * shade_dot(d, d);
 }
 
-/* (R.V)^n or (N.H)^n, whatever N.L is. */
-static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 normal,
-                                              shade_vec3 to_light,
+/* (R.V)^n or (N.H)^n, without the factor B. */
+static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 normal, shade_vec3 to_light,
                                               shade_vec3 to_eye, float exponent)
 {
     shade_vec3 half;
-    if (phong)
-        return shade_power(shade__mirror_cosine(normal, to_light, to_eye),
-                           exponent);
+    if (phong) return shade_power(shade__mirror_cosine(normal, to_light, to_eye), exponent);
     half = shade_halfway(to_light, to_eye);
     return shade__is_zero(half) ? 0 : shade_power(shade_dot(normal, half), exponent);
 }
@@ -2737,9 +2693,8 @@ SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light,
     return shade__highlight(1, normal, to_light, to_eye, exponent);
 }
 
-SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal,
-                                          shade_vec3 to_light,
-                                          shade_vec3 to_eye, float exponent)
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                          float exponent)
 {
     if (!(shade_dot(normal, to_light) > 0)) return 0;
     return shade__highlight(0, normal, to_light, to_eye, exponent);
@@ -2748,22 +2703,20 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal,
 /* The material of calls that pass NULL. */
 static shade_material shade__white_lambert(void)
 {
-    const shade_vec3 white = shade_v3(1, 1, 1);     /* before m, for tcc: see >>config */
+    const shade_vec3 white = shade_v3(1, 1, 1);     /* before m, for tcc: see >>plumbing */
     shade_material m;
     SHADE__ZERO(m);
     m.ambient = m.diffuse = white;
     return m;
 }
 
-SHADEDEF shade_vec3 shade_brdf(const shade_material *material,
-                               shade_model model, shade_vec3 normal,
+SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model, shade_vec3 normal,
                                shade_vec3 to_light, shade_vec3 to_eye)
 {
     const int phong = model == SHADE_MODEL_PHONG;
     shade_material m = material ? *material : shade__white_lambert();
     if (phong || model == SHADE_MODEL_BLINN_PHONG) {
-        float lobe = shade__highlight(phong, normal, to_light, to_eye,
-                                      m.shininess);
+        float lobe = shade__highlight(phong, normal, to_light, to_eye, m.shininess);
         return shade_madd(m.diffuse, lobe, m.specular);
     }
     return model == SHADE_MODEL_LAMBERT ? m.diffuse : shade_v3(0, 0, 0);
@@ -2814,8 +2767,7 @@ static unsigned shade__terms_of(const shade_lighting *lighting)
 }
 
 /* k I, or zero if the term is off, even for NaN. */
-SHADE__INLINE shade_vec3 shade__product(unsigned on, shade_vec3 k,
-                                        shade_vec3 light)
+SHADE__INLINE shade_vec3 shade__product(unsigned on, shade_vec3 k, shade_vec3 light)
 {
     return on ? shade_mul(k, light) : shade_v3(0, 0, 0);
 }
@@ -2826,12 +2778,9 @@ static void shade__reflect_lamp(const shade__surface *s,
     const shade_material *m = &s->material;
     const unsigned flags = s->lighting->flags, terms = s->terms;
     const unsigned ambient = flags & SHADE_FLAG_ATTENUATED_AMBIENT ? terms : 0;
-    lamp->ambient = shade__product(ambient & SHADE_TERM_AMBIENT, m->ambient,
-                                   light->ambient);
-    lamp->diffuse = shade__product(terms & SHADE_TERM_DIFFUSE, m->diffuse,
-                                   light->diffuse);
-    lamp->specular = shade__product(terms & SHADE_TERM_SPECULAR, m->specular,
-                                    light->specular);
+    lamp->ambient = shade__product(ambient & SHADE_TERM_AMBIENT, m->ambient, light->ambient);
+    lamp->diffuse = shade__product(terms & SHADE_TERM_DIFFUSE, m->diffuse, light->diffuse);
+    lamp->specular = shade__product(terms & SHADE_TERM_SPECULAR, m->specular, light->specular);
     lamp->on = !shade__is_zero(lamp->ambient) || !shade__is_zero(lamp->diffuse) ||
                !shade__is_zero(lamp->specular);
     if (!lamp->on) return;
@@ -2861,14 +2810,13 @@ static shade_vec3 shade__ambient(const shade__surface *s)
     shade_vec3 sum = l->ambient;
     if (!(s->terms & SHADE_TERM_AMBIENT)) return shade_v3(0, 0, 0);
     if (!(l->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
-        for (ptrdiff_t k = 0; k < s->lamps; k++)    /* not int, for tcc: see >>config */
+        for (ptrdiff_t k = 0; k < s->lamps; k++)    /* not int, for tcc: see >>plumbing */
             sum = shade_add(sum, l->lights[k].ambient);
     return shade_mul(sum, s->material.ambient);
 }
 
 static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
-                                                 const shade_material *material,
-                                                 shade_vec3 eye,
+                                                 const shade_material *material, shade_vec3 eye,
                                                  shade__surface *s)
 {
     const shade_vec3 none = shade_v3(0, 0, 0);
@@ -2887,8 +2835,7 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
     s->emission = shade_add(s->emission, none);    /* -0 becomes 0, as it does under a lamp */
     s->ambient = shade__ambient(s);
 
-    s->tone = lighting->model == SHADE_MODEL_COOL_TO_WARM &&
-              (terms & SHADE_TERM_DIFFUSE);
+    s->tone = lighting->model == SHADE_MODEL_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
     if (s->tone) {
         shade__begin_tone(s);
         return;
@@ -2921,8 +2868,7 @@ typedef struct shade__lit {
     float highlight[SHADE_LANES]; /* B (N.H)^n or B (R.V)^n */
 } shade__lit;
 
-SHADE__INLINE void shade__inverse_lengths(shade__in_v3 normal, const int n,
-                                          shade__out rn)
+SHADE__INLINE void shade__inverse_lengths(shade__in_v3 normal, const int n, shade__out rn)
 {
     SHADE__FOR(i, n) {
         shade_vec3 m = shade__at(normal, i);
@@ -2948,8 +2894,7 @@ SHADE__INLINE void shade__two_sides(shade__in_v3 point, shade__in_v3 normal,
     }
 }
 
-SHADE__INLINE void shade__viewer(shade__in_v3 point, shade_vec4 eye,
-                                 const int n, shade__out_v3 to)
+SHADE__INLINE void shade__viewer(shade__in_v3 point, shade_vec4 eye, const int n, shade__out_v3 to)
 {
     SHADE__FOR(i, n) {
         shade_vec3 to_eye = shade__view(eye, shade__at(point, i));
@@ -2982,15 +2927,13 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 /* N.H, or SHADE__NEVER where there is no highlight or no H.  Returns all ones if L and V are nearly
    opposite in a lane, |L + V|^2 < SHADE__OPPOSITE; shade__half_opposite then computes it again. */
 #define SHADE__OPPOSITE 1e-3f
-SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
-                                   shade__lit *SHADE_RESTRICT r)
+SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n, shade__lit *SHADE_RESTRICT r)
 {
     const uint32_t open = r->surface->open;
     uint32_t opposite = 0;
     SHADE__FOR(i, n) {
-        shade_vec3 half = shade_add(shade__at(&r->a.to_light, i),
-                                    shade__at(&r->to_eye, i));
-        /* the order of the next two matters to tcc: see >>config */
+        shade_vec3 half = shade_add(shade__at(&r->a.to_light, i), shade__at(&r->to_eye, i));
+        /* the order of the next two matters to tcc: see >>plumbing */
         r->cosine[i] = shade_dot(shade__at(normal, i), half);
         float h2 = shade_dot(half, half);
         opposite |= shade__mask(h2 < SHADE__OPPOSITE);
@@ -3009,8 +2952,7 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
 /* Computes N.H in double, from the positions, in lanes where L and V are nearly opposite and L + V
    has few digits in float.  The same float square as above selects the lanes, so that the bits of
    a lane do not depend on its neighbours. */
-static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
-                                             const shade__v3 *normal,
+static SHADE__COLD void shade__half_opposite(const shade__v3 *point, const shade__v3 *normal,
                                              const int n, shade__lit *r)
 {
     const shade_vec4 at = r->lamp->light->position, eye = r->surface->eye;
@@ -3041,8 +2983,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
 }
 
 /* R.V as in shade__mirror_cosine, or SHADE__NEVER where the gate is shut. */
-SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
-                                   shade__lit *SHADE_RESTRICT r)
+SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n, shade__lit *SHADE_RESTRICT r)
 {
     const uint32_t open = r->surface->open;
     SHADE__FOR(i, n) {
@@ -3050,7 +2991,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
         shade_vec3 to_light = shade__at(&r->a.to_light, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
         d = shade_sub(d, shade_add(to_light, to_eye));
-        /* declared here, after calls that return vectors, for tcc: see >>config */
+        /* declared here, after calls that return vectors, for tcc: see >>plumbing */
         uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
@@ -3069,12 +3010,10 @@ SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 }
 
 /* amount *= visibility.  An amount of 0, outside the cone, stays 0 even for a visibility of NaN. */
-SHADE__INLINE void shade__hide(shade__in visibility, const int n,
-                               shade__out amount)
+SHADE__INLINE void shade__hide(shade__in visibility, const int n, shade__out amount)
 {
     SHADE__FOR(i, n) {
-        amount[i] = shade__keep(amount[i] * visibility[i],
-                                shade__mask(amount[i] != 0));
+        amount[i] = shade__keep(amount[i] * visibility[i], shade__mask(amount[i] != 0));
     }
 }
 
@@ -3095,8 +3034,7 @@ SHADE__INLINE const shade__v3 *shade__factors(const float *rows)
 }
 
 /* Adds light to rgb of lane i, or 0 where the mask is not set. */
-SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light,
-                                 uint32_t mask)
+SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light, uint32_t mask)
 {
     light.x = shade__keep(light.x, mask);
     light.y = shade__keep(light.y, mask);
@@ -3105,8 +3043,7 @@ SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light,
 }
 
 /* rgb = emission + ambient albedo */
-SHADE__INLINE void shade__begin_light(const shade__surface *s,
-                                      shade__in_v3 albedo, const int n,
+SHADE__INLINE void shade__begin_light(const shade__surface *s, shade__in_v3 albedo, const int n,
                                       shade__out_v3 rgb)
 {
     const shade_vec3 emission = s->emission, ambient = s->ambient;
@@ -3117,23 +3054,20 @@ SHADE__INLINE void shade__begin_light(const shade__surface *s,
 }
 
 /* rgb += (cool + k_w (warm - cool)) albedo, k_w = (1 + N.L) / 2                      [Gooch98] */
-SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r,
-                                   shade__in_v3 albedo, const int n,
-                                   shade__out_v3 rgb)
+SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r, shade__in_v3 albedo,
+                                   const int n, shade__out_v3 rgb)
 {
     const shade_vec3 cool = r->surface->cool, warmth = r->surface->warmth;
     SHADE__FOR(i, n) {
-        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->nl[i],
-                                      warmth);
+        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->nl[i], warmth);
         shade__add_to(rgb, i, shade_mul(light, shade__at(albedo, i)), ~0u);
     }
 }
 
 /* rgb += amount k_a I_La albedo.  Lanes outside the cone add exactly 0, even for NaN colours, as if
    the lamp had been skipped. */
-SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
-                                      shade__in_v3 albedo, const int n,
-                                      shade__out_v3 rgb)
+SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r, shade__in_v3 albedo,
+                                      const int n, shade__out_v3 rgb)
 {
     const shade_vec3 ambient = r->lamp->ambient;
     SHADE__FOR(i, n) {
@@ -3167,8 +3101,7 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
 
 /* power = base^exponent, in two loops: in a single one the constants outgrow the registers, and a
    light takes 1.5 times as long. */
-SHADE__INLINE void shade__raise(shade__in base, float exponent, const int n,
-                                shade__out power)
+SHADE__INLINE void shade__raise(shade__in base, float exponent, const int n, shade__out power)
 {
     exponent = exponent > 0 ? shade__minf(exponent, FLT_MAX) : 0;
     SHADE__FOR(i, n) { power[i] = shade__power_log(base[i], exponent); }
@@ -3185,22 +3118,19 @@ SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
     }
     if (s->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(normal, n, r);
     else if (shade__half(normal, n, r)) shade__half_opposite(point, normal, n, r);
-    shade__raise(r->cosine, s->material.shininess, n,
-                 r->highlight);
+    shade__raise(r->cosine, s->material.shininess, n, r->highlight);
     if (s->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
 }
 
 /* L and amount of a lamp.  Single points use the build for any processor. */
-SHADE__INLINE void shade__arrive_at(const shade__v3 *point, const int n,
-                                    shade__lit *r)
+SHADE__INLINE void shade__arrive_at(const shade__v3 *point, const int n, shade__lit *r)
 {
     if (n == SHADE_LANES) shade__arrive(r->lamp, point, n, &r->a);
     else shade__arrive_any(r->lamp, point, n, &r->a);
 }
 
 /* Adds the light of lamp k.  Ambient light that is not attenuated has been added before. */
-SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
-                                   shade__v3 *rgb)
+SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 *rgb)
 {
     const shade__surface *s = r->surface;
     const shade__v3 *point = shade__rows_of(r->rows->position);
@@ -3230,9 +3160,8 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
     else shade__combine(r, albedo, shade__factors(r->rows->specular), 0, n, rgb);
 }
 
-SHADE__INLINE void shade__lit_rows_body(const shade__surface *s,
-                                        const shade_rows *rows, const int n,
-                                        shade__v3 *rgb)
+SHADE__INLINE void shade__lit_rows_body(const shade__surface *s, const shade_rows *rows,
+                                        const int n, shade__v3 *rgb)
 {
     const shade__v3 *point = shade__rows_of(rows->position);
     const shade__v3 *normal = shade__rows_of(rows->normal);
@@ -3244,8 +3173,7 @@ SHADE__INLINE void shade__lit_rows_body(const shade__surface *s,
     if (!s->lamps) return;
 
     shade__inverse_lengths(normal, n, r.rn);
-    if (s->lighting->flags & SHADE_FLAG_TWO_SIDED)
-        shade__two_sides(point, normal, s->eye, n, r.rn);
+    if (s->lighting->flags & SHADE_FLAG_TWO_SIDED) shade__two_sides(point, normal, s->eye, n, r.rn);
     shade__viewer(point, s->eye, n, &r.to_eye);
     for (int k = 0; k < s->lamps; k++) shade__add_lamp(k, n, &r, rgb);
 }
@@ -3254,15 +3182,13 @@ SHADE__DISPATCH(shade__lit_rows,
                 (s, rows, n, rgb),
                 shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
 
-static void shade__lit_packet(const shade__surface *s, const shade_rows *rows,
-                              float *rgb)
+static void shade__lit_packet(const shade__surface *s, const shade_rows *rows, float *rgb)
 {
     shade__lit_rows(s, rows, SHADE_LANES, shade__three_rows(rgb));
 }
 
-SHADEDEF void shade_lit_lanes(const shade_lighting *lighting,
-                              const shade_material *material, shade_vec3 eye,
-                              const shade_rows *rows, float *rgb)
+SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 eye, const shade_rows *rows, float *rgb)
 {
     shade__surface s;
     if (!rgb) return;
@@ -3274,9 +3200,8 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting,
     shade__lit_packet(&s, rows, rgb);
 }
 
-SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting,
-                              const shade_material *material, shade_vec3 eye,
-                              shade_vec3 point, shade_vec3 normal)
+SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 eye, shade_vec3 point, shade_vec3 normal)
 {
     shade__v3 p, n, rgb;
     shade_rows rows;
@@ -3292,15 +3217,14 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting,
     return shade__at(&rgb, 0);
 }
 
-SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
-                                    const shade_material *material,
-                                    shade_vec3 eye, shade_vec3 point,
-                                    shade_vec3 normal)
+SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
+                                    shade_vec3 eye, shade_vec3 point, shade_vec3 normal)
 {
     shade_terms t;
     shade_vec3 *term[4] = { &t.emission, &t.ambient, &t.diffuse, &t.specular };
     SHADE__ZERO(t);
-    for (unsigned k = 0; k < 4 && lighting; k++) {
+    if (!lighting) return t;
+    for (unsigned k = 0; k < 4; k++) {
         shade_lighting one = *lighting;
         one.terms = 1u << k;
         if (!lighting->terms || (lighting->terms & one.terms))
@@ -3366,7 +3290,7 @@ enum {
      flag            set where                                        read by
      zero_to_one     the raster says so                               >>vertices, >>clip
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
-     queued          there is a fragment shader whose result counts   >>tiles (runs go on)
+     queued          the fragment shader's result counts              >>tiles (runs go on)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
      inputs_unread   the shader is of this file, early, no dither     >>fragments
      lod             lod_texture is set; the index of u, else 0       >>fragments */
@@ -3505,8 +3429,7 @@ static void shade__shade_vertices(shade__draw *d);
 /* triangles: sets up those of the batch, SHADE__TRIANGLES at a time: edges, box, depth */
 static void shade__triangles(shade__draw *d);
 /* clip: the polygon that near, far, w > 0 and the guard band leave of a triangle; 0: nothing */
-static int shade__clip(const shade__draw *d, const uint8_t corner[4],
-                       shade__polygon *fan);
+static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__polygon *fan);
 /* cover: finds the pixels of triangles that pass the depth test, tile by tile, as runs */
 static void shade__cover(shade__draw *d, int count);
 /* fragments: queues the runs; shades the queue when it is full and after each batch */
@@ -3549,8 +3472,7 @@ SHADE__INLINE int32_t shade__snap(float c, float w, double half, double offset)
 }
 
 /* Window depth of z/w. */
-SHADE__INLINE float shade__window_depth(float z, float w, double scale,
-                                        double offset)
+SHADE__INLINE float shade__window_depth(float z, float w, double scale, double offset)
 {
     return (float)((double)z / (double)w * scale + offset);
 }
@@ -3576,21 +3498,18 @@ SHADE__INLINE uint32_t shade__sides_passed(float x, float y, float limit)
            (shade__mask(y < -limit) & 4) | (shade__mask(y > limit) & 8);
 }
 
-SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w,
-                                      int zero_to_one)
+SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w, int zero_to_one)
 {
     const uint32_t nearer = shade__mask(z < (zero_to_one ? 0 : -w)) & SHADE__OUT_NEAR;
     const uint32_t farther = shade__mask(z > w) & SHADE__OUT_FAR;
-    const uint32_t bad = shade__beyond(x) | shade__beyond(y) |
-                         shade__beyond(z) | shade__beyond(w);
+    const uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w);
 
     return shade__sides_passed(x, y, w) | nearer | farther | (bad & SHADE__OUT_BAD) |
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
 
 /* Outcodes, and clip positions: 0, 0, 0, 1 for vertices that get no window position. */
-SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v,
-                                   int zero_to_one,
+SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int zero_to_one,
                                    shade__placed *SHADE_RESTRICT p)
 {
     shade__in cx = v->clip[0], cy = v->clip[1], cz = v->clip[2], cw = v->clip[3];
@@ -3608,8 +3527,7 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v,
     }
 }
 
-SHADE__INLINE void shade__project(double half_width, double half_height,
-                                  int zero_to_one,
+SHADE__INLINE void shade__project(double half_width, double half_height, int zero_to_one,
                                   shade__placed *SHADE_RESTRICT p)
 {
     const double scale = zero_to_one ? 1 : 0.5, offset = zero_to_one ? 0 : 0.5;
@@ -3653,8 +3571,7 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
     }
 }
 
-SHADE__INLINE void shade__place_body(shade__draw *d,
-                                     const shade_vertices *vertices)
+SHADE__INLINE void shade__place_body(shade__draw *d, const shade_vertices *vertices)
 {
     const shade__plan *plan = &d->plan;
     shade__placed p;
@@ -3683,10 +3600,8 @@ static void shade__shade_vertices(shade__draw *d)
    number taken.  Branch-free: slot and index are always written, and only the count depends on
    whether the vertex is known.  A branch would be mispredicted every other time (2 % of a dense
    mesh). */
-SHADE__INLINE int shade__take_triangles(shade__incoming *in,
-                                        shade__indices indices, uint32_t first,
-                                        int most, int room,
-                                        uint8_t (*corner)[4])
+SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
+                                        int most, int room, uint8_t (*corner)[4])
 {
     uint32_t *index_of = in->ids.index, at = 3 * first;
     int n = 0, vertices = in->ids.count;
@@ -3721,12 +3636,10 @@ static void shade__take_batch(shade__draw *d)
     in->ids.count = b->count = b->parts = 0;
     while (b->count < SHADE__BATCH_TRIANGLES && in->ids.count <= room && b->parts < SHADE__PARTS) {
         if (s->first == s->end && !(s->more && s->more(d))) break;
-        const int most = shade__min(SHADE__BATCH_TRIANGLES - b->count,
-                                    s->end - s->first);
+        const int most = shade__min(SHADE__BATCH_TRIANGLES - b->count, s->end - s->first);
         b->part[b->parts].first = b->count;
         b->part[b->parts++].primitive = (uint32_t)s->first;
-        const int taken = shade__take_triangles(in, s->indices,
-                                                (uint32_t)s->first, most, room,
+        const int taken = shade__take_triangles(in, s->indices, (uint32_t)s->first, most, room,
                                                 b->corner + b->count);
         b->count += taken;
         s->first += taken;
@@ -3780,20 +3693,17 @@ SHADE__INLINE int32_t shade__floor256(int32_t v)
 
 /* Twice the signed area in 1/65536 pixel; positive where a, b, c turn clockwise on the screen (y
    points down).   pre: |x|, |y| <= 2^24   post: |area| <= 2^51 */
-SHADE__INLINE int64_t shade__area(const shade__vertex *a,
-                                  const shade__vertex *b,
+SHADE__INLINE int64_t shade__area(const shade__vertex *a, const shade__vertex *b,
                                   const shade__vertex *c)
 {
-    return (int64_t)(b->x - a->x) * (c->y - a->y) -
-           (int64_t)(c->x - a->x) * (b->y - a->y);
+    return (int64_t)(b->x - a->x) * (c->y - a->y) - (int64_t)(c->x - a->x) * (b->y - a->y);
 }
 
 /* Rows of memory of any type, as words. */
 SHADE__INLINE shade__word *shade__words(void *rows) { return (shade__word *)rows; }
 
 /* Reads the corners of the triangles into rows; lanes without a triangle repeat the first. */
-SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s,
-                                        int stride,
+SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stride,
                                         shade__corner_rows *SHADE_RESTRICT c)
 {
     SHADE_ALIGNED int32_t xy[3][2 * SHADE__TRIANGLES];
@@ -3835,16 +3745,13 @@ SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
 }
 
 /* Chooses the order of the corners, and writes its number, 0 .. 5, to order. */
-SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT c,
-                                       shade__in area,
-                                       shade__turns *SHADE_RESTRICT t,
-                                       shade__out_bits order)
+SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT c, shade__in area,
+                                       shade__turns *SHADE_RESTRICT t, shade__out_bits order)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         float r0 = c->rw[0][i], r1 = c->rw[1][i], r2 = c->rw[2][i];
         uint32_t below = shade__mask(r1 < r0);
-        uint32_t last = (below & shade__mask(r2 < r1)) |
-                        (~below & shade__mask(r2 < r0));
+        uint32_t last = (below & shade__mask(r2 < r1)) | (~below & shade__mask(r2 < r0));
         uint32_t flipped = shade__mask(area[i] < 0);
         t->first_is_1[i] = below & ~last;
         t->first_is_2[i] = last;
@@ -3855,8 +3762,7 @@ SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT 
 
 /* Reorders one value of the three corners: the chosen corner first, then the others in their order,
    or swapped where flipped is set. */
-SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v,
-                               const shade__turns *SHADE_RESTRICT t)
+SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const shade__turns *SHADE_RESTRICT t)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         const uint32_t is_1 = t->first_is_1[i], is_2 = t->first_is_2[i];
@@ -3872,9 +3778,8 @@ SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v,
 /* Pixel centres between the extremes of one axis, within lo .. hi, ends included.
    pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
    post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
-SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b,
-                              shade__in_ints c, int32_t lo, int32_t hi,
-                              shade__out_ints first, shade__out_ints last)
+SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b, shade__in_ints c, int32_t lo,
+                              int32_t hi, shade__out_ints first, shade__out_ints last)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         int32_t least = shade__min(shade__min(a[i], b[i]), c[i]);
@@ -3927,8 +3832,7 @@ SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
 
 /* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because
    rounding leaves that range on slivers.   post: z_low, z_high in [0, 1] */
-SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c,
-                                      float bias,
+SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c, float bias,
                                       shade__setup *SHADE_RESTRICT s)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
@@ -3950,8 +3854,7 @@ SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c
 }
 
 /* Empties the boxes of culled triangles; returns their number. */
-SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull,
-                              shade__in area)
+SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull, shade__in area)
 {
     const uint32_t back = shade__mask(cull == SHADE_CULL_BACK);
     const uint32_t front = shade__mask(cull == SHADE_CULL_FRONT);
@@ -3960,8 +3863,7 @@ SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull,
 
     SHADE__FOR(i, SHADE__TRIANGLES) {
         uint32_t none = shade__mask(area[i] == 0), facing = shade__mask(area[i] < 0);
-        uint32_t gone = (none | (facing & front) | (~facing & back)) &
-                        shade__mask(i < n);
+        uint32_t gone = (none | (facing & front) | (~facing & back)) & shade__mask(i < n);
         culled += (int)(gone & 1);
         s->box[2][i] = (int32_t)((uint32_t)s->box[2][i] | gone);
     }
@@ -3984,10 +3886,8 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     shade__turn(shade__words(c.x), &turns);
     shade__turn(shade__words(c.y), &turns);
     shade__turn(shade__words(c.z), &turns);
-    shade__box(c.x[0], c.x[1], c.x[2], plan->x0, plan->x1 - 1, s->box[0],
-               s->box[2]);
-    shade__box(c.y[0], c.y[1], c.y[2], plan->y0, plan->y1 - 1, s->box[1],
-               s->box[3]);
+    shade__box(c.x[0], c.x[1], c.x[2], plan->x0, plan->x1 - 1, s->box[0], s->box[2]);
+    shade__box(c.y[0], c.y[1], c.y[2], plan->y0, plan->y1 - 1, s->box[1], s->box[3]);
     for (int k = 0; k < 3; k++) shade__edge(&c, k, s);
     shade__sides(&c, inverse, s);
     shade__depth_plane(&c, raster->depth_bias, s);
@@ -4012,8 +3912,7 @@ static void shade__draw_setup(shade__draw *d)
 }
 
 /* Adds consecutive triangles; the first is triangle primitive of the draw. */
-SHADE__INLINE void shade__add_triangles(shade__draw *d,
-                                        uint8_t (*corner)[4], int count,
+SHADE__INLINE void shade__add_triangles(shade__draw *d, uint8_t (*corner)[4], int count,
                                         uint32_t primitive)
 {
     shade__setup *s = &d->setup;
@@ -4033,8 +3932,7 @@ SHADE__INLINE void shade__add_triangles(shade__draw *d,
 
 /* Clips a triangle and draws the resulting fan.  The area of the whole polygon decides culling.
    Pieces that snapping has turned the other way are left out. */
-static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
-                                        uint32_t primitive)
+static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4], uint32_t primitive)
 {
     const shade_cull cull = d->plan.pipe->raster.cull;
     shade__setup *s = &d->setup;
@@ -4057,8 +3955,7 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
     for (int i = 1; i + 1 < fan.count; i++) {
         uint8_t piece[1][4] = { { fan.corner[0], fan.corner[i], fan.corner[i + 1], 0 } };
         const shade__vertex *v = fan.vertex;
-        const int64_t area = shade__area(&v[piece[0][0]], &v[piece[0][1]],
-                                         &v[piece[0][2]]);
+        const int64_t area = shade__area(&v[piece[0][0]], &v[piece[0][1]], &v[piece[0][2]]);
         if (area && (area < 0) == (fan.area < 0)) shade__add_triangles(d, piece, 1, primitive);
     }
     shade__draw_setup(d);
@@ -4069,8 +3966,7 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
 }
 
 /* Rejects, clips or adds a triangle of the batch, by where its corners are. */
-SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle,
-                                   uint32_t primitive)
+SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle, uint32_t primitive)
 {
     const shade__vertex *v = d->batch.vertex;
     const uint8_t *corner = d->batch.corner[triangle];
@@ -4134,8 +4030,7 @@ static void shade__triangles(shade__draw *d)
              neighbours get the same bits and no crack opens.                             >>tiles */
 
 /* Returns the signed distance to a plane times a positive factor; it is >= 0 inside. */
-static double shade__distance_to(const float *clip, uint32_t plane,
-                                 int zero_to_one)
+static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_one)
 {
     double p[4];
 
@@ -4187,8 +4082,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
 
 /* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, as each new
    one takes a bit of taken */
-static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
-                              uint32_t plane)
+static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32_t plane)
 {
     const int zero_to_one = plan->zero_to_one;
     uint8_t kept[SHADE__CLIP_VERTICES];
@@ -4217,8 +4111,7 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
 
 /* Makes the polygon of a triangle.  Its values are linear in clip space: values over w are
    multiplied by w.  Returns the planes that the triangle crosses. */
-static uint32_t shade__polygon_of(const shade__plan *plan,
-                                  const shade__batch *b,
+static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b,
                                   const uint8_t corner[4], shade__polygon *p)
 {
     const int stride = plan->value_stride;
@@ -4257,8 +4150,7 @@ static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
             v->clip[k] = shade__maxf(-3 * w, shade__minf(v->clip[k], 3 * w));
         v->x = shade__snap(v->clip[0], w, half_width, half_width);
         v->y = shade__snap(v->clip[1], w, -half_height, half_height);
-        value[0] = shade__window_depth(v->clip[2], w, zero_to_one ? 1 : 0.5,
-                                       zero_to_one ? 0 : 0.5);
+        value[0] = shade__window_depth(v->clip[2], w, zero_to_one ? 1 : 0.5, zero_to_one ? 0 : 0.5);
         value[1] = rw;
         for (int k = plan->divided; k < plan->values; k++) value[k] *= rw;
     }
@@ -4267,8 +4159,7 @@ static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 /* Twice the area of the triangle of corners a, a + i, a + i + 1. */
 static int64_t shade__fan_area(const shade__polygon *p, int a, int i)
 {
-    return shade__area(&p->vertex[p->corner[a]],
-                       &p->vertex[p->corner[(a + i) % p->count]],
+    return shade__area(&p->vertex[p->corner[a]], &p->vertex[p->corner[(a + i) % p->count]],
                        &p->vertex[p->corner[(a + i + 1) % p->count]]);
 }
 
@@ -4287,8 +4178,7 @@ static int shade__apex(const shade__polygon *p)
     return 0;
 }
 
-static int shade__clip(const shade__draw *d, const uint8_t corner[4],
-                       shade__polygon *fan)
+static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__polygon *fan)
 {
     const shade__plan *plan = &d->plan;
     const uint32_t out = shade__polygon_of(plan, &d->batch, corner, fan);
@@ -4341,7 +4231,7 @@ typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edg
 
 /* A triangle while its pixels are found. */
 typedef struct shade__triangle {
-    int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
+    int      x0, y0, x1, y1;          /* pixels with a centre that may be inside; ends included */
     int      lane;                    /* of the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     shade__edges edges;               /* the steps; and e, set by shade__cover_columns */
@@ -4368,8 +4258,7 @@ typedef struct shade__runs {
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
-SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i,
-                                      shade__triangle *t)
+SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i, shade__triangle *t)
 {
     t->x0 = t->edges.x = s->box[0][i];
     t->y0 = t->edges.y = s->box[1][i];
@@ -4400,9 +4289,8 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 
 /* Edge k at pixel (x, y), and its least value in the rectangle that begins there.
    pre: it begins in the picture and is at most 2^14 wide and high   post: both within 2^45 */
-SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x,
-                                     int y, int columns, int rows,
-                                     int64_t *least)
+SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int y, int columns,
+                                     int rows, int64_t *least)
 {
     const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
     const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
@@ -4534,8 +4422,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
 /* ---- pixels */
 
 /* The depth test of z against the stored s, as a mask. */
-SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
-                                     float z, float s)
+SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, float z, float s)
 {
     if (less_only) return shade__mask(z < s);
     return (shade__mask(z < s) & c.less) | (shade__mask(z == s) & c.equal) |
@@ -4550,9 +4437,8 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
                                        const shade__edges *SHADE_RESTRICT edges,
-                                       shade__tile *SHADE_RESTRICT tile, int at,
-                                       const int width, const int less_only,
-                                       const int full)
+                                       shade__tile *SHADE_RESTRICT tile, int at, const int width,
+                                       const int less_only, const int full)
 {
     const shade__compare test = plan->tile_test;
     const float zx = t->zx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
@@ -4599,9 +4485,8 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
 /* Tests a tile, with a specialised copy for the commonest depth test. */
 SHADE__INLINE void shade__test_tile(const shade__plan *plan,
                                     const shade__triangle *SHADE_RESTRICT t,
-                                    const shade__edges *edges,
-                                    shade__tile *SHADE_RESTRICT tile, const int width,
-                                    const int full)
+                                    const shade__edges *edges, shade__tile *SHADE_RESTRICT tile,
+                                    const int width, const int full)
 {
     const int less = SHADE__HAS(SHADE__LESS) && plan->less_only;
     const int slim = width > 8 && tile->columns <= 8;
@@ -4647,17 +4532,14 @@ SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 {
     const size_t early = (size_t)plan->early, row = (size_t)(tile->y - plan->row_offset);
 
-    tile->depth = plan->tested +
-                  early * (row * (size_t)plan->stride + (size_t)tile->x);
+    tile->depth = plan->tested + early * (row * (size_t)plan->stride + (size_t)tile->x);
     tile->stride = plan->early * plan->stride;
 }
 
 /* Tests a tile wider than the n columns of the clip rectangle: each row is copied, tested and
    copied back. */
-static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
-                                             const shade__triangle *t,
-                                             const shade__edges *edges, int n,
-                                             shade__tile *tile)
+static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shade__triangle *t,
+                                             const shade__edges *edges, int n, shade__tile *tile)
 {
     const size_t bytes = (size_t)n * sizeof(float);
     float copy[SHADE__TILE];
@@ -4723,16 +4605,14 @@ static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
 
 /* away times the depth at pixel x, with the bits that are tested.  row_z is the depth at the x of
    corner 0. */
-SHADE__INLINE float shade__key(float away, const shade__triangle *t,
-                               float row_z, int x)
+SHADE__INLINE float shade__key(float away, const shade__triangle *t, float row_z, int x)
 {
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
 /* least is the least value of each edge in a rectangle.  Is the same rectangle, moved right by so
    many pixels (left if negative), inside all edges? */
-SHADE__INLINE int shade__all_inside(const shade__triangle *t,
-                                    const int64_t least[3], int right)
+SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t least[3], int right)
 {
     int64_t crossed = 0;
 
@@ -4744,10 +4624,8 @@ SHADE__INLINE int shade__all_inside(const shade__triangle *t,
    the first column that is not hidden, or beyond s->end if all are, and s->last to the last column
    before one that is hidden or differs in s->inside.  Brings the bounds nearer that the triangle
    fills. */
-static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
-                                                shade__bounds *b,
-                                                const shade__triangle *t,
-                                                shade__stretch *s)
+static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__bounds *b,
+                                                const shade__triangle *t, shade__stretch *s)
 {
     const float away = plan->away;
     /* the directions in which the triangle gets farther */
@@ -4782,9 +4660,7 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
 
 /* Draws a stretch of a triangle.  In the last stretch of a row tiles begin at the edges and may
    overrun its end.  In the others they begin at multiples of 32 columns, as bounds do. */
-SHADE__INLINE void shade__cover_stretch(shade__draw *d,
-                                        const shade__triangle *t,
-                                        shade__runs *runs,
+SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t, shade__runs *runs,
                                         const shade__stretch *s)
 {
     const shade__plan *plan = &d->plan;
@@ -4979,8 +4855,7 @@ typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
 /* The planes of all values in one loop.  k: the sides from corner 0 to 1 (x, y) and from 0 to 2
    (z, w), divided by twice the area. */
-SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2,
-                                 shade_vec4 k, int stride,
+SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2, shade_vec4 k, int stride,
                                  shade__planes *SHADE_RESTRICT t)
 {
     for (int s = 0; s < stride; s += 8) {
@@ -4993,8 +4868,7 @@ SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2,
     }
 }
 
-SHADE__INLINE void shade__make_planes(const shade__plan *plan,
-                                      const shade__setup *s, int i,
+SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setup *s, int i,
                                       shade__planes *t)
 {
     static const uint8_t order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
@@ -5004,8 +4878,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan,
     const float *v0 = s->value + corner[turn[0]] * stride;
     const float *v1 = s->value + corner[turn[1]] * stride;
     const float *v2 = s->value + corner[turn[2]] * stride;
-    const shade_vec4 side = shade_v4(s->side[0][i], s->side[1][i],
-                                     s->side[2][i], s->side[3][i]);
+    const shade_vec4 side = shade_v4(s->side[0][i], s->side[1][i], s->side[2][i], s->side[3][i]);
 
     shade__slopes(v0, v1, v2, side, stride, t);
     t->base[0] = s->z0[i];    /* with the bias */
@@ -5030,9 +4903,8 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan,
 /* The squared length, in texels, of the longer step of (u, v) to the next pixel, in 8 lanes.  With
    u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
 SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
-                                     const shade__planes *SHADE_RESTRICT t,
-                                     shade__in value, int x, int back,
-                                     shade__in rw, shade__out lod)
+                                     const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
+                                     int back, shade__in rw, shade__out lod)
 {
     const int k = plan->lod;
     const float w = (float)plan->pipe->lod_texture->width;
@@ -5057,17 +4929,14 @@ SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
                                        int back, shade__out to, const int width)
 {
     SHADE__FOR(i, width) {
-        to[i] = shade__select(value + step * px[i], to[i],
-                              shade__mask(i < back));
+        to[i] = shade__select(value + step * px[i], to[i], shade__mask(i < back));
     }
 }
 
 /* Window position, triangle and facing; skipped if they are not read. */
-SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t,
-                                       float row_z, shade__piece p,
-                                       shade__in px,
-                                       shade_fragments *SHADE_RESTRICT f,
-                                       const int width)
+SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, float row_z,
+                                       shade__piece p, shade__in px,
+                                       shade_fragments *SHADE_RESTRICT f, const int width)
 {
     const float centre = (float)p.y + 0.5f, zx = t->gx[0];
     const int x = p.x, c = p.lane, back = p.back;
@@ -5151,9 +5020,10 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
         p.back = wide ? 0 : back;
         if (wide) shade__append(d, t, value, p, SHADE__WIDE);
         else shade__append(d, t, value, p, 8);
-        for (int i = 0; plan->lod && i < width; i += 8)
-            shade__append_lod(plan, t, value, p.x + i, back, q->rw + p.lane + i,
-                              q->f.lod + p.lane + i);
+        if (plan->lod)
+            for (int i = 0; i < width; i += 8)
+                shade__append_lod(plan, t, value, p.x + i, back, q->rw + p.lane + i,
+                                  q->f.lod + p.lane + i);
         x += take;
         n -= take;
         q->f.count += take;
@@ -5161,8 +5031,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
     }
 }
 
-SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run,
-                                    int runs)
+SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int runs)
 {
     shade__planes t;
     SHADE_ALIGNED float value[SHADE__VALUES_MAX];
@@ -5265,8 +5134,7 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
         return "The texture's width and height must be from 1 to 16384 texels.";
     if (t->stride && t->stride < t->width)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
-    if (!shade__is_format(t->format))
-        return "The texture's format is no SHADE_FORMAT_... value.";
+    if (!shade__is_format(t->format)) return "The texture's format is no SHADE_FORMAT_... value.";
     if (!SHADE__KNOWN(t->wrap_u, SHADE_WRAP_MIRROR) || !SHADE__KNOWN(t->wrap_v, SHADE_WRAP_MIRROR))
         return "The texture's wrap_u or wrap_v is no SHADE_WRAP_... value.";
     if (!SHADE__KNOWN(t->filter, SHADE_FILTER_TRILINEAR))
@@ -5360,9 +5228,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
 
 /* Finds the texels of a level for blocks of lanes.  y.i counts bytes, or rows if the level has more
    bytes than 32 bits can count. */
-SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u,
-                                     const float *v, int blocks,
-                                     shade__reader *r)
+SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, const float *v,
+                                     int blocks, shade__reader *r)
 {
     const uint32_t bytes = shade__layouts[t->format].bytes;
     const size_t pitch = (size_t)(t->stride ? t->stride : t->width) * bytes;
@@ -5395,9 +5262,8 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u,
 }
 
 /* Fetches a block of pairs that may lie apart, from lane i on; p is the first texel. */
-SHADE__INLINE void shade__fetch_apart(const shade__reader *r, const uint8_t *p,
-                                      int line, int i, const int bytes,
-                                      const int swapped, shade__word *to)
+SHADE__INLINE void shade__fetch_apart(const shade__reader *r, const uint8_t *p, int line, int i,
+                                      const int bytes, const int swapped, shade__word *to)
 {
     const uint32_t *row = r->y.i[line], *left = r->x.i[0], *right = r->x.i[1];
     const size_t y_bytes = r->y_bytes;
@@ -5416,8 +5282,7 @@ SHADE__INLINE void shade__fetch_pair(const uint8_t *left, shade__word *to)
 /* Fetches the pairs of the row above (line 0) or below (1), left and right alternating, one word
    each; of RGBA32F texels, the words of channel k.  Not inlined, because gcc would vectorise the
    loads, which takes longer. */
-static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
-                                         int k, shade__word *to)
+static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k, shade__word *to)
 {
     const uint8_t *p = r->pixels + 4 * k;
     const uint32_t *pair = r->pair[line];
@@ -5454,19 +5319,16 @@ SHADE__INLINE float shade__blend_four(float a, float b, float c, float d, float 
 }
 
 /* The same for channel k of packed texels. */
-SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, uint32_t a,
-                                    uint32_t b, uint32_t c, uint32_t d, float x,
-                                    float y)
+SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, uint32_t a, uint32_t b,
+                                    uint32_t c, uint32_t d, float x, float y)
 {
     return shade__blend_four(shade__texel(a, l, k), shade__texel(b, l, k), shade__texel(c, l, k),
                              shade__texel(d, l, k), x, y);
 }
 
 /* Blends all channels of packed texels. */
-SHADE__INLINE void shade__blend_packed(const shade__reader *r,
-                                       shade__in_bits texel, shade__out red,
-                                       shade__out green, shade__out blue,
-                                       shade__out alpha)
+SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits texel, shade__out red,
+                                       shade__out green, shade__out blue, shade__out alpha)
 {
     const uint32_t *second = texel + 2 * SHADE_LANES;
     const shade__layout l = *r->layout;
@@ -5543,8 +5405,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
 
 /* Blends one channel of float texels, in the order of pairs.  A texel of weight 0 is left out: 0
    times infinity would be NaN. */
-SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
-                                       shade__out out)
+SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c, shade__out out)
 {
     const float *second = c + 2 * SHADE_LANES;
     const int blocks = r->blocks;
@@ -5559,8 +5420,7 @@ SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
 
 /* Adds one channel of a level times its weight; nothing for a weight of 0, since 0 times infinity
    would be NaN. */
-SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks,
-                                    shade__out out)
+SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks, shade__out out)
 {
     SHADE__EACH_BLOCK(i, blocks) {
         out[i] += shade__keep(weight[i] * c[i], shade__mask(weight[i] > 0));
@@ -5618,9 +5478,8 @@ SHADE__INLINE void shade__filter(const shade__reader *r, int encoded,
         shade__add_level(level + k * SHADE_LANES, weight, r->blocks, out + k * SHADE_LANES);
 }
 
-SHADE__INLINE void shade__level_body(const shade_texture *t, const float *u,
-                                     const float *v, const float *weight,
-                                     int blocks, float *out)
+SHADE__INLINE void shade__level_body(const shade_texture *t, const float *u, const float *v,
+                                     const float *weight, int blocks, float *out)
 {
     shade__reader r;
     shade__open_level(t, u, v, blocks, &r);
@@ -5632,9 +5491,8 @@ SHADE__DISPATCH(shade__level,
                 shade__level_body(t, u, v, weight, blocks, out))
 
 /* Samples a texture with mipmaps: the levels that any lane needs, weighted. */
-static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t,
-                                                 const float *u, const float *v,
-                                                 const float *lod, int blocks,
+static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t, const float *u,
+                                                 const float *v, const float *lod, int blocks,
                                                  float *out)
 {
     const int levels = shade__min(t->mipmap_count, 16);
@@ -5672,9 +5530,8 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t,
 }
 
 /* Samples blocks of lanes of a good texture. */
-static void shade__sample(const shade_texture *t, const float *u,
-                          const float *v, const float *lod, int blocks,
-                          float *out)
+static void shade__sample(const shade_texture *t, const float *u, const float *v, const float *lod,
+                          int blocks, float *out)
 {
     if (lod && t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps && t->mipmap_count > 0)
         shade__sample_levels(t, u, v, lod, blocks, out);
@@ -5692,8 +5549,7 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u,
     shade__sample(texture, u, v, lod, SHADE__BLOCKS, rgba);
 }
 
-SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
-                                 float lod)
+SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
 {
     float us[SHADE__BLOCK], vs[SHADE__BLOCK], lods[SHADE__BLOCK], out[4 * SHADE_LANES];
     if (!shade__texture_good(texture)) return shade_v4(1, 1, 1, 1);
@@ -5703,8 +5559,7 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
         lods[i] = lod;
     }
     shade__sample(texture, us, vs, lods, 1, out);
-    return shade_v4(out[0], out[SHADE_LANES], out[2 * SHADE_LANES],
-                    out[3 * SHADE_LANES]);
+    return shade_v4(out[0], out[SHADE_LANES], out[2 * SHADE_LANES], out[3 * SHADE_LANES]);
 }
 
 /*------------------------------------------------------------------------------------------ >>store
@@ -5716,8 +5571,7 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
 
 /* The thresholds of a 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and of y,
    interleaved and reversed.   pre: 0 <= x, y < 2^31   post: 0 < threshold < 1 */
-SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
-                                 int blocks)
+SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold, int blocks)
 {
     SHADE__EACH_BLOCK(i, blocks) {
         uint32_t v = (uint32_t)(int32_t)y[i], d = (uint32_t)(int32_t)x[i] ^ v;
@@ -5728,24 +5582,21 @@ SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
 
 /* Channel k of a packed pixel: c, which may be any float, clamped to [0, 1], scaled to full, and
    rounded up if its fraction reaches 1 - threshold. */
-SHADE__INLINE uint32_t shade__pack_channel(float c, const shade__layout *l, int k,
-                                     float threshold)
+SHADE__INLINE uint32_t shade__pack_channel(float c, const shade__layout *l, int k, float threshold)
 {
     const int32_t number = (int32_t)(shade__unit(c) * (float)l->full[k] + threshold);
     return (uint32_t)number << shade__shift(l, k);
 }
 
-SHADE__INLINE void shade__pack_channels(const shade__layout *layout,
-                                        shade__in rgba, shade__in threshold,
-                                        shade__out_bits packed, int blocks)
+SHADE__INLINE void shade__pack_channels(const shade__layout *layout, shade__in rgba,
+                                        shade__in threshold, shade__out_bits packed, int blocks)
 {
     const shade__layout l = *layout;
     SHADE__EACH_BLOCK(i, blocks) {
         packed[i] = shade__pack_channel(rgba[i], &l, 0, threshold[i]) |
                     shade__pack_channel(rgba[i + SHADE_LANES], &l, 1, threshold[i]) |
                     shade__pack_channel(rgba[i + 2 * SHADE_LANES], &l, 2, threshold[i]) |
-                    shade__pack_channel(rgba[i + 3 * SHADE_LANES], &l, 3,
-                                  threshold[i]);
+                    shade__pack_channel(rgba[i + 3 * SHADE_LANES], &l, 3, threshold[i]);
     }
 }
 
@@ -5761,16 +5612,15 @@ SHADE__INLINE void shade__encode_row(shade__out c, int blocks)
 
 /* Packs blocks of colours for the target; encodes them in place if it stores sRGB.  Only dithering
    reads x and y.  RGBA32F colours are left as they are. */
-SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba,
-                                    const float *x, const float *y,
-                                    uint32_t *packed, int blocks)
+SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const float *x,
+                                    const float *y, uint32_t *packed, int blocks)
 {
     const shade__layout *l = &shade__layouts[t->format];
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (l->bytes == 16) return;
 
-    for (int k = 0; k < 3 && shade__is_encoded(t->srgb, l); k++)
-        shade__encode_row(rgba + k * SHADE_LANES, blocks);
+    if (shade__is_encoded(t->srgb, l))
+        for (int k = 0; k < 3; k++) shade__encode_row(rgba + k * SHADE_LANES, blocks);
 
     SHADE__EACH_BLOCK(i, blocks) { threshold[i] = 0.5f; }
     if (t->dither && l->bytes == 2) shade__dither(x, y, threshold, blocks);
@@ -5782,12 +5632,12 @@ SHADE__DISPATCH(shade__pack,
                 shade__pack_body(t, rgba, x, y, packed, blocks))
 
 /* Unpacks a block of pixels to linear light.  RGBA32F pixels are in rgba already. */
-SHADE__INLINE void shade__unpack_body(const shade_target *t,
-                                      shade__in_bits packed, shade__out rgba)
+SHADE__INLINE void shade__unpack_body(const shade_target *t, shade__in_bits packed, shade__out rgba)
 {
     const shade__layout l = shade__layouts[t->format];
     const int encoded = shade__is_encoded(t->srgb, &l);
-    for (int k = 0; k < 4 && l.bytes < 16; k++) {
+    if (l.bytes == 16) return;
+    for (int k = 0; k < 4; k++) {
         float *c = rgba + k * SHADE_LANES;
         SHADE__FOR(i, SHADE__BLOCK) {
             c[i] = shade__channel(packed[i], &l, k) / (float)l.full[k];
@@ -5799,8 +5649,7 @@ SHADE__INLINE void shade__unpack_body(const shade_target *t,
         }
     }
 }
-SHADE__DISPATCH_AVX2(shade__unpack,
-                     (const shade_target *t, const uint32_t *packed, float *rgba),
+SHADE__DISPATCH_AVX2(shade__unpack, (const shade_target *t, const uint32_t *packed, float *rgba),
                      (t, packed, rgba), shade__unpack_body(t, packed, rgba))
 
 /* Packs n pixels and stores them at p.  The first is pixel (x, y) of the target, for dithering.
@@ -5825,8 +5674,7 @@ static void shade__store_run(const shade_target *t, float *rgba, int x, int y, i
 
 /* Tests and writes depth in drawing order, after a shader that may discard. alive: 1 for lanes that
    store their colour, else 0. */
-static void shade__late_depth(shade__draw *d, const uint32_t *discard,
-                              uint32_t *alive)
+static void shade__late_depth(shade__draw *d, const uint32_t *discard, uint32_t *alive)
 {
     const shade__plan *plan = &d->plan;
     const shade__queue *q = &d->u.queue;
@@ -5843,9 +5691,8 @@ static void shade__late_depth(shade__draw *d, const uint32_t *discard,
 }
 
 /* Stores the lanes first .. last - 1 that are alive, or all if alive is NULL. */
-SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive,
-                                  const float *rgba, const uint32_t *packed,
-                                  int first, int last)
+SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive, const float *rgba,
+                                  const uint32_t *packed, int first, int last)
 {
     const shade__layout l = *d->plan.layout;
     uint8_t *color = d->plan.color;
@@ -5856,8 +5703,7 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive,
 }
 
 /* Stores all lanes in pixels of 4 bytes; a block of adjacent pixels is stored as one vector. */
-SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
-                                        shade__in_bits offset,
+SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color, shade__in_bits offset,
                                         shade__in_bits packed, int count)
 {
     int i = 0;
@@ -5878,8 +5724,7 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
 /* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  A new mode needs
    its sum here, its number in shade__raster_fault, the effect of alpha on the colours of meshes in
    shade__mesh_alpha, and in shade__black_is_meant whether black may be meant. */
-SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba,
-                                shade__out stored)
+SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out stored)
 {
     const uint32_t over = shade__mask(blend == SHADE_BLEND_OVER);
     for (int k = 0; k < 4; k++) {
@@ -5887,18 +5732,15 @@ SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba,
         SHADE__FOR(i, SHADE__BLOCK) {
             const int at = k * SHADE_LANES + (int)i;
             float a = rgba[3 * SHADE_LANES + i], t = shade__select(1, 1 - a, over);
-            stored[at] = rgba[at] * shade__select(1, a, scaled) +
-                         stored[at] * t;
+            stored[at] = rgba[at] * shade__select(1, a, scaled) + stored[at] * t;
         }
     }
 }
 
 /* Blends and stores in drawing order, in pieces of up to a block.  The addresses within a piece
    rise, so that no pixel is in it twice.  Other lanes of its block are not stored. */
-static SHADE__NOINLINE void shade__store_blended(const shade__draw *d,
-                                                 const uint32_t *alive,
-                                                 const float *rgba,
-                                                 uint32_t *packed)
+static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const uint32_t *alive,
+                                                 const float *rgba, uint32_t *packed)
 {
     const shade__plan *plan = &d->plan;
     const shade__queue *q = &d->u.queue;
@@ -5913,8 +5755,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d,
         }
         shade__unpack(plan->target, packed + base, stored + base);
         shade__blend(plan->pipe->raster.blend, rgba + base, stored + base);
-        shade__pack(plan->target, stored + base, q->f.x + base, q->f.y + base,
-                    packed + base, 1);
+        shade__pack(plan->target, stored + base, q->f.x + base, q->f.y + base, packed + base, 1);
         shade__scatter(d, alive, stored, packed, i, last);
     }
 }
@@ -5934,8 +5775,7 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
         shade__store_blended(d, only, c->color[0], packed);
         return;
     }
-    shade__pack(plan->target, c->color[0], q->f.x, q->f.y, packed,
-                SHADE__BLOCKS);
+    shade__pack(plan->target, c->color[0], q->f.x, q->f.y, packed, SHADE__BLOCKS);
     if (plan->layout->bytes == 4 && !only)
         shade__scatter_words(plan->color, q->offset, packed, q->f.count);
     else shade__scatter(d, only, c->color[0], packed, 0, q->f.count);
@@ -5945,7 +5785,7 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
 
 /*------------------------------------------------------------------------------------------ >>check
    Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
-   a call asks only whether there is one, the function is inlined, and its sentences vanish.
+   a call needs no sentence, the function is inlined and the compiler drops the strings.
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result                                            >>seen */
 
@@ -6071,8 +5911,7 @@ static shade__mesh_rows shade__rows_of_mesh(const shade_draw_state *state, int m
     return r;
 }
 
-SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
-                                             const shade_draw_state *state)
+SHADE__INLINE const char *shade__state_fault(const shade_mesh *m, const shade_draw_state *state)
 {
     if (!SHADE__KNOWN(state->shading, SHADE_SHADING_PER_FACE))
         return "state.shading is no SHADE_SHADING_... value.";
@@ -6200,15 +6039,13 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign,
     for (int k = 0; k < 4; k++) {
         const double a = (double)shade__entries(m)[4 * k + row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
-        f->size[k][i] = shade__size(a) + shade__size(limit * w) +
-                        (double)FLT_MIN;
+        f->size[k][i] = shade__size(a) + shade__size(limit * w) + (double)FLT_MIN;
     }
 }
 
 /* The planes of the clip rectangle, near and far.  The rectangle extends half a pixel beyond the
    centres of its pixels, and snapping and clipping move an edge by less. */
-static SHADE__COLD void shade__frustum_of(const shade_target *t,
-                                          const shade_mat4 *clip_from_object,
+static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat4 *clip_from_object,
                                           int zero_to_one, shade__frustum *f)
 {
     const double w = t->width, h = t->height;
@@ -6227,8 +6064,7 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t,
    the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, with an
    error of 2^-22 of the sum of the |products|, and each of 7 clips adds 2^-24 of it; 2^-20 covers
    both.  FLT_MIN in frustum.size covers products that underflow, with an error of 2^-148. */
-static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
-                                          shade_vec3 low, shade_vec3 high)
+static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 low, shade_vec3 high)
 {
     double from[3], c[3], h[3], m[3];
     uint64_t signs = 0;
@@ -6287,10 +6123,8 @@ static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from
     s->frustum = frustum;
 }
 
-SHADEDEF int shade_box_visible(const shade_target *target,
-                               shade_mat4 clip_from_object,
-                               int depth_zero_to_one, shade_vec3 low,
-                               shade_vec3 high)
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
 {
     shade__frustum frustum;
     if (!target || shade__check_target(target)) return 1;
@@ -6328,10 +6162,9 @@ static shade__compare shade__compare_of(const shade_raster *r)
 }
 
 /* Not SHADE__COLD: gcc propagates `cold` to callers, here shade__run_draw, and from there to every
-   stage, whose loops would stay scalar (4 times slower). */
-static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
-                                             const shade_pipeline *p, int own,
-                                             shade__plan *plan)
+   stage; their loops would stay scalar (4 times slower). */
+static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_pipeline *p,
+                                             int own, shade__plan *plan)
 {
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
     const int early = t->depth && !p->may_discard, kept = early && !p->raster.depth_read_only;
@@ -6412,23 +6245,20 @@ static shade_result shade__supply_all(shade__indices indices, int index_count,
 }
 
 /* The first step of every drawing call: clears stats, refuses missing arguments and bad targets. */
-static shade_result shade__begin(const shade_target *t, int given,
-                                 shade_stats *stats)
+static shade_result shade__begin(const shade_target *t, int given, shade_stats *stats)
 {
     if (stats) SHADE__ZERO(*stats);
     return t && given ? shade__check_target(t) : SHADE_ERROR_ARGUMENT;
 }
 
-SHADEDEF shade_result shade_draw(const shade_target *target,
-                                 const shade_pipeline *pipeline,
+SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count,
                                  int vertex_count, shade_stats *stats)
 {
     const shade__indices list = { indices, NULL };
     shade__supply supply;
     shade_pipeline pipe;
-    shade_result result = shade__begin(target, pipeline && pipeline->vertex,
-                                       stats);
+    shade_result result = shade__begin(target, pipeline && pipeline->vertex, stats);
     if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
     if (!result) result = shade__check_pipeline(pipeline);
     if (!result) result = shade__supply_all(list, index_count, vertex_count, &supply);
@@ -6456,8 +6286,7 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
     for (size_t i = period; i < 256; i++) pattern[i] = pattern[i - period];
 }
 
-SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color,
-                                  float depth)
+SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
     shade_result result = shade__begin(target, 1, NULL);
     size_t bytes, n;
@@ -6481,12 +6310,12 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color,
 }
 
 /*------------------------------------------------------------------------------------------- >>mesh
-   A mesh is drawn by a vertex shader and a fragment shader like those of any pipeline.
+   A mesh is drawn by a vertex shader and a fragment shader, as in any pipeline.
      in      arrays in object space    out  varyings in world space: P, N, albedo; or one lit colour
      holds   Where faces have values of their own (normals or light), every corner of a triangle is
-             a vertex: its index is 3 times the triangle's plus the corner's number.  Where nobody
-             reads P and N, they are not computed: textured floors without lamps are drawn 1.15 to
-             1.23 times as fast, those with colours 1.02 to 1.04 times.                   >>lines */
+             a vertex: its index is 3 times the triangle's plus the corner's number.  Where no
+             shader reads P and N, they are not computed: textured floors without lamps are drawn
+             1.15 to 1.23 times as fast, with colours 1.02 to 1.04 times.                 >>lines */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_mesh *mesh;
@@ -6504,15 +6333,14 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int has_picture;                     /* the target has a picture */
     int tinted;                          /* the mesh has colours that somebody reads */
     int lit_vertices;                    /* light at its vertices, also where that is once a face */
-    int pn_unread;                       /* nobody reads P and N */
+    int pn_unread;                       /* no shader reads P and N */
     shade__mesh_rows row;
 } shade__scene;
 
 enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
 
 /* Element i of an array of vectors.  stride: in bytes; 0 if they follow each other. */
-SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride,
-                                        uint32_t i)
+SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
 {
     float v[3];
     SHADE_MEMCPY(v, (const char *)array + (size_t)i * (size_t)(stride ? stride : 12), 12);
@@ -6527,13 +6355,11 @@ SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
 /* The position of a corner; corners are counted through all triangles. */
 SHADE__INLINE shade_vec3 shade__corner(const shade_mesh *m, uint32_t corner)
 {
-    return shade__vec3_at(m->positions, m->position_stride,
-                          shade__corner_index(m, corner));
+    return shade__vec3_at(m->positions, m->position_stride, shade__corner_index(m, corner));
 }
 
 /* Writes the corners of a triangle to p and returns their shade_face_normal. */
-static SHADE__NOINLINE shade_vec3 shade__face_normal(const shade_mesh *m,
-                                                     uint32_t triangle,
+static SHADE__NOINLINE shade_vec3 shade__face_normal(const shade_mesh *m, uint32_t triangle,
                                                      shade_vec3 *p)
 {
     for (uint32_t k = 0; k < 3; k++) p[k] = shade__corner(m, 3 * triangle + k);
@@ -6541,41 +6367,31 @@ static SHADE__NOINLINE shade_vec3 shade__face_normal(const shade_mesh *m,
 }
 
 /* The vertex of lane i of a packet. */
-SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s,
-                                        const shade_vertex_ids *in, int i)
+SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s, const shade_vertex_ids *in, int i)
 {
     return s->corners ? shade__corner_index(s->mesh, in->index[i]) : in->index[i];
 }
 
 /* What the vertices of a packet have in object space: rows of P and, where somebody reads them, of
    N and albedo. */
-static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s,
-                                                  const shade_vertex_ids *in,
-                                                  shade__v3 *point,
-                                                  shade__v3 *normal,
+static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in,
+                                                  shade__v3 *point, shade__v3 *normal,
                                                   shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
     const int with_normals = !s->face_normals && !s->pn_unread;
     for (int i = 0; i < SHADE_LANES; i++) {
         uint32_t v = shade__vertex_of(s, in, i);
-        shade__put(point, i,
-                   shade__vec3_at(m->positions, m->position_stride, v));
-        if (with_normals)
-            shade__put(normal, i,
-                       shade__vec3_at(m->normals, m->normal_stride, v));
-        if (s->tinted)
-            shade__put(albedo, i,
-                       shade__vec3_at(m->colors, m->color_stride, v));
+        shade__put(point, i, shade__vec3_at(m->positions, m->position_stride, v));
+        if (with_normals) shade__put(normal, i, shade__vec3_at(m->normals, m->normal_stride, v));
+        if (s->tinted) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
 
 /* Computes the normal of each face for all its corners, which follow each other in the packet; with
    SHADE_SHADING_PER_FACE its centroid and the colour of its first vertex too. */
-static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s,
-                                               const shade_vertex_ids *in,
-                                               shade__v3 *point,
-                                               shade__v3 *normal,
+static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in,
+                                               shade__v3 *point, shade__v3 *normal,
                                                shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
@@ -6594,15 +6410,12 @@ static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s,
         if (!per_face) continue;
 
         shade__put(point, i, middle);
-        if (s->tinted)
-            shade__put(albedo, i,
-                       shade__vec3_at(m->colors, m->color_stride, v));
+        if (s->tinted) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
 
 /* clip = m (P, 1) */
-SHADE__INLINE void shade__lane_clip(shade_mat4 m, shade__in_v3 point,
-                                    shade__out clip)
+SHADE__INLINE void shade__lane_clip(shade_mat4 m, shade__in_v3 point, shade__out clip)
 {
     SHADE_EACH_LANE(i) {
         const shade_vec4 p = shade__xyzw(shade__at(point, i), 1);
@@ -6629,14 +6442,12 @@ SHADE__INLINE void shade__lane_normal(shade_mat3 m, shade__out_v3 normal)
 }
 
 static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
-                                                   const shade_vertex_ids *in,
-                                                   float *u)
+                                                   const shade_vertex_ids *in, float *u)
 {
     const shade_mesh *m = s->mesh;
     const size_t stride = m->texcoord_stride ? (size_t)m->texcoord_stride : 8;
     for (int i = 0; i < SHADE_LANES; i++) {
-        const char *p = (const char *)m->texcoords +
-                        shade__vertex_of(s, in, i) * stride;
+        const char *p = (const char *)m->texcoords + shade__vertex_of(s, in, i) * stride;
         SHADE_MEMCPY(u + i, p, 4);
         SHADE_MEMCPY(u + i + SHADE_LANES, p + 4, 4);
     }
@@ -6645,8 +6456,7 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
 /* Writes the light of vertices to rows 0 .. 2 of rgb; with a map the part that the map multiplies,
    and the rest to rows 3 .. 5. */
 static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
-                                  const shade__v3 *normal, const float *albedo,
-                                  float *rgb)
+                                  const shade__v3 *normal, const float *albedo, float *rgb)
 {
     shade_rows rows;
     SHADE__ZERO(rows);
@@ -6657,8 +6467,7 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     if (s->map) {
         shade_lighting rest = s->lighting;
         rest.terms = s->unmapped;
-        shade_lit_lanes(&rest, s->state->material, s->eye, &rows,
-                        rgb + 3 * SHADE_LANES);
+        shade_lit_lanes(&rest, s->state->material, s->eye, &rows, rgb + 3 * SHADE_LANES);
     }
 }
 
@@ -6668,9 +6477,8 @@ SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 
     return row < 0 ? others : shade__three_rows(out->varying[row]);
 }
 
-/* Vertices are fetched into the rows of their varyings, and what is no varying into own. */
-static void shade__mesh_vertex(const void *uniforms,
-                               const shade_vertex_ids *SHADE_RESTRICT in,
+/* Attributes are fetched into the rows of their varyings, other values into own. */
+static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
@@ -6696,10 +6504,9 @@ static void shade__mesh_vertex(const void *uniforms,
         shade__fetch_texcoords(s, in, out->varying[s->row.uv]);
 }
 
-/* The row of alpha holds that of the map or of the fragment shader, or 1.  It is multiplied by the
+/* The row of alpha holds the map's alpha, the fragment shader's, or 1.  It is multiplied by the
    opacity.  The product is stored, compared with the cut-off, and the factor of colours in ADD. */
-static void shade__mesh_alpha(const shade__scene *s,
-                              shade_colors *SHADE_RESTRICT out)
+static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
     SHADE_EACH_LANE(i) { out->color[3][i] *= opacity; }
@@ -6724,7 +6531,8 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s,
     float albedo[3 * SHADE_LANES];
     shade_rows mapped = *rows;
     SHADE_MEMCPY(albedo, rgb, sizeof albedo);
-    for (int i = 0; rows->albedo && i < 3 * SHADE_LANES; i++) albedo[i] *= rows->albedo[i];
+    if (rows->albedo)
+        for (int i = 0; i < 3 * SHADE_LANES; i++) albedo[i] *= rows->albedo[i];
     mapped.albedo = albedo;
     shade__lit_packet(&s->surface, &mapped, rgb);
 }
@@ -6737,8 +6545,7 @@ SHADE__INLINE const float *shade__row(const shade_fragments *in, int row)
 
 /* The colour of the map, lit by what arrives: P and N of the pixel, or light of the vertices.
    Draws without a picture need the map alone, for the holes that it cuts. */
-static void shade__mesh_colors(const shade__scene *s,
-                               const shade_fragments *SHADE_RESTRICT in,
+static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHADE_RESTRICT in,
                                shade_colors *SHADE_RESTRICT out)
 {
     const shade__mesh_rows *row = &s->row;
@@ -6747,7 +6554,8 @@ static void shade__mesh_colors(const shade__scene *s,
         shade_sample_lanes(s->map, in->varying[row->uv], in->varying[row->uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (!s->has_picture) return;
-    for (int i = 0; s->white_map && i < 3 * SHADE_LANES; i++) to[i] = 1;
+    if (s->white_map)
+        for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = 1;
 
     if (!s->lit_vertices) {
         shade_rows rows;
@@ -6763,8 +6571,7 @@ static void shade__mesh_colors(const shade__scene *s,
     } else SHADE_MEMCPY(to, in->varying[row->light], 3 * sizeof in->varying[0]);
 }
 
-static void shade__mesh_fragment(const void *uniforms,
-                                 const shade_fragments *SHADE_RESTRICT in,
+static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                  shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
@@ -6780,8 +6587,7 @@ static void shade__plan_scene(shade__scene *s)
     const shade_draw_state *state = s->state;
     const int per_fragment = state->shading == SHADE_SHADING_PER_FRAGMENT;
     s->face_normals = !m->normals || state->shading == SHADE_SHADING_PER_FACE;
-    s->pn_unread = !state->fragment &&
-               (!s->has_picture || (per_fragment && !s->surface.lamps));
+    s->pn_unread = !state->fragment && (!s->has_picture || (per_fragment && !s->surface.lamps));
     s->lit_vertices = !per_fragment && !s->pn_unread;
     s->corners = s->face_normals && !s->pn_unread;
     s->tinted = m->colors && (s->has_picture || state->fragment);
@@ -6789,10 +6595,8 @@ static void shade__plan_scene(shade__scene *s)
 }
 
 /* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
-static SHADE__COLD void shade__scene_of(const shade_target *target,
-                                        const shade_mesh *mesh,
-                                        const shade_draw_state *state,
-                                        shade__scene *s)
+static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
+                                        const shade_draw_state *state, shade__scene *s)
 {
     const unsigned matte = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
@@ -6804,8 +6608,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
     s->world_from_object = shade__or_identity(state->model);
     s->clip_from_object = shade__or_identity(state->projection);
     s->clip_from_object = shade__mat4_product(&s->clip_from_object, &view);
-    s->clip_from_object = shade__mat4_product(&s->clip_from_object,
-                                              &s->world_from_object);
+    s->clip_from_object = shade__mat4_product(&s->clip_from_object, &s->world_from_object);
     s->normal_matrix = shade_normal_matrix(s->world_from_object);
     s->eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
                  ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
@@ -6824,8 +6627,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
 /* Draws the chunks of a mesh that may be seen.  It is kept out of line, so that only meshes with
    chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
-                                                       shade_pipeline *p,
-                                                       const shade__supply *all,
+                                                       shade_pipeline *p, const shade__supply *all,
                                                        shade_stats *stats)
 {
     const shade__scene *scene = (const shade__scene *)p->uniforms;
@@ -6838,8 +6640,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
 
 /* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
    It can fail only where indices are bad. */
-static shade_result shade__draw_scene(const shade_target *target,
-                                      const shade__scene *scene,
+static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
                                       shade_fragment_shader *fragment,
                                       int may_discard, shade_stats *stats)
 {
@@ -6868,10 +6669,8 @@ static shade_result shade__draw_scene(const shade_target *target,
     return shade__run_draw(target, &p, !state->fragment, scene->eye, &supply, stats);
 }
 
-SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
-                                      const shade_mesh *mesh,
-                                      const shade_draw_state *state,
-                                      shade_stats *stats)
+SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
+                                      const shade_draw_state *state, shade_stats *stats)
 {
     shade__scene scene;
     shade_result result = shade__begin(target, mesh && state, stats);
@@ -6902,7 +6701,7 @@ typedef struct shade__stroke {           /* uniforms of the line shaders */
     double half_line;                    /* half the width of the lines, in pixels */
 } shade__stroke;
 
-/* Shortens t[0] .. t[1], a part of a segment, to what is inside a plane.  a and b are the signed
+/* Shortens t[0] .. t[1], a part of a segment, to its part inside a plane.  a and b are the signed
    distances of the segment's ends.  Nothing is left where t[1] < t[0]. */
 static void shade__trim(double a, double b, double *t)
 {
@@ -6924,8 +6723,7 @@ static void shade__stroke_point(const shade__stroke *s, double end[2][4],
    The segment is cut at near, far and w > 0, then 3 half widths and 2 pixels outside of the
    picture: the ends of the cut stay unseen, and are exact to 1/256 pixel.  Returns 0 if nothing is
    left. */
-static int shade__stroke_part(const shade__stroke *s, double end[2][4],
-                              double *t, double *dir)
+static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *t, double *dir)
 {
     const double w0 = end[0][3], w1 = end[1][3], z0 = end[0][2], z1 = end[1][2];
     /* not 0: rounding moves t by up to 1e-16, and w by that times the difference of the two */
@@ -6971,8 +6769,7 @@ static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4
 /* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
    Segments that are not drawn get a point outside, and those that are rejected one that is
    rejected. */
-static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
-                                       int corner)
+static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner)
 {
     const double half = s->half_line;
     const int k = corner & 1;
@@ -6990,13 +6787,11 @@ static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
     at[0] += dir[0] * along - dir[1] * side;
     at[1] += dir[1] * along + dir[0] * side;
     p[3] = (double)(float)p[3];    /* the w that divides x and y later */
-    return shade_v4((float)(at[0] / s->half[0] * p[3]),
-                    (float)(at[1] / s->half[1] * p[3]), (float)p[2],
-                    (float)p[3]);
+    return shade_v4((float)(at[0] / s->half[0] * p[3]), (float)(at[1] / s->half[1] * p[3]),
+                    (float)p[2], (float)p[3]);
 }
 
-static void shade__stroke_vertex(const void *uniforms,
-                                 const shade_vertex_ids *SHADE_RESTRICT in,
+static void shade__stroke_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out)
 {
     static const uint8_t corner[6] = { 0, 1, 3, 0, 3, 2 };
@@ -7006,8 +6801,7 @@ static void shade__stroke_vertex(const void *uniforms,
                                          corner[in->index[i] % 6]));
 }
 
-static void shade__stroke_color(const void *uniforms,
-                                const shade_fragments *SHADE_RESTRICT in,
+static void shade__stroke_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                 shade_colors *SHADE_RESTRICT out)
 {
     shade_vec4 c = ((const shade__stroke *)uniforms)->state->color;
@@ -7044,19 +6838,15 @@ static void shade__stroke_of(const shade_target *target, const shade_vec3 *point
     p->uniforms = s;
 }
 
-SHADEDEF shade_result shade_draw_lines(const shade_target *target,
-                                       const shade_vec3 *points,
-                                       int point_count,
-                                       const shade_line_state *state,
+SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
+                                       int point_count, const shade_line_state *state,
                                        shade_stats *stats)
 {
     const shade__indices in_order = { NULL, NULL };
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
-    shade_result result = shade__begin(target,
-                                       state && (points || point_count <= 0),
-                                       stats);
+    shade_result result = shade__begin(target, state && (points || point_count <= 0), stats);
     if (result) return result;
     if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_MESH;
     if (shade__stroke_fault(state)) return SHADE_ERROR_STATE;
@@ -7122,8 +6912,7 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
 /* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
    and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
    such noise. */
-static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view,
-                             shade__camera *c)
+static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view, shade__camera *c)
 {
     double p[16], v[16], way[3];
     shade__doubles(shade__entries(projection), 16, p);
@@ -7215,7 +7004,7 @@ static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
     return good ? n : shade_v3(0, 0, 0);
 }
 
-/* The corner that follows a corner after so many steps around its triangle. */
+/* The corner that is steps further around the triangle of a corner. */
 static uint32_t shade__corner_after(uint32_t corner, uint32_t steps)
 {
     return corner / 3 * 3 + (corner + steps) % 3;
@@ -7238,15 +7027,13 @@ static shade_result shade__check_shape(const shade_mesh *m, const void *out)
 }
 
 /* Checks the number of all indices, and the indices of a chunk. */
-static shade_result shade__check_range(const shade_mesh *m,
-                                       const shade_chunk *c)
+static shade_result shade__check_range(const shade_mesh *m, const shade_chunk *c)
 {
     if (shade__corner_count(m) % 3) return SHADE_ERROR_INDEX;
     return shade__check_indices(shade__indices_of(m), 3 * c->first, 3 * c->count, m->vertex_count);
 }
 
-SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh,
-                                         shade_vec3 *normals)
+SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
     if (!result) result = shade__check_corners(mesh);
@@ -7284,8 +7071,7 @@ static shade_edge shade__edge_from(const shade_mesh *m, uint32_t corner)
 
 /* Byte k of the key that corners are sorted by: their edge, a before b, or their position, in which
    + 0 turns -0 into 0. */
-SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges,
-                                       uint32_t corner, int k)
+SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t corner, int k)
 {
     uint32_t word;
     if (edges) {
@@ -7298,7 +7084,7 @@ SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges,
     return word >> 8 * (k & 3) & 255;
 }
 
-/* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time whatever their keys are.
+/* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.
    Corners of equal keys ascend.  other has room for count more. */
 static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count,
                                 uint32_t *order, uint32_t *other)
@@ -7323,10 +7109,8 @@ SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
     return 16 * (size_t)shade__corner_count(mesh);
 }
 
-SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh,
-                                                float cos_crease,
-                                                shade_vec3 *out, void *memory,
-                                                size_t bytes)
+SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
+                                                shade_vec3 *out, void *memory, size_t bytes)
 {
     const int corners = mesh ? shade__corner_count(mesh) : 0;
     const int usable = (memory || !corners) && (uintptr_t)memory % 4 == 0;
@@ -7366,8 +7150,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh,
 /* The caller's array is the scratch too: the sorted corners lie in its last quarter.  When i of
    them have become at most i entries, of 16 i bytes, the next corner stands at byte 12 corners + 4
    i, which is not overwritten. */
-SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh,
-                                       shade_edge *edges, int capacity,
+SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count)
 {
     shade_result result;
@@ -7399,8 +7182,7 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh,
     return SHADE_OK;
 }
 
-SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0,
-                                 shade_vec3 n1)
+SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1)
 {
     return shade_dot(to_eye, n0) * shade_dot(to_eye, n1) <= 0;
 }
@@ -7423,8 +7205,7 @@ static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
     }
 }
 
-SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
-                                        shade_vec3 *high)
+SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low, shade_vec3 *high)
 {
     shade_chunk all;
     shade_result result = shade__check_shape(mesh, low ? high : NULL);
@@ -7456,17 +7237,36 @@ static shade_mat4 shade__frame_of(const shade__camera *c)
                      shade__xyzw(shade__single3(at), 1));
 }
 
-/* First the eye stands in the middle of the box.  For each side of the picture it steps back along
-   z until the side's plane, w +- x or w +- y, is not negative at the corner where it is least.
-   6e-8 is for the rounding to float. */
-SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
-                                   shade_vec3 high, shade_vec3 toward_eye,
-                                   shade_vec3 up)
+/* How far an eye in the middle of a box must step back along z: until for each side of the picture
+   the plane w +- x or w +- y is not negative at the corner of the box where it is least. */
+static double shade__step_back(const shade_mat4 *projection, const double *view, shade_vec3 low,
+                               shade_vec3 high)
+{
+    const float corner[2][4] = { { low.x, low.y, low.z, 1 }, { high.x, high.y, high.z, 1 } };
+    double step = -DBL_MAX;
+    for (int side = 0; side < 4; side++) {
+        const float *row = shade__entries(projection) + side / 2;
+        const double sign = side & 1 ? -1 : 1;
+        double plane[4], least = 0;
+        for (int k = 0; k < 4; k++)
+            plane[k] = (double)projection->col[k].w + sign * (double)row[4 * k];
+        for (int k = 0; k < 4; k++) {
+            double n = 0;
+            for (int i = 0; i < 4; i++) n += plane[i] * view[4 * k + i];
+            least += n * (double)corner[n < 0][k];
+        }
+        if (plane[2] < 0 && least / plane[2] > step) step = least / plane[2];
+    }
+    return step;
+}
+
+/* 6e-8 is for the rounding to float. */
+SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
+                                   shade_vec3 toward_eye, shade_vec3 up)
 {
     const shade_vec3 half = shade_scale(shade_sub(high, low), 0.5f);
-    const float box[2][4] = { { low.x, low.y, low.z, 1 }, { high.x, high.y, high.z, 1 } };
+    const int is_box = low.x <= high.x && low.y <= high.y && low.z <= high.z;
     shade__camera camera;
-    shade__frustum f;
     shade_mat4 view = shade_mat4_look_at(toward_eye, shade_v3(0, 0, 0), up);
     double v[16], step = 2 * (double)shade_length(half);
     shade_mat4 frame = shade_mat4_identity();
@@ -7474,28 +7274,17 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
     if (camera.perspective) {
         frame = shade__frame_of(&camera);
         projection = shade__mat4_product(&projection, &frame);
-        step = -DBL_MAX;
     }
     view.col[3] = shade__xyzw(
         shade_neg(shade_mat4_transform_direction(view, shade_add(low, half))), 1);
     shade__doubles(shade__entries(&view), 16, v);
-    for (int side = 0; camera.perspective && side < 4; side++) {
-        const int sign = side & 1 ? -1 : 1;
-        double least = 0, back;
-        shade__frustum_plane(&projection, side / 2, sign, -sign, side, &f);
-        for (int k = 0; k < 4; k++) {
-            double n = 0;
-            for (int i = 0; i < 4; i++) n += f.k[i][side] * v[4 * k + i];
-            least += n * (double)box[n < 0][k];
-        }
-        back = f.k[2][side];
-        if (back < 0 && least / back > step) step = least / back;
-    }
+    if (camera.perspective) step = shade__step_back(&projection, v, low, high);
     v[14] -= step;
     view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
     view = shade__mat4_product(&frame, &view);
-    return low.x <= high.x && low.y <= high.y && low.z <= high.z && shade__finite3(toward_eye) &&
-           shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
+    if (!is_box || !shade__finite3(toward_eye) || !shade__finite3(up) || !shade__is_finite(&view))
+        return shade_mat4_identity();
+    return view;
 }
 
 /*----------------------------------------------------------------------------------------- >>chunks
@@ -7522,14 +7311,12 @@ static float shade__key_value(uint32_t key)
     return shade__bits_float(key >> 31 ? key & 0x7FFFFFFFu : ~key);
 }
 
-/* The key of a triangle along an axis: that of the sum of its corners. */
-static uint32_t shade__centroid_key(const shade_mesh *m,
-                                    const uint32_t *triangle, int axis)
+/* The key of a triangle along an axis: the sum of its corners, as an ordinal. */
+static uint32_t shade__centroid_key(const shade_mesh *m, const uint32_t *triangle, int axis)
 {
     float sum = 0;
     for (int k = 0; k < 3; k++) {
-        const shade_vec3 p = shade__vec3_at(m->positions, m->position_stride,
-                                            triangle[k]);
+        const shade_vec3 p = shade__vec3_at(m->positions, m->position_stride, triangle[k]);
         sum += axis == 0 ? p.x : axis == 1 ? p.y : p.z;
     }
     return shade__value_key(sum);
@@ -7546,9 +7333,7 @@ static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
     int longest = 0;
     for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
-            const uint32_t key = shade__centroid_key(m,
-                                                     shade__three(triangles, i),
-                                                     axis);
+            const uint32_t key = shade__centroid_key(m, shade__three(triangles, i), axis);
             if (key < least[axis]) least[axis] = key;
             if (key > most[axis]) most[axis] = key;
         }
@@ -7562,7 +7347,7 @@ static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
     return longest;
 }
 
-/* Moves the triangles whose key is at most pivot to the front; returns their number. */
+/* Moves the triangles with a key of at most pivot to the front; returns their number. */
 static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
                             int axis, uint32_t pivot)
 {
@@ -7583,8 +7368,7 @@ static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
 /* Moves those triangles to the front that are the first half along the longest axis.  The pivot
    halves the range of values in the first 8 steps, which is 1.25 times as fast, then the range of
    keys, so that there are never more than 40 steps. */
-static void shade__split(const shade_mesh *m, uint32_t *triangles, int count,
-                         int half)
+static void shade__split(const shade_mesh *m, uint32_t *triangles, int count, int half)
 {
     uint32_t low, high;
     const int axis = shade__longest_axis(m, triangles, count, &low, &high);
@@ -7610,8 +7394,7 @@ static void shade__split(const shade_mesh *m, uint32_t *triangles, int count,
 }
 
 /* Sorts triangles in space.  Lists are halved at the border of a chunk until a chunk is left. */
-static void shade__sort_triangles(const shade_mesh *m, uint32_t *triangles,
-                                  int count, int chunk)
+static void shade__sort_triangles(const shade_mesh *m, uint32_t *triangles, int count, int chunk)
 {
     while (count > chunk) {
         const int half = ((count - 1) / chunk + 1) / 2 * chunk;
@@ -7630,9 +7413,8 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles)
     return (index_count / 3 - 1) / shade__chunk_size(triangles) + 1;
 }
 
-SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
-                                        shade_chunk *chunks, int capacity,
-                                        uint32_t *indices)
+SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
+                                        int capacity, uint32_t *indices)
 {
     shade_mesh listed;
     shade_result result;
@@ -7747,7 +7529,7 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
 
 /* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
    allowance for rounding.  Returns 0 if it does not meet the box there.  A larger box never has a
-   smaller range: a ray that meets the box of a triangle meets that of its chunk. */
+   smaller range: a ray that meets the box of a triangle meets the box of its chunk. */
 static int shade__meets_box(const shade__object_ray *s, shade_vec3 low,
                             shade_vec3 high, float limit, double *range)
 {
@@ -7783,10 +7565,8 @@ typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } sha
 /* A hit counts only if its point lies in the triangle's own box, because then it lies in the box of
    every chunk that has the triangle.  So a ray nearly in the plane of a triangle, where rounding
    decides, gives one answer with chunks and without. */
-static void shade__pick_triangle(const shade_mesh *mesh,
-                                 const shade_mat4 *model, shade_ray ray,
-                                 const shade__object_ray *local, int triangle,
-                                 shade__hit *hit)
+static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model, shade_ray ray,
+                                 const shade__object_ray *local, int triangle, shade__hit *hit)
 {
     shade_vec3 p[3], q[3], where;
     double range[2];
@@ -7831,8 +7611,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
         if (!shade__meets_box(&local, chunk->low, chunk->high, hit.t, range)) continue;
         if (shade__check_range(mesh, chunk)) return -1;
         for (int i = 0; i < chunk->count; i++)
-            shade__pick_triangle(mesh, &model, ray, &local, chunk->first + i,
-                                 &hit);
+            shade__pick_triangle(mesh, &model, ray, &local, chunk->first + i, &hit);
     }
     if (hit.triangle >= 0 && t) *t = hit.t;
     if (hit.triangle >= 0 && barycentric) *barycentric = hit.barycentric;
@@ -7894,8 +7673,7 @@ typedef struct shade__trial {
 } shade__trial;
 
 /* Notes the depth of lane i, if its pixel is among those sampled. */
-static void shade__take_probe(const shade__trial *trial,
-                              const shade_fragments *in, int i)
+static void shade__take_probe(const shade__trial *trial, const shade_fragments *in, int i)
 {
     const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * 16384 + 1;
     const uint32_t hash = place * 2654435769u >> 8;
@@ -7928,8 +7706,7 @@ static int shade__is_stored(const shade_target *t, int x, int y)
 }
 
 /* The fragment shader of experiments: it discards what does not count. */
-static void shade__judge(const void *uniforms,
-                         const shade_fragments *SHADE_RESTRICT in,
+static void shade__judge(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
     const shade__trial *trial = (const shade__trial *)uniforms;
@@ -8105,8 +7882,7 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
     if (state->material) s->material = *state->material;
 
-    s->whole = shade__clip_rectangle(target, s->clip) &&
-               s->clip[2] - s->clip[0] == target->width &&
+    s->whole = shade__clip_rectangle(target, s->clip) && s->clip[2] - s->clip[0] == target->width &&
                s->clip[3] - s->clip[1] == target->height;
     shade__camera_of(&s->state.projection, &s->state.view, &s->camera);
     s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
@@ -8201,8 +7977,7 @@ static uint32_t shade__outside(const shade__survey *s)
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
         const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
-        const uint32_t out =
-            shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
+        const uint32_t out = shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
         if (!(out & SHADE__OUT_BAD)) all &= out;
     }
     return all;
@@ -8381,8 +8156,7 @@ static int shade__positions_are_bad(const shade__survey *s)
     all.mesh.chunk_count = 0;
     shade_mesh_bounds(&all.mesh, &low, &high);
     low = shade_max(high, shade_neg(low));
-    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f ||
-           shade__stats_of(&all, 0).rejected > 0;
+    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
 /* How many triangles a draw of the mesh counts. */
@@ -8813,8 +8587,7 @@ static int shade__black_is_meant(shade__survey *q)
     const shade_material *m = &q->material;
     const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
                                      shade_add(m->diffuse, m->specular));
-    return shade__is_zero(sum) &&
-           (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
+    return shade__is_zero(sum) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
 }
 
 static int shade__shading_is_coarse(shade__survey *q)
@@ -8898,8 +8671,7 @@ static const char shade__multiply[] =
     "lighting.terms and the lights multiply, and several of them may be at fault.";
 
 /* Changes are kept. */
-static const shade__rung shade__black[] = {
-    { shade__alpha_is_zero, shade__transparent },
+static const shade__rung shade__black[] = { { shade__alpha_is_zero, shade__transparent },
     { shade__shading_is_coarse, shade__coarse },
     { shade__has_light, shade__multiply },
     { shade__faces_are_lit, shade__multiply },
@@ -8908,8 +8680,7 @@ static const shade__rung shade__black[] = {
     { shade__colors_are_black, shade__black_colors },
     { shade__has_light, shade__multiply },
     { shade__material_is_black, shade__black_material },
-    { NULL, NULL }
-};
+                                            { NULL, NULL } };
 
 /* ---- the mesh is black, or lit by ambient light alone: the lamps */
 
@@ -9015,14 +8786,10 @@ static const shade__rung shade__no_lamps[] = {
 
 /* Changes are kept. */
 static const shade__rung shade__unlit[] = {
-    { shade__lacks_normals, shade__no_normals },
-    { shade__lamps_behind, shade__behind },
-    { shade__lamps_fall_off, shade__fall_off },
-    { shade__cones_miss, shade__no_cone },
-    { shade__lamps_are_many, shade__multiply },
-    { shade__sides_show, shade__multiply },
-    { shade__always, shade__no_color },
-    { NULL, NULL }
+    { shade__lacks_normals, shade__no_normals }, { shade__lamps_behind, shade__behind },
+    { shade__lamps_fall_off, shade__fall_off },  { shade__cones_miss, shade__no_cone },
+    { shade__lamps_are_many, shade__multiply },  { shade__sides_show, shade__multiply },
+    { shade__always, shade__no_color },          { NULL, NULL }
 };
 
 /* ---- the mesh is lit, but wrongly */
@@ -9426,8 +9193,7 @@ static const char *shade__clip_fault(const shade_target *t)
     return shade__clip_rectangle(t, clip) ? NULL : "";
 }
 
-SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
-                                   const shade_mesh *mesh,
+SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state,
                                    const shade_stats *stats)
 {
@@ -9815,7 +9581,7 @@ static void shade__open_decoder(const shade_target *t, shade__decoder *d)
     }
 }
 
-/* The linear light of channel k of a pixel of so many bytes.  Loops pass 4 and 16 as constants, and
+/* The linear light of channel k of a pixel of `bytes` bytes.  Loops pass 4 and 16 as constants, and
    a copy of the layout, which no store can change: means are 2.5 times as fast. */
 SHADE__INLINE float shade__light_of(const shade__decoder *d, const shade__layout *l,
                                     const uint8_t *p, int k, const int bytes)
@@ -9875,7 +9641,7 @@ static shade__cut shade__cut_of(int size, int smaller, int i)
     return c;
 }
 
-/* The means of 2 x 2 pixels of 4 bytes, whose sums are exact in double. */
+/* The means of 2 x 2 pixels of 4 bytes.  Their sums are exact in double. */
 SHADE__INLINE void shade__halve(const shade__decoder *d, const shade__halving *h, const uint8_t *p,
                                 size_t pitch, int n, float *mean)
 {
@@ -9948,8 +9714,8 @@ static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
     shade__clip_rectangle(to, clip);
     for (int x = clip[0]; x < clip[2]; x += SHADE_LANES) {
         const int n = shade__min(SHADE_LANES, clip[2] - x);
-        for (int i = 0; h && i < n; i++)
-            h->column[i] = shade__cut_of(from->width, to->width, x + i);
+        if (h)
+            for (int i = 0; i < n; i++) h->column[i] = shade__cut_of(from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
             shade__reduce(d, h, from, to, factor, x, y, n, rgba);
             shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
@@ -9962,8 +9728,7 @@ static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
     return SHADE_OK;
 }
 
-SHADEDEF shade_result shade_resolve(const shade_target *out,
-                                    const shade_target *in, int factor)
+SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
     shade_result result;
     shade__decoder decoder;
@@ -10000,9 +9765,8 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
     return bytes;
 }
 
-SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture,
-                                          shade_texture *levels, void *memory,
-                                          size_t bytes)
+SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
+                                          void *memory, size_t bytes)
 {
     shade_target from, to;
     shade__decoder decoder;
@@ -10052,8 +9816,7 @@ static char *shade__decimal(char *p, int n)
     return p + 1;
 }
 
-SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
-                                       const shade_target *target)
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const shade_target *target)
 {
     char head[32] = "P6\n", *p = head + 3;
     shade_target from, to;
@@ -10086,8 +9849,7 @@ static int shade__write_file(void *user, const void *bytes, size_t size)
     return fwrite(bytes, 1, size, (FILE *)user) != size;
 }
 
-SHADEDEF shade_result shade_write_ppm(const char *path,
-                                      const shade_target *target)
+SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target)
 {
     FILE *file;
     shade_result result = path ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
@@ -10209,7 +9971,7 @@ SHADE__END
 /*---------------------------------------------------------------------------------------- >>history
    1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md tells
    what each brought.
-   From 1.1 on pixels are part of the interface: each 1.x draws those of 1.1, to the bit.
+   From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */
 
 /*---------------------------------------------------------------------------------------- >>license
