@@ -62,23 +62,23 @@
        >>lamps     2406  attenuation, cones    >>terms     2658  one term at one point
        >>surface   2733  material and lights   >>lit       2848  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3236  who owns what         >>vertices  3441  shading, projection
-       >>triangles 3650  dropped, cut, edges   >>clip      4011  near, far, behind the eye
-       >>tiles     4201  pixels, depth test    >>cover     4562  what is hidden, tile by tile
-       >>fragments 4831  interpolation, lod    >>texture   5119  texels, mipmaps
-       >>store     5565  blending, packing
+       >>state     3236  who owns what         >>vertices  3442  shading, projection
+       >>triangles 3651  dropped, cut, edges   >>clip      4012  near, far, behind the eye
+       >>tiles     4202  pixels, depth test    >>cover     4563  what is hidden, tile by tile
+       >>fragments 4832  interpolation, lod    >>texture   5120  texels, mipmaps
+       >>store     5566  blending, packing
      Inside: calls of the renderer
-       >>check     5786  refusals              >>seen      6004  what can be seen, chunks
-       >>drive     6136  shade_draw            >>mesh      6312  shade_draw_mesh
+       >>check     5787  refusals              >>seen      6005  what can be seen, chunks
+       >>drive     6137  shade_draw            >>mesh      6313  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6688  shade_draw_lines      >>camera    6858  where a draw is seen from
-       >>shape     6936  normals, edges        >>chunks    7290  how boxes are made
-       >>rays      7448  shade_pick            >>survey    7621  experiments on a draw
-       >>explain   8020  why nothing is seen   >>replay    9210  of lines, pipelines
-       >>image     9553  mipmaps, PPM           >>presets   9865  classic materials
+       >>lines     6689  shade_draw_lines      >>camera    6859  where a draw is seen from
+       >>shape     6937  normals, edges        >>chunks    7291  how boxes are made
+       >>rays      7449  shade_pick            >>survey    7622  experiments on a draw
+       >>explain   8021  why nothing is seen   >>replay    9211  of lines, pipelines
+       >>image     9554  mipmaps, PPM           >>presets   9866  classic materials
      Sources
-       >>refs      9941                        >>history   9971
-       >>license   9977
+       >>refs      9942                        >>history   9972
+       >>license   9978
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3366,10 +3366,11 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
-    /* what they become; corners are now in the order of turn */
+    /* what they become.  Corners are counted from here on as turn orders them. */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
-    int32_t  box[4][SHADE__TRIANGLES];       /* x0, y0, x1, y1, both ends included; or empty */
+    int32_t  x0[SHADE__TRIANGLES], y0[SHADE__TRIANGLES];    /* the box of pixels, ends included; */
+    int32_t  x1[SHADE__TRIANGLES], y1[SHADE__TRIANGLES];    /* empty where x1 < x0 or y1 < y0 */
     float    side[4][SHADE__TRIANGLES];      /* from corner 0: x1 y1 x2 y2, over twice the area */
     float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - corner 0, exact */
     float    z0[SHADE__TRIANGLES];           /* the plane of depth: at corner 0, */
@@ -3806,8 +3807,8 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
 
     SHADE__FOR(i, SHADE__TRIANGLES) {
         const int32_t dx = c->x[next][i] - c->x[k][i], dy = c->y[next][i] - c->y[k][i];
-        const double x = s->box[0][i] * 256 + 128 - c->x[k][i];
-        const double y = s->box[1][i] * 256 + 128 - c->y[k][i];
+        const double x = s->x0[i] * 256 + 128 - c->x[k][i];
+        const double y = s->y0[i] * 256 + 128 - c->y[k][i];
         const double bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;
         const double e = dx * y - dy * x + bias;
         s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
@@ -3853,7 +3854,7 @@ SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c
     }
 }
 
-/* Empties the boxes of culled triangles; returns their number. */
+/* Empties the boxes of culled triangles, with -1 as x1; returns their number. */
 SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull, shade__in area)
 {
     const uint32_t back = shade__mask(cull == SHADE_CULL_BACK);
@@ -3865,7 +3866,7 @@ SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull, s
         uint32_t none = shade__mask(area[i] == 0), facing = shade__mask(area[i] < 0);
         uint32_t gone = (none | (facing & front) | (~facing & back)) & shade__mask(i < n);
         culled += (int)(gone & 1);
-        s->box[2][i] = (int32_t)((uint32_t)s->box[2][i] | gone);
+        s->x1[i] = (int32_t)((uint32_t)s->x1[i] | gone);
     }
     return culled;
 }
@@ -3886,8 +3887,8 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     shade__turn(shade__words(c.x), &turns);
     shade__turn(shade__words(c.y), &turns);
     shade__turn(shade__words(c.z), &turns);
-    shade__box(c.x[0], c.x[1], c.x[2], plan->x0, plan->x1 - 1, s->box[0], s->box[2]);
-    shade__box(c.y[0], c.y[1], c.y[2], plan->y0, plan->y1 - 1, s->box[1], s->box[3]);
+    shade__box(c.x[0], c.x[1], c.x[2], plan->x0, plan->x1 - 1, s->x0, s->x1);
+    shade__box(c.y[0], c.y[1], c.y[2], plan->y0, plan->y1 - 1, s->y0, s->y1);
     for (int k = 0; k < 3; k++) shade__edge(&c, k, s);
     shade__sides(&c, inverse, s);
     shade__depth_plane(&c, raster->depth_bias, s);
@@ -4260,10 +4261,10 @@ typedef struct shade__runs {
 
 SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i, shade__triangle *t)
 {
-    t->x0 = t->edges.x = s->box[0][i];
-    t->y0 = t->edges.y = s->box[1][i];
-    t->x1 = s->box[2][i];
-    t->y1 = s->box[3][i];
+    t->x0 = t->edges.x = s->x0[i];
+    t->y0 = t->edges.y = s->y0[i];
+    t->x1 = s->x1[i];
+    t->y1 = s->y1[i];
     t->lane = i;
     for (int k = 0; k < 3; k++) {
         t->e[k] = s->e[k][i];
@@ -4701,7 +4702,7 @@ SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
     const int32_t most = 1 << 17;
     const int32_t side = (s->ex[0][i] + most) | (s->ey[0][i] + most) |
                          (s->ex[1][i] + most) | (s->ey[1][i] + most);
-    return s->box[2][i] - s->box[0][i] < columns && !(side & -2 * most);
+    return s->x1[i] - s->x0[i] < columns && !(side & -2 * most);
 }
 
 /* Is the whole tile outside an edge? */
@@ -4800,7 +4801,7 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
 
     for (; i < count; i++) {
         shade__triangle t;
-        if (((s->box[2][i] - s->box[0][i]) | (s->box[3][i] - s->box[1][i])) < 0) continue;
+        if (((s->x1[i] - s->x0[i]) | (s->y1[i] - s->y0[i])) < 0) continue;
         if (!wide || !shade__is_small(s, i, SHADE__TILE)) break;
         shade__triangle_of(s, i, &t);
         pixels += shade__cover_columns(d, &t, runs, width, 1);

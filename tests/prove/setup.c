@@ -37,18 +37,18 @@ static void prove_areas(void)
 static void prove_boxes(void)
 {
     const int x0 = ANY_OF(0, 16384), x1 = ANY_OF(0, 16384);
-    shade__box(c.x[0], c.x[1], c.x[2], x0, x1 - 1, s.box[0], s.box[2]);
-    shade__box(c.y[0], c.y[1], c.y[2], x0, x1 - 1, s.box[1], s.box[3]);
+    shade__box(c.x[0], c.x[1], c.x[2], x0, x1 - 1, s.x0, s.x1);
+    shade__box(c.y[0], c.y[1], c.y[2], x0, x1 - 1, s.y0, s.y1);
     for (int i = 0; i < N; i++) {
-        /*@ assert 0 <= s.box[0][i] <= 65536 && -65537 <= s.box[2][i] <= 16383; */
+        /*@ assert 0 <= s.x0[i] <= 65536 && -65537 <= s.x1[i] <= 16383; */
     }
 }
 
 /* edges at any corner of a box */
 static void prove_edges(void)
 {
-    any_ints(s.box[0], N, 0, 65536);
-    any_ints(s.box[1], N, 0, 65536);
+    any_ints(s.x0, N, 0, 65536);
+    any_ints(s.y0, N, 0, 65536);
     for (int k = 0; k < 3; k++) shade__edge(&c, k, &s);
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < N; i++) {
