@@ -68,17 +68,17 @@
        >>fragments 4832  interpolation, lod    >>texture   5120  texels, mipmaps
        >>store     5566  blending, packing
      Inside: calls of the renderer
-       >>check     5787  refusals              >>seen      6005  what can be seen, chunks
-       >>drive     6137  shade_draw            >>mesh      6313  shade_draw_mesh
+       >>check     5787  refusals              >>seen      5999  what can be seen, chunks
+       >>drive     6131  shade_draw            >>mesh      6326  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6689  shade_draw_lines      >>camera    6859  where a draw is seen from
-       >>shape     6937  normals, edges        >>chunks    7291  how boxes are made
-       >>rays      7449  shade_pick            >>survey    7622  experiments on a draw
-       >>explain   8021  why nothing is seen   >>replay    9211  of lines, pipelines
-       >>image     9554  mipmaps, PPM           >>presets   9866  classic materials
+       >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
+       >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
+       >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
+       >>explain   8077  why nothing is seen   >>replay    9248  of lines, pipelines
+       >>image     9575  mipmaps, PPM           >>presets   9887  classic materials
      Sources
-       >>refs      9942                        >>history   9972
-       >>license   9978
+       >>refs      9963                        >>history   9993
+       >>license   9999
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5786,7 +5786,7 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
 
 /*------------------------------------------------------------------------------------------ >>check
    Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
-   a call needs no sentence, the function is inlined and the compiler drops the strings.
+   a call uses only a shade_result, the functions are inlined, and their sentences vanish.
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result                                            >>seen */
 
@@ -5957,12 +5957,6 @@ SHADE__INLINE const char *shade__lod_fault(const shade_pipeline *p)
     if (p->lod_texture && (p->lod_varying < 0 || p->lod_varying >= p->varyings - 1))
         return "pipeline.lod_varying must be from 0 to pipeline.varyings - 2, which are u and v.";
     return p->lod_texture ? shade__texture_fault(p->lod_texture) : NULL;
-}
-
-static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
-{
-    if (shade__pipeline_fault(p)) return SHADE_ERROR_STATE;
-    return shade__lod_fault(p) ? SHADE_ERROR_TEXTURE : SHADE_OK;
 }
 
 /* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes,
@@ -6137,7 +6131,7 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
 /*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments are checked before any pixel changes, then batch follows batch.
      in      the arguments of a call             out  pixels and stats, or a shade_result
-     way     shade_draw: check_pipeline, supply_all; run_draw: make_plan, then take_batch,
+     way     shade_draw: draw_refusal, supply_all; run_draw: make_plan, then take_batch,
              shade_vertices and triangles until no triangle is left
                                                                                          >>mesh */
 
@@ -6234,22 +6228,39 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
     return SHADE_OK;
 }
 
-/* Supplies all triangles of a list, one after the other, after a check of its indices. */
-static shade_result shade__supply_all(shade__indices indices, int index_count,
-                                      int vertex_count, shade__supply *s)
+/* Supplies all triangles of a list, one after the other. */
+static void shade__supply_all(shade__indices indices, int index_count, shade__supply *s)
 {
     s->indices = indices;
     s->first = 0;
     s->end = index_count / 3;
     s->more = NULL;
-    return shade__check_indices(indices, 0, index_count, vertex_count);
 }
 
-/* The first step of every drawing call: clears stats, refuses missing arguments and bad targets. */
-static shade_result shade__begin(const shade_target *t, int given, shade_stats *stats)
+/* Returns why shade_draw refuses a draw, and sets *why to the sentence about it. */
+SHADE__INLINE shade_result shade__draw_refusal(const shade_target *t, const shade_pipeline *p,
+                                               shade__indices list, int index_count,
+                                               int vertex_count, const char **why)
 {
-    if (stats) SHADE__ZERO(*stats);
-    return t && given ? shade__check_target(t) : SHADE_ERROR_ARGUMENT;
+    *why = NULL;
+    if (!t || !p || !p->vertex)
+        *why = "target, pipeline or pipeline.vertex is NULL, and must not be.";
+    if (*why) return SHADE_ERROR_ARGUMENT;
+    *why = shade__target_fault(t);
+    if (*why) return SHADE_ERROR_TARGET;
+    if (index_count < 0 || vertex_count < 0) *why = "index_count or vertex_count is negative.";
+    if (*why) return SHADE_ERROR_MESH;
+    *why = shade__pipeline_fault(p);
+    if (*why) return SHADE_ERROR_STATE;
+    *why = shade__lod_fault(p);
+    if (*why) return SHADE_ERROR_TEXTURE;
+
+    if (index_count % 3)
+        *why = "index_count is no multiple of 3; it counts indices, three a triangle.";
+    else if (shade__check_indices(list, 0, index_count, vertex_count))
+        *why = "indices hold one at or past vertex_count, or without indices index_count exceeds "
+               "vertex_count, which counts vertices, not floats.";
+    return *why ? SHADE_ERROR_INDEX : SHADE_OK;
 }
 
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -6259,11 +6270,13 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
     const shade__indices list = { indices, NULL };
     shade__supply supply;
     shade_pipeline pipe;
-    shade_result result = shade__begin(target, pipeline && pipeline->vertex, stats);
-    if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
-    if (!result) result = shade__check_pipeline(pipeline);
-    if (!result) result = shade__supply_all(list, index_count, vertex_count, &supply);
+    const char *why;
+    const shade_result result = shade__draw_refusal(target, pipeline, list, index_count,
+                                                    vertex_count, &why);
+    if (stats) SHADE__ZERO(*stats);
     if (result) return result;
+
+    shade__supply_all(list, index_count, &supply);
     pipe = *pipeline;
     return shade__run_draw(target, &pipe, 0, shade_v3(0, 0, 0), &supply, stats);
 }
@@ -6289,7 +6302,7 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
 
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
-    shade_result result = shade__begin(target, 1, NULL);
+    shade_result result = target ? shade__check_target(target) : SHADE_ERROR_ARGUMENT;
     size_t bytes, n;
     float pattern[64], depths[64];
     int clip[4];
@@ -6639,8 +6652,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     return shade__run_draw(target, p, !scene->state->fragment, scene->eye, &supply, stats);
 }
 
-/* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
-   It can fail only where indices are bad. */
+/* Draws a checked scene with the vertex shader of meshes and this fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
                                       shade_fragment_shader *fragment,
                                       int may_discard, shade_stats *stats)
@@ -6649,9 +6661,7 @@ static shade_result shade__draw_scene(const shade_target *target, const shade__s
     const shade_draw_state *state = scene->state;
     shade_pipeline p;
     shade__supply supply;
-    shade_result result = shade__supply_all(shade__indices_of(mesh), shade__corner_count(mesh),
-                                            mesh->vertex_count, &supply);
-    if (result) return result;
+    shade__supply_all(shade__indices_of(mesh), shade__corner_count(mesh), &supply);
     if (scene->corners) SHADE__ZERO(supply.indices);
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex;
@@ -6670,17 +6680,44 @@ static shade_result shade__draw_scene(const shade_target *target, const shade__s
     return shade__run_draw(target, &p, !state->fragment, scene->eye, &supply, stats);
 }
 
+/* Returns why shade_draw_mesh refuses a draw, and sets *why to the sentence about it. */
+SHADE__INLINE shade_result shade__mesh_refusal(const shade_target *t, const shade_mesh *m,
+                                               const shade_draw_state *s, const char **why)
+{
+    *why = NULL;
+    if (!t) *why = "target is NULL; pass the address of a shade_target.";
+    else if (!m) *why = "mesh is NULL; pass the address of a shade_mesh.";
+    else if (!s) *why = "state is NULL; pass the address of a shade_draw_state.";
+    if (*why) return SHADE_ERROR_ARGUMENT;
+    *why = shade__target_fault(t);
+    if (*why) return SHADE_ERROR_TARGET;
+    *why = shade__mesh_fault(m);
+    if (*why) return SHADE_ERROR_MESH;
+    *why = shade__state_fault(m, s);
+    if (*why) return SHADE_ERROR_STATE;
+    *why = shade__lights_fault(&s->lighting);
+    if (*why) return SHADE_ERROR_LIGHTS;
+    if (m->texcoords && s->diffuse_map) *why = shade__texture_fault(s->diffuse_map);
+    if (*why) return SHADE_ERROR_TEXTURE;
+
+    if (shade__corner_count(m) % 3)
+        *why = "mesh.index_count is no multiple of 3, or without mesh.indices mesh.vertex_count "
+               "is none; they count indices and vertices, three a triangle.";
+    else if (shade__check_corners(m))
+        *why = "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
+               "vertices, not floats, and indices are 32 bits wide, those of mesh.indices16 16.";
+    return *why ? SHADE_ERROR_INDEX : SHADE_OK;
+}
+
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats)
 {
     shade__scene scene;
-    shade_result result = shade__begin(target, mesh && state, stats);
-    if (!result) result = shade__check_mesh(mesh);
-    if (!result && shade__state_fault(mesh, state)) result = SHADE_ERROR_STATE;
-    if (!result && shade__lights_fault(&state->lighting)) result = SHADE_ERROR_LIGHTS;
+    const char *why;
+    const shade_result result = shade__mesh_refusal(target, mesh, state, &why);
+    if (stats) SHADE__ZERO(*stats);
     if (result) return result;
-    if (mesh->texcoords && state->diffuse_map && !shade__texture_good(state->diffuse_map))
-        return SHADE_ERROR_TEXTURE;
+
     shade__scene_of(target, mesh, state, &scene);
     return shade__draw_scene(target, &scene, shade__mesh_fragment,
                              state->alpha_cutoff > 0 || (state->fragment && target->color), stats);
@@ -6839,6 +6876,24 @@ static void shade__stroke_of(const shade_target *target, const shade_vec3 *point
     p->uniforms = s;
 }
 
+/* Returns why shade_draw_lines refuses a draw, and sets *why to the sentence about it. */
+SHADE__INLINE shade_result shade__lines_refusal(const shade_target *t, const shade_vec3 *points,
+                                                int point_count, const shade_line_state *state,
+                                                const char **why)
+{
+    *why = NULL;
+    if (!t || !state || (!points && point_count > 0))
+        *why = "target, state or points is NULL, and must not be.";
+    if (*why) return SHADE_ERROR_ARGUMENT;
+    *why = shade__target_fault(t);
+    if (*why) return SHADE_ERROR_TARGET;
+    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3)
+        *why = "point_count is negative, odd, or beyond 715827882; it counts points, two a line.";
+    if (*why) return SHADE_ERROR_MESH;
+    *why = shade__stroke_fault(state);
+    return *why ? SHADE_ERROR_STATE : SHADE_OK;
+}
+
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats)
@@ -6847,12 +6902,13 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
-    shade_result result = shade__begin(target, state && (points || point_count <= 0), stats);
+    const char *why;
+    const shade_result result = shade__lines_refusal(target, points, point_count, state, &why);
+    if (stats) SHADE__ZERO(*stats);
     if (result) return result;
-    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_MESH;
-    if (shade__stroke_fault(state)) return SHADE_ERROR_STATE;
+
     shade__stroke_of(target, points, state, &s, &p);
-    (void)shade__supply_all(in_order, 3 * point_count, 3 * point_count, &supply);
+    shade__supply_all(in_order, 3 * point_count, &supply);
     return shade__run_draw(target, &p, 1, shade_v3(0, 0, 0), &supply, stats);
 }
 
@@ -8025,33 +8081,12 @@ static int shade__faces_ahead(const shade__camera *c)
              of changes and sentences, tried from top to bottom.
      holds   A sentence is true of the pixels that are shown: of all, of nine tenths, or of none
              brighter than 8 of 255.  A band or a strip is never blamed for what another may show.
-     way     shade__refusal; shade__why: shade__bad_number; the ladders of no picture, of no
+     way     shade__mesh_refusal; shade__why: shade__bad_number; the ladders of no picture, of no
              pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
 
-/* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
-   positions overlap. */
-static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
-                                  const shade_draw_state *s)
+/* Is the mesh empty, or do its positions overlap? */
+static const char *shade__no_mesh(const shade_mesh *m)
 {
-    const char *fault;
-    if (!t) return "target is NULL; pass the address of a shade_target.";
-    if (!m) return "mesh is NULL; pass the address of a shade_mesh.";
-    if (!s) return "state is NULL; pass the address of a shade_draw_state.";
-
-    fault = shade__target_fault(t);
-    if (!fault) fault = shade__mesh_fault(m);
-    if (!fault) fault = shade__state_fault(m, s);
-    if (!fault) fault = shade__lights_fault(&s->lighting);
-    if (!fault && s->diffuse_map && (m->texcoords || !s->fragment))
-        fault = shade__texture_fault(s->diffuse_map);
-    if (fault) return fault;
-
-    if (shade__corner_count(m) % 3)
-        return "mesh.index_count is no multiple of 3, or without mesh.indices mesh.vertex_count "
-               "is none; they count indices and vertices, three a triangle.";
-    if (shade__check_corners(m))
-        return "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
-               "vertices, not floats, and indices are 32 bits wide, those of mesh.indices16 16.";
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";
@@ -9198,8 +9233,10 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
                                    const shade_draw_state *state,
                                    const shade_stats *stats)
 {
-    const char *why = shade__refusal(target, mesh, state);
     shade__survey s;
+    const char *why;
+    (void)shade__mesh_refusal(target, mesh, state, &why);
+    if (!why) why = shade__no_mesh(mesh);
     if (!why) why = shade__clip_fault(target);
     if (why) return why;
 
@@ -9294,7 +9331,7 @@ static shade__tally shade__run_again(const shade__replay *r)
     p.fragment = shade__replay_fragment;
     p.uniforms = &run;
     p.may_discard = p.raster.depth_read_only = 1;
-    (void)shade__supply_all(r->indices, r->corners, INT32_MAX, &supply);
+    shade__supply_all(r->indices, r->corners, &supply);
     shade__run_draw(&r->picture, &p, 1, shade_v3(0, 0, 0), &supply, &tally.stats);
     return tally;
 }
@@ -9459,11 +9496,10 @@ static const char *shade__why_faint(const shade__replay *r, const shade__tally *
                : NULL;
 }
 
-/* Explains a draw whose arguments have this fault, or none. */
-static const char *shade__explain_replay(shade__replay *r, const char *fault)
+static const char *shade__explain_replay(shade__replay *r)
 {
     const int sure = r->given && r->given->fragments > 0;
-    const char *why = fault ? fault : shade__clip_fault(r->target);
+    const char *why = shade__clip_fault(r->target);
     shade__tally t, in_clip;
     if (why) return why;
     r->picture.width = r->target->width;
@@ -9499,23 +9535,12 @@ SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
                                                     int vertex_count, const shade_stats *stats)
 {
     const shade__indices list = { indices, NULL };
-    const char *fault;
+    const char *why;
     shade__replay r;
-    if (!target || !pipeline || !pipeline->vertex)
-        return "target, pipeline or pipeline.vertex is NULL, and must not be.";
-    fault = shade__target_fault(target);
-    if (!fault && (index_count < 0 || vertex_count < 0))
-        fault = "index_count or vertex_count is negative.";
-    if (!fault) fault = shade__pipeline_fault(pipeline);
-    if (!fault) fault = shade__lod_fault(pipeline);
-    if (!fault && index_count % 3)
-        fault = "index_count is no multiple of 3; it counts indices, three a triangle.";
-    if (!fault && shade__check_indices(list, 0, index_count, vertex_count))
-        fault = "indices hold one at or past vertex_count, or without indices index_count exceeds "
-                "vertex_count, which counts vertices, not floats.";
-    if (!fault && !index_count)
-        fault = "There is no triangle to draw: index_count is 0; without indices it counts "
-                "vertices.";
+    (void)shade__draw_refusal(target, pipeline, list, index_count, vertex_count, &why);
+    if (!why && !index_count)
+        why = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
+    if (why) return why;
 
     SHADE__ZERO(r);
     r.target = target;
@@ -9523,7 +9548,7 @@ SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
     r.indices = list;
     r.corners = index_count;
     r.pipe = *pipeline;
-    return shade__explain_replay(&r, fault);
+    return shade__explain_replay(&r);
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
@@ -9531,16 +9556,12 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
                                                      const shade_line_state *state,
                                                      const shade_stats *stats)
 {
-    const char *fault;
+    const char *why;
     shade__stroke stroke;
     shade__replay r;
-    if (!target || !state || (!points && point_count > 0))
-        return "target, state or points is NULL, and must not be.";
-    fault = shade__target_fault(target);
-    if (!fault && (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3))
-        fault = "point_count is negative, odd, or beyond 715827882; it counts points, two a line.";
-    if (!fault) fault = shade__stroke_fault(state);
-    if (!fault && !point_count) fault = "There is no line to draw: point_count is 0.";
+    (void)shade__lines_refusal(target, points, point_count, state, &why);
+    if (!why && !point_count) why = "There is no line to draw: point_count is 0.";
+    if (why) return why;
 
     SHADE__ZERO(r);
     r.target = target;
@@ -9548,7 +9569,7 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
     r.lines = state;
     r.corners = 3 * point_count;
     shade__stroke_of(target, points, state, &stroke, &r.pipe);
-    return shade__explain_replay(&r, fault);
+    return shade__explain_replay(&r);
 }
 
 /*------------------------------------------------------------------------------------------ >>image

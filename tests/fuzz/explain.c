@@ -1,8 +1,9 @@
 /* explain.c - no sentence of shade_explain is false: see explained.h.
 
-   With EXPLAIN_STATES it is a program: states KIND COUNT [FIRST] judges COUNT states of a kind,
-   random or ordinary, prints each sentence's count and what is false, and fails where anything
-   is.  States are numbered from FIRST on; a COUNT of 1 prints what the state is made of. */
+   With EXPLAIN_STATES it is a program: states KIND COUNT [FIRST [SHOWN]] judges COUNT states of a
+   kind, random or ordinary, prints each sentence's count and what is false, SHOWN (5) of a kind,
+   and fails where anything is.  States are numbered from FIRST on; a COUNT of 1 prints what the
+   state is made of. */
 #include "input.h"
 
 #include <math.h>
@@ -29,7 +30,7 @@ static int explained_pick(int n)
 /* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, or
    another one hide it; black surfaces are outlines where fronts are culled, and shadows where they
    are blended over a ground. */
-static int ex_is_black(explained *e)
+static int ex_is_black(explained *e, shade_stats *stats)
 {
     static picture drawn;
     static stage whole;
@@ -37,6 +38,7 @@ static int ex_is_black(explained *e)
     const shade_material *m = d->material;
     const int outline = d->raster.cull == SHADE_CULL_FRONT || d->raster.blend == SHADE_BLEND_OVER;
     ex_draw(e, &e->s, &drawn);
+    *stats = drawn.stats;
     if (drawn.result || !e->s.target.color || drawn.bright) return 0;
     if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
         ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
@@ -108,11 +110,11 @@ static void explain_print(const explained *e, int with_stats, const char *said)
 }
 int main(int count, char **words)
 {
-    enum { SHOWN = 5 };          /* false sentences of a row that are printed */
     static explained e;
     static long times[EX_CLAIMS], wrong[EX_CLAIMS];
     const int ordinary = count > 1 && !strcmp(words[1], "ordinary");
     const long states = count > 2 ? atol(words[2]) : 1000, first = count > 3 ? atol(words[3]) : 0;
+    const long shown = count > 4 ? atol(words[4]) : 5;
     long said = 0, falsehoods = 0, black = 0, silent = 0, never = 0;
     for (long k = first; k < first + states; k++) {
         const char *text;
@@ -125,16 +127,19 @@ int main(int count, char **words)
         if (states == 1) explain_print(&e, k % 2 == 0, text);
         said += *text != 0;
         if (row == EX_NOTHING) {
-            const int dark = ex_is_black(&e);
+            shade_stats stats;
+            const int dark = ex_is_black(&e, &stats);
             silent++;
             black += dark;
-            if (dark && black <= SHOWN)
-                printf("black, and nothing is said: %ld (%s, %s)\n", k, e.made[0], e.made[1]);
+            if (dark && black <= shown)
+                printf("black, and nothing is said: %ld (%s, %s), %s stats, %lld triangles drawn, "
+                       "%lld fragments\n", k, e.made[0], e.made[1], k % 2 ? "without" : "with",
+                       (long long)stats.drawn, (long long)stats.fragments);
         }
         if (row >= EX_FALSE) {
             const int claim = row - EX_FALSE;
             falsehoods++;
-            if (claim == EX_CLAIMS || wrong[claim]++ < SHOWN)
+            if (claim == EX_CLAIMS || wrong[claim]++ < shown)
                 printf("false: %ld (%s, %s) %s\n", k, e.made[0], e.made[1], text);
         }
         if (row >= 0 && row % EX_FALSE < EX_CLAIMS) times[row % EX_FALSE]++;
