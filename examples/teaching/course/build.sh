@@ -34,9 +34,9 @@ made() {
         -V "style=$(cat "$style")" -V "script=$(cat deck.js)" -V "point=$(sed 's/&/\&amp;/g; s/</\&lt;/g' point.h)" "$@" "$name.md"
 }
 for course in $COURSES; do
-    made $course page.html course.css >"$out/course-$course.html" || exit 1
+    made $course page.html course.css -M course=$course $live >"$out/course-$course.html" || exit 1
     rm -f "$out/slides-$course.html"
-    [ -z "$reveal" ] || made $course deck.html deck.css -M deck $live >"$out/slides-$course.html" || exit 1
+    [ -z "$reveal" ] || made $course deck.html deck.css -M deck -M course=$course $live >"$out/slides-$course.html" || exit 1
     for picture in $(sed -n 's,^!\[.*(\.\./\.\./pictures/\(.*\))$,\1,p' $course.md); do
         cp "../../pictures/$picture" "$out/pictures/" || exit 1
     done
