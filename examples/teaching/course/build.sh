@@ -37,7 +37,7 @@ for course in $COURSES; do
     made $course page.html course.css -M course=$course $live >"$out/course-$course.html" || exit 1
     rm -f "$out/slides-$course.html"
     [ -z "$reveal" ] || made $course deck.html deck.css -M deck -M course=$course $live >"$out/slides-$course.html" || exit 1
-    for picture in $(sed -n 's,^!\[.*(\.\./\.\./pictures/\(.*\))$,\1,p' $course.md); do
+    for picture in $(sed -n 's,^!\[.*(\.\./\.\./pictures/\([^ )]*\).*$,\1,p' $course.md); do
         cp "../../pictures/$picture" "$out/pictures/" || exit 1
     done
 done

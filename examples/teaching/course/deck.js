@@ -103,10 +103,9 @@ function go(address) {
     place(), tell({ go: wanted });
 }
 function enter() {
-    const words = [...current().querySelectorAll('a.play')];
-    const last = words.filter(word => !word.matches('.fragment:not(.visible)')).pop();
+    const words = [...current().querySelectorAll('a.play')].filter(word => !word.closest('.fragment:not(.visible)'));
     if (figure()) frame.title = 'Live picture: ' + nameOf(current());
-    if (words.length && figure()) show(current().classList.contains('build') ? last : words[0]);
+    if (words.length && figure()) show(words[current().classList.contains('build') ? words.length - 1 : 0]);
     else if (figure()) go(figure().dataset.first.split('#')[1]);
     else wanted = '', place();
 }

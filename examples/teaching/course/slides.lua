@@ -133,17 +133,15 @@ local function title_of(heading)
     return title, place
 end
 
--- Drawings of lines on white paper: dark pages turn their lightness round. 41_beam is none, its lightness
--- is an amount of light; SVG pictures have colours for dark pages of their own.
-local DRAWINGS = { '12_edges', '28_lobes', '42_angles', '43_pinhole', '44_microfacets' }
-local function class_of(image)
-    for _, name in ipairs(DRAWINGS) do
-        if image.src:match(name) then return ' class="drawing"' end
-    end
-    return ''
-end
 local function file_of(image)
     return image.src:match('/') and (image.src:gsub('^%.%./%.%./', '')) or 'pictures/' .. image.src
+end
+-- Width by height of a PNG, as its header has them
+local function aspect_of(path)
+    local file = assert(io.open(path, 'rb'))
+    local a, b, c, d, e, f, g, h = file:read(24):byte(17, 24)
+    file:close()
+    return (((a * 256 + b) * 256 + c) * 256 + d) / (((e * 256 + f) * 256 + g) * 256 + h)
 end
 local function alt_of(image) return escaped(pandoc.utils.stringify(image.caption)) end
 local function with_links(blocks, change)
@@ -170,7 +168,7 @@ local function article(heading, slide)
     elseif slide.picture then
         local file = file_of(slide.picture)
         out:insert(html('<a class="picture" href="' .. file .. '"><img src="' .. file .. '"' ..
-            class_of(slide.picture) .. ' alt="' .. alt_of(slide.picture) .. '" loading="lazy"></a>'))
+            ' alt="' .. alt_of(slide.picture) .. '" loading="lazy"></a>'))
     end
     out:insert(html('<div class="words">'))
     out:extend(words(slide.text))
@@ -192,6 +190,18 @@ end
 
 -- ---- slides
 
+-- The picture of a lesson. Its title may be "0-76: left | middle | right": the rows of it that are shown, in
+-- percent, and captions in letters of the slide, in place of those that are drawn in it.
+local function still(image)
+    local img = '<img src="' .. file_of(image) .. '" alt="' .. alt_of(image) .. '"'
+    local from, to, rest = image.title:gsub('^fig:', ''):match('^(%d+)%-(%d+):? ?(.*)$')
+    if not from then return '<figure>' .. img .. '></figure>' end
+    local shown, spans = (to - from) / 100, ''
+    for caption in rest:gmatch('[^|]+') do spans = spans .. '<span>' .. escaped(caption:match('^ *(.-) *$')) .. '</span>' end
+    return string.format('<figure class="shot" style="--aspect: %.4f"><div>%s style="margin-top: calc(%.4f * 100%%)"></div>' ..
+        '<figcaption>%s</figcaption></figure>', aspect_of(image.src) / shown, img,
+        -from / 100 / aspect_of(image.src), spans)
+end
 -- The place of the live picture, which one frame draws for all slides; or the picture of the lesson
 local function figure(slide)
     local link = live and slide.links[1]
@@ -200,9 +210,7 @@ local function figure(slide)
         return html('<figure class="live" data-first="' .. escaped(address(link, slide.with)) .. '" data-paper="' ..
             escaped(address(last, slide.with)) .. '"></figure>')
     end
-    if not slide.picture then return nil end
-    return html('<figure><img src="' .. file_of(slide.picture) .. '"' .. class_of(slide.picture) ..
-        ' alt="' .. alt_of(slide.picture) .. '"></figure>')
+    return slide.picture and html(still(slide.picture))
 end
 -- Words that move the live picture
 local function moving(blocks, slide)
@@ -220,14 +228,14 @@ local function flow(blocks)
         return block.t == 'OrderedList' and pandoc.Div(block, { class = 'flow' }) or block
     end)
 end
-local function still(blocks)
+local function unlinked(blocks)
     return with_links(blocks, function(link) return is_live(link) and link.content or nil end)
 end
 local function notes(slide)
     local out = pandoc.List{ html('<aside class="notes">') }
     for _, ask in ipairs(slide.questions) do
-        out:extend(still(ask.question))
-        out:extend(still(ask.answer))
+        out:extend(unlinked(ask.question))
+        out:extend(unlinked(ask.answer))
     end
     out:extend(slide.code)
     out:insert(html('</aside>'))
@@ -241,9 +249,11 @@ local function section(class, title, place, parts)
     return out
 end
 local function layout(slide)
+    local first = live and slide.links[1] and slide.links[1].target
     if slide.build then return 'build' end
-    if live and slide.links[1] then return 'beside' end
-    return slide.picture and 'below' or 'words'
+    if first and (first:match('[#&]plane=1') or first:match('[#&]raster=1')) then return 'beside plane' end
+    if first and not first:match('[#&]shape=3') and not first:match('[#&]compare=1') then return 'beside' end
+    return (first or slide.picture) and 'below' or 'words'
 end
 
 local function sections(heading, slide)
@@ -264,10 +274,12 @@ local function sections(heading, slide)
         local asked = { picture = slide.picture, with = slide.with, links = pandoc.List{ first } }
         local answer = pandoc.List{ html('<div class="statement"><div class="fragment answer">') }
         answer:extend(moving(ask.answer, asked))
-        answer:insert(html('</div></div>'))
+        answer:insert(html('</div>'))
         local picture = figure(asked)
         local class = 'ask ' .. (picture and layout(asked) or 'words')
-        local inlines = still(ask.question)[1].content
+        local inlines = unlinked(ask.question)[1].content
+        if not picture then answer:extend(slide.listings) end
+        answer:insert(html('</div>'))
         out:extend(section(class, inlines, place,
             { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))
     end
