@@ -152,7 +152,7 @@ async function all() {
         button.draws = live && live.dataset.first.split('#')[1];
         list.append(make('li', {}, button));
     });
-    overview.replaceChildren(...[...parts].flatMap(([part, list]) => part ? [make('h2', {}, part), list] : [list]));
+    overview.replaceChildren(...[...parts].map(([part, list]) => make('div', {}, make('h2', {}, part), list)));
     overview.showModal(), place();
     (overview.querySelector('[aria-current]') || overview).scrollIntoView({ block: 'center' });
     overview.querySelector('[aria-current]').focus();

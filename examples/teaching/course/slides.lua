@@ -237,7 +237,10 @@ local function notes(slide)
         out:extend(unlinked(ask.question))
         out:extend(unlinked(ask.answer))
     end
-    out:extend(slide.code)
+    -- the speaker's view has a style of its own
+    for _, line in ipairs(slide.code) do
+        out:insert(html((line.text:gsub('^<pre>', '<pre style="white-space: pre-wrap; overflow-wrap: anywhere">'))))
+    end
     out:insert(html('</aside>'))
     return out
 end

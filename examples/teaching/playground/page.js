@@ -352,8 +352,6 @@ function buildControls() {
                 toggle('vectors', 'vectors'), toggle('maps', 'lamps'), toggle('turn', 'turning')),
             row(toggle('curve', 'brightness', 'along a line through the marked point, term by term'),
                 toggle('lobe', 'lobe', 'of the highlight, as a curve around its axis'))),
-        group('Vectors', slider('toL', '\\theta', 'degrees from N to L', { step: 1 }),
-            slider('toV', '\\text{to }\\mathbf{V}', 'degrees from N to V', { step: 1 })),
         group('Material', presets(),
             color('ke', 'k_e', 'emission', 'e'),
             color('ka', 'k_a', 'ambient reflection', 'a'),
