@@ -203,7 +203,8 @@ for (const name of decks) {
                 const [equation, statement, figure] = ['.equation', '.statement', 'figure'].map(box);
                 const row = slide.querySelector('.equation');
                 if (row && !upright && row.scrollWidth > row.clientWidth + 1) say('the equation is cut');
-                if (statement && equation && !upright && statement.bottom > equation.top + letter / 4)
+                if (statement && equation && !upright && statement.top < equation.bottom - letter / 4 &&
+                    statement.bottom > equation.top + letter / 4)
                     say('the statement runs into the equation');
                 if (figure && !upright && figure.height < 0.3 * innerHeight) say('the picture is small');
                 if (slide.querySelectorAll('.equation math').length > 1) say('more than one equation');

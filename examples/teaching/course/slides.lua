@@ -281,7 +281,8 @@ local function sections(heading, slide)
         local picture = figure(asked)
         local class = 'ask ' .. (picture and layout(asked) or 'words')
         local inlines = unlinked(ask.question)[1].content
-        if not picture then answer:extend(slide.listings) end
+        local listing = slide.listings[1]               -- below the answer, where there is room for it
+        if not picture and listing and select(2, listing.text:gsub('\n', '')) < 11 then answer:insert(listing) end
         answer:insert(html('</div>'))
         out:extend(section(class, inlines, place,
             { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))
