@@ -129,7 +129,7 @@ conformance:
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
-	@sh examples/teaching/playground/build.sh && sh examples/teaching/course/build.sh
+	@sh examples/teaching/playground/build.sh; made=$$?; sh examples/teaching/course/build.sh && exit $$made
 course:
 	@PDF=1 sh examples/teaching/course/build.sh
 course-zip:

@@ -69,6 +69,16 @@ check "lines of C compile" $CC -std=c99 -O0 -w -Werror=implicit -I. -DSHADE__IMP
 check "their values are those of the pages" "$T/lines"
 check "there are lines of C" test "$(grep -c '^#line' "$T/lines.c")" -ge 60
 
+# ---- what is not made says so --------------------------------------------------------------------
+mkdir "$T/few"                  # a path with a few programs, none of which makes a page
+for program in sh dirname mkdir rm sed cat cp; do ln -s "$(command -v $program)" "$T/few"; done
+nothing() {                     # packages that are named, where status 1 and nothing else is returned
+    PATH="$T/few" sh "$1/build.sh" "$T/none" >"$T/said" 2>&1
+    [ $? = 1 ] && grep -q "apt-get install $2" "$T/said" && ! ls "$T"/none/*.html 2>/dev/null
+}
+check "without pandoc: status 1, and its name" nothing examples/teaching/course pandoc
+check "without clang: status 1, and its name" nothing examples/teaching/playground "clang lld"
+
 # ---- pages --------------------------------------------------------------------------------------
 if ! command -v pandoc >/dev/null 2>&1; then
     left_out "pages: no pandoc"

@@ -606,6 +606,53 @@ check('iteration three reads the same on every screen', read.size === 1 &&
         await page.keyboard.press(key === ' ' ? 'Space' : key);
         check('key of the stepper: ' + key, await page.evaluate(() => S.step) === step);
     }
+    // after a click on a scene, a choice or the range keys step on
+    for (const what of ['#raster-panel .buttons button >> nth=3', '#raster-panel .choice label >> nth=1']) {
+        await page.locator(what).click();
+        const at = await page.evaluate(() => S.step);
+        await page.keyboard.press('ArrowRight');
+        check('keys step after a click on ' + what, await soon(() => page.evaluate(at => S.step === at + 1, at)));
+    }
+    // one addition leads from pixel to pixel, and E is its formula with its numbers
+    await go(page, SCENE + '&step=40');
+    const sums = await page.evaluate(() => {
+        const wrong = [];
+        for (const t of triangles()) for (let y = 0; y < 11; y++) for (let x = 0; x < 15; x++) for (let k = 0; k < 3; k++) {
+            const a = askRaster(t, x, y), [right, down] = [askRaster(t, x + 1, y), askRaster(t, x, y + 1)];
+            const said = nextPixel(t, { x, y }, b => b.edge[k]).replace(/<[^>]*>/g, '').match(/→ ([+−]) (\S+) ↓ ([+−]) (\S+)/);
+            const [dx, dy] = [1, 3].map(i => (said[i] === '+' ? 1 : -1) * said[i + 1]);
+            if (Math.abs(a.edge[k] + dx - right.edge[k]) > 6e-5 || Math.abs(a.edge[k] + dy - down.edge[k]) > 6e-5)
+                wrong.push([t, x, y, k, ...said]);
+            const text = edgeFormula(t, k, { x, y }).replace(/<[^>]*>/g, '').replace(/−/g, '-').split('=');
+            const value = Function('return ' + text[1].replace(/\)\(/g, ')*('))();
+            if (Math.abs(value - a.edge[k]) > 1e-4) wrong.push([t, x, y, k, text, a.edge[k]]);
+        }
+        return wrong.slice(0, 4);
+    });
+    check('E by one addition, and by its formula', !sums.length, JSON.stringify(sums));
+    // what is foretold is asked before it is shown, and told right or wrong
+    await go(page, SCENE);
+    const told = await page.evaluate(() => {
+        const fates = [0, 0, 0], wrong = [];
+        while (S.step < rasterSteps) {
+            const { t, x, y, fate } = fateOf(S.step), before = floats(wasm.page_raster_depth(), 192)[16 * y + x];
+            fates[fate]++, foretell(fate), tellRaster();
+            const after = floats(wasm.page_raster_depth(), 192)[16 * y + x];
+            if ((fate === 2) !== (after < before) || (fate === 0) === !!askRaster(t, x, y).covered) wrong.push([t, x, y, fate]);
+        }
+        return { fates, wrong };
+    });
+    check('what the next step does', !told.wrong.length && told.fates.every(n => n > 5), JSON.stringify(told));
+    await go(page, SCENE);
+    await page.keyboard.press('3');
+    check('a wrong prediction is told', await soon(async () => /^(Right|No): triangle 1 at/.test(
+        await page.locator('#foretold').textContent())));
+    const blend = await page.evaluate(() => {
+        S.step = rasterSteps, tellRaster();
+        return new Set(new Uint32Array(wasm.memory.buffer, wasm.page_raster_pixels(), 192)).size;
+    });
+    check('colours are interpolated', blend > 30, blend);
+    await go(page, SCENE);
     await page.keyboard.press('Enter');
     check('it plays', await soon(() => page.evaluate(() => S.step > 3)));
     await page.keyboard.press('Enter');

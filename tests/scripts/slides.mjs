@@ -61,6 +61,24 @@ for (const name of pages) {
         check('formulas are MathML with their TeX beside it: ' + what, await page.evaluate(() =>
             [...document.querySelectorAll('math')].every(math =>
                 math.querySelector('annotation[encoding="application/x-tex"]').textContent.trim())));
+        // one figure a paragraph, in the paragraph that speaks of it: a word moves it, and nothing else
+        const live = await page.evaluate(() => [...document.querySelectorAll('article')].filter(article =>
+            article.querySelector('a.play')).map(article => [article.querySelectorAll('iframe[loading=lazy]').length,
+            [...article.querySelectorAll('a.play')].every(a => a.target === article.querySelector('iframe').name)]));
+        check('live figures: ' + what, name === 'courses.html' || live.length > 10 && live.every(([n, own]) => n === 1 && own), live);
+        if (width === 1366 && live.length) {
+            const word = page.locator('article:has(a.play:nth-of-type(2)) a.play').nth(1);
+            await word.scrollIntoViewIfNeeded();
+            const name = await word.getAttribute('target'), hash = (await word.getAttribute('href')).split('#')[1];
+            const inside = () => page.frames().find(one => one.name() === name);
+            check('a figure comes when it is seen: ' + what, await soon(() => inside().url().includes('index.html') &&
+                inside().evaluate(() => !!document.querySelector('#controls fieldset'))));
+            await word.click();
+            check('a word moves it: ' + what, await soon(() => inside().url().endsWith(hash)));
+        }
+        await page.emulateMedia({ media: 'print' });
+        check('answers are printed: ' + what, await page.evaluate(() => [...document.querySelectorAll('details:not(.contents) p')]
+            .every(p => p.getBoundingClientRect().height > 0 && p.checkVisibility({ contentVisibilityAuto: true }))));
         await page.context().close();
     }
 }
@@ -101,7 +119,8 @@ check('slides with live pictures', moving.length > 75, moving.length);
             Object.assign(S, state);
             const pixels = draw(W, H, 1).slice(), point = marked(W, H);
             const read = S.vectors || S.curve ? ['N', 'L', 'V', 'H', 'point'].flatMap(name => point[name]) : [];
-            return { pixels, read, drawn: S.curve || S.lobe ? [S.n, S.curve, S.lobe, S.model, ...S.p1].join() : '' };
+            return { pixels, read, drawn: S.plane ? [S.toL, S.toV, S.n, S.model, S.rays, S.terms].join() : S.raster ? [S.step, S.order].join()
+                : S.curve || S.lobe ? [S.n, S.curve, S.lobe, S.model, ...S.p1].join() : '' };
         };
         const differ = (a, b) => {
             let pixels = 0;
@@ -184,7 +203,8 @@ for (const name of decks) {
                 const [equation, statement, figure] = ['.equation', '.statement', 'figure'].map(box);
                 const row = slide.querySelector('.equation');
                 if (row && !upright && row.scrollWidth > row.clientWidth + 1) say('the equation is cut');
-                if (statement && equation && !upright && statement.bottom > equation.top + letter / 4)
+                if (statement && equation && !upright && statement.top < equation.bottom - letter / 4 &&
+                    statement.bottom > equation.top + letter / 4)
                     say('the statement runs into the equation');
                 if (figure && !upright && figure.height < 0.3 * innerHeight) say('the picture is small');
                 if (slide.querySelectorAll('.equation math').length > 1) say('more than one equation');
@@ -235,12 +255,10 @@ for (const name of decks) {
     const page = await openDeck('slides-uw.html', {}, '#/9');
     const slide = test => page.evaluate(test => Reveal.getSlides().findIndex(Function('s', 'return ' + test)), test);
     const go = i => page.evaluate(i => Reveal.slide(i), i);
-    const frameOf = async () => {
-        const name = await page.evaluate(() => Reveal.getCurrentSlide().querySelector('iframe').name);
-        await soon(() => page.frame(name) && page.frame(name).url().includes('index.html'));
-        await page.frame(name).waitForFunction(() => window.wasm !== 0 &&
-            document.querySelector('#controls fieldset') && !requested && !stale);
-        return page.frame(name);
+    // the one frame, once it shows what the slide wants
+    const frameOf = async (deck = page) => {
+        await deck.waitForFunction(() => wanted && frame.shows === wanted && frame.classList.contains('shown'));
+        return deck.frames().find(one => one.url().includes('index.html'));
     };
     // a question follows: A goes to its answer, and hides it again
     const asking = await slide("s.nextElementSibling && s.nextElementSibling.classList.contains('ask')");
@@ -279,9 +297,13 @@ for (const name of decks) {
     }
     await go(live), await page.keyboard.press('z');
     const large = await page.locator('.present figure').boundingBox();
-    check('Z: the picture alone', large.width > 1020 && large.height > 760, large);
+    const row = await page.locator('.slide-number').boundingBox();
+    check('Z: the picture alone', large.width > 1020 && large.height > 670 && large.y + large.height <= row.y, [large, row]);
     await page.keyboard.press('z'), await page.keyboard.press('o');
-    check('O: all slides', await page.evaluate(() => Reveal.isOverview()));
+    check('O: all slides', await page.evaluate(() => document.querySelectorAll('#overview[open] button').length ===
+        Reveal.getSlides().length));
+    check('each with its picture', await soon(() => page.evaluate(() => [...document.querySelectorAll(
+        '#overview button')].every(button => !button.draws || button.firstChild.src.startsWith('data:')))));
     await page.keyboard.press('o');
     check('the address names the slide', /#\/\d+/.test(page.url()), page.url());
 
@@ -291,6 +313,98 @@ for (const name of decks) {
     const notes = await page.evaluate(() => Reveal.getCurrentSlide().querySelector('.notes').textContent.trim());
     check('S: the speaker sees the answer', await soon(() => view.evaluate(text =>
         document.body.textContent.includes(text), notes.slice(0, 60))), notes);
+    await go(live);
+    const views = () => view.frames().filter(one => /slides-/.test(one.url()));
+    check('and the live picture of this slide', await soon(() => views().length === 2) && await soon(() =>
+        views()[0].evaluate(() => !!wanted && frame.shows === wanted && frame.classList.contains('shown'))));
+    check('lines of C are whole there', await view.evaluate(() => [...document.querySelectorAll('.speaker-controls-notes pre')]
+        .every(line => line.scrollWidth <= line.clientWidth + 1)));
+    await page.context().close();
+}
+
+// ---- one live picture a deck ------------------------------------------------------------------------
+
+const LETTERS = { 'slides-uw.html': ['n', 'nₛ'], 'slides-massey.html': ['n', 'α'], 'slides-shirley.html': ['n', 'p'],
+    'slides-berkeley.html': ['n', 'p'] };
+for (const name of decks) {
+    const before = asked.length, page = await openDeck(name);
+    const slides = await page.evaluate(() => Reveal.getSlides().map((slide, i) => slide.querySelector('figure.live') ? i : -1)
+        .filter(i => i >= 0));
+    const late = [];
+    let place = true;
+    await page.waitForFunction(() => frame.shows !== undefined || !wanted, null, { timeout: 60000 });
+    for (const i of slides) {
+        const [ms, over] = await page.evaluate(async i => {
+            const begin = performance.now();
+            Reveal.slide(i);
+            while (frame.shows !== wanted || !frame.classList.contains('shown')) await new Promise(requestAnimationFrame);
+            const [a, b] = [frame, Reveal.getCurrentSlide().querySelector('figure')].map(node => node.getBoundingClientRect());
+            return [performance.now() - begin, Math.abs(a.x - b.x) + Math.abs(a.y - b.y) + Math.abs(a.width - b.width)];
+        }, i);
+        late.push(ms);
+        place = place && over < 1;
+    }
+    late.sort((a, b) => a - b);
+    check('live pictures come at once: ' + name, late[late.length >> 1] < 250, late);
+    check('where their slide has room for them: ' + name, place);
+    check('from one module: ' + name, asked.slice(before).filter(url => url.includes('index.html')).length === 1);
+    const inside = page.frames().find(one => one.url().includes('index.html'));
+    check('in the letters of the course: ' + name, await inside.evaluate(([letter]) => bare(letter), LETTERS[name]) ===
+        LETTERS[name][1]);
+    check('and with a name in words: ' + name, /^Live picture: [^\\{}]+$/.test(await page.evaluate(() => frame.title)));
+    await page.context().close();
+}
+{
+    // iteration four: the arrow key adds term after term to equation and picture
+    const page = await openDeck('slides-uw.html');
+    await page.evaluate(() => Reveal.slide(Reveal.getSlides().findIndex(slide => slide.classList.contains('build'))));
+    const seen = () => page.evaluate(() => [...document.querySelectorAll('.present .equation :is(mi, mo, mn)')].filter(
+        node => node.checkVisibility({ opacityProperty: true, visibilityProperty: true })).map(node => node.textContent).join(''));
+    const steps = [];
+    for (let i = 0; i < 6; i++) {
+        await page.waitForFunction(() => wanted && frame.shows === wanted);
+        const inside = page.frames().find(one => one.url().includes('index.html'));
+        steps.push([await seen(), await inside.evaluate(() => canvas.toDataURL())]);
+        if (i < 5) await page.keyboard.press('ArrowRight');
+    }
+    check('iteration four begins with emission', steps[0][0] === 'I=ke', steps[0][0]);
+    const grows = [['ka', '∑'], ['kd', 'Bj'], ['ks'], ['ej'], []];
+    check('each key adds a term', steps.every(([text], i) => !i || (text.length > steps[i - 1][0].length || i === 5) &&
+        grows[i - 1].every(part => text.includes(part))), steps.map(([text]) => text));
+    check('and changes the picture', new Set(steps.map(step => step[1])).size === 6);
+    await page.context().close();
+}
+{
+    // the vectors in a plane: values of the module against their closed forms
+    const page = await open('index.html', {}, '#bare&plane=1&turn=0&letters=uw&model=1&n=7');
+    await page.waitForFunction(() => document.querySelector('#plane .N'));
+    const wrong = await page.evaluate(() => {
+        const wrong = [], rad = Math.PI / 180;
+        for (let l = -175; l <= 175; l += 25) for (let v = -80; v <= 80; v += 20) for (const model of [0, 1]) {
+            wasm.page_input();
+            tell(words(300, 200, 1));
+            const answer = planeAt(l, v, model), nl = Math.cos(l * rad);
+            const base = model ? Math.cos((v + l) * rad) : Math.abs(Math.cos((l - v) / 2 * rad)) < 1e-6 ? 0
+                : Math.cos((l + v) / 2 * rad) * Math.sign(Math.cos((l - v) / 2 * rad));
+            if (Math.abs(answer.nl - nl) > 1e-5 || Math.abs(answer.base - base) > 1e-5 || answer.gate !== +(nl > 0) ||
+                Math.abs(answer.power - Math.max(0, base) ** 7) > 1e-4) wrong.push([l, v, model, answer.nl, answer.base, base]);
+        }
+        return wrong;
+    });
+    check('values in the plane are cosines', !wrong.length, wrong.slice(0, 5));
+    const text = () => page.evaluate(() => document.querySelector('#plane').textContent);
+    const tip = await page.locator('#plane .L polygon').boundingBox();
+    const before = await text();
+    await page.mouse.move(tip.x + tip.width / 2, tip.y + tip.height / 2);
+    await page.mouse.down();
+    const box = await page.locator('#plane').boundingBox();
+    await page.mouse.move(box.x + 20, box.y + box.height - 5, { steps: 4 });
+    await page.mouse.up();
+    check('L is dragged beyond the horizon, and B is 0', await soon(async () => await text() !== before &&
+        /B = 0/.test(await text())), await text());
+    await page.locator('#plane [data-to=toV]').focus();
+    await page.keyboard.press('ArrowRight');
+    check('keys turn V', await soon(async () => (await page.evaluate(() => S.toV)) === 22));
     await page.context().close();
 }
 
@@ -323,14 +437,15 @@ for (const name of decks) {
     await swipe(50, 350);
     check('and back', await soon(async () => await at(page) === 0));
     // a tap right after a swipe only ends it
-    const overview = () => page.evaluate(() => Reveal.isOverview());
+    const overview = () => page.evaluate(() => document.getElementById('overview').open);
     for (let i = 0; i < 5 && !await overview(); i++) {
         await new Promise(done => setTimeout(done, 1000));
         await page.locator('#all').tap();
         await new Promise(done => setTimeout(done, 200));
     }
     check('a button shows all slides', await overview());
-    await page.locator('#all').tap();
+    await page.locator('#overview button').nth(2).tap();
+    check('and leads to one', await soon(async () => await at(page) === 2 && !await overview()));
     await page.locator('.tools.high a').tap();
     check('the cross leads out', await soon(() => page.url().endsWith('courses.html')));
     await page.context().close();

@@ -2,15 +2,16 @@
 # build.sh [directory] - four courses in Markdown become pages, slides and a first screen, beside the
 # playground. Pages need pandoc; slides need reveal.js too, of npm (REVEAL says where it is); with PDF=1
 # headless Chromium prints slides with their answers, light and dark, and with PACK=1 all is packed into
-# courses.zip. PLAYGROUND names an index.html that was built elsewhere. What is missing is named.
+# courses.zip. PLAYGROUND names an index.html that was built elsewhere. What is missing is named; where
+# what was wanted is not made for that, the status is 1.
 cd "$(dirname "$0")" || exit 1
 out=${1:-../../../build/playground}
 mkdir -p "$out/pictures" && out=$(cd "$out" && pwd) || exit 1
 COURSES="uw massey shirley berkeley"
 
 command -v pandoc >/dev/null 2>&1 || {
-    echo "courses: no pandoc, which makes their pages: left out (they can be read as examples/teaching/course/*.md)"
-    exit 0
+    echo "courses: nothing is made without pandoc (apt-get install pandoc); read examples/teaching/course/*.md" >&2
+    exit 1
 }
 reveal=${REVEAL:-../../../build/node_modules/reveal.js}
 [ -f "$reveal/dist/reveal.js" ] || reveal=
@@ -19,7 +20,7 @@ if [ "$reveal" ]; then
     cp "$reveal/dist/reveal.js" "$reveal/dist/reveal.css" "$reveal/dist/plugin/notes.js" "$reveal/LICENSE" \
        "$out/reveal/" || exit 1
     chmod u+w "$out"/reveal/*
-else echo "courses: no reveal.js (npm install --no-save --prefix build reveal.js): no slides"; fi
+else echo "courses: no slides without reveal.js (npm install --no-save --prefix build reveal.js)" >&2; fi
 cp ./*.svg "$out/pictures/" || exit 1
 # a page that was built elsewhere, as that of a release, serves where there is no clang
 [ -f "$out/index.html" ] || [ ! -f "${PLAYGROUND:-}" ] || cp "$PLAYGROUND" "$out/index.html"
@@ -34,10 +35,10 @@ made() {
         -V "style=$(cat "$style")" -V "script=$(cat deck.js)" -V "point=$(sed 's/&/\&amp;/g; s/</\&lt;/g' point.h)" "$@" "$name.md"
 }
 for course in $COURSES; do
-    made $course page.html course.css >"$out/course-$course.html" || exit 1
+    made $course page.html course.css -M course=$course $live >"$out/course-$course.html" || exit 1
     rm -f "$out/slides-$course.html"
-    [ -z "$reveal" ] || made $course deck.html deck.css -M deck $live >"$out/slides-$course.html" || exit 1
-    for picture in $(sed -n 's,^!\[.*(\.\./\.\./pictures/\(.*\))$,\1,p' $course.md); do
+    [ -z "$reveal" ] || made $course deck.html deck.css -M deck -M course=$course $live >"$out/slides-$course.html" || exit 1
+    for picture in $(sed -n 's,^!\[.*(\.\./\.\./pictures/\([^ )]*\).*$,\1,p' $course.md); do
         cp "../../pictures/$picture" "$out/pictures/" || exit 1
     done
 done
@@ -61,10 +62,13 @@ The <a href="index.html">playground</a> has a slider for every symbol of the equ
 } >"$out/courses.html"
 
 # ---- slides with their answers, on paper
-if [ "$PDF" ] && [ "$reveal" ]; then
-    browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || browser=
-    [ "$browser" ] || echo "courses: no chromium, which prints slides: no PDF"
-    for scheme in ${browser:+light dark}; do
+if [ "$PDF" ]; then
+    browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) &&
+    command -v node >/dev/null 2>&1 && [ "$reveal" ] || {
+        echo "courses: no PDF without slides, chromium and node (apt-get install chromium nodejs)" >&2
+        exit 1
+    }
+    for scheme in light dark; do
         set --
         [ $scheme = light ] && end=.pdf || end=-dark.pdf
         for course in $COURSES; do
@@ -74,7 +78,7 @@ if [ "$PDF" ] && [ "$reveal" ]; then
     done
 fi
 if [ "$PACK" ]; then
-    command -v zip >/dev/null 2>&1 || { echo "courses: no zip, which packs them" >&2; exit 1; }
+    command -v zip >/dev/null 2>&1 || { echo "courses: no archive without zip (apt-get install zip)" >&2; exit 1; }
     (cd "$out" && rm -f courses.zip && set -- pictures *.html &&
         for part in reveal slides-*.pdf; do [ ! -e "$part" ] || set -- "$@" "$part"; done &&
         find "$@" -type f | sort | zip -qX9 courses.zip -@) || exit 1

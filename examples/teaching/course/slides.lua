@@ -2,8 +2,10 @@
 -- A heading of level 2 begins a slide; what follows " · " in it is the place in the notes. Below it stand
 -- a picture, one statement whose links set the live picture, one equation in $$ $$, C lines with their
 -- values, and questions in <details>; a link in a question is the picture it begins with. An ordered list
--- becomes boxes with arrows between them.
-local deck, live, count = false, false, 0
+-- becomes boxes with arrows between them. A heading of level 1 names the part that slides belong to; after
+-- <!-- build --> each word adds a term to the equation, which is as wide as the slide.
+local deck, live, count, part = false, false, 0, ''
+local course
 
 local function html(text) return pandoc.RawBlock('html', text) end
 local function escaped(text)
@@ -15,13 +17,51 @@ end
 local PLAYGROUND = '^%.%./playground/index%.html#'
 local function is_live(inline) return inline.t == 'Link' and inline.target:match(PLAYGROUND) end
 local function hash_of(link) return (link.target:gsub(PLAYGROUND, '')) end
-local function page_address(link)
-    return 'index.html#turn=0&' .. hash_of(link):gsub('&?with=[^&]*', '')
-end
-local function slide_address(link, with)
+local function address(link, with)
     local hash = hash_of(link)
-    return 'index.html#bare&' .. (hash:match('turn=') and '' or 'turn=0&') ..
+    return 'index.html#bare&letters=' .. course .. '&' .. (hash:match('turn=') and '' or 'turn=0&') ..
         (hash:match('with=') and '' or 'with=' .. with .. '&') .. hash
+end
+
+-- ---- formulas
+
+-- Words for TeX: "N.L", "k_d"
+local function spoken(inlines)
+    return (pandoc.utils.stringify(pandoc.Plain(inlines)):gsub('\\mathbf{(.-)}', '%1'):gsub('\\cdot', '·')
+        :gsub('\\,', ' '):gsub('[\\{}]', ''):gsub('^ +', ''))
+end
+-- MathML of pandoc, in which each term of k_e, k_a, k_d or k_s has the class of its colour, to the next sign,
+-- comma or bracket; fences grow, as MathML Core wants it.
+local FENCES = { ['+'] = true, ['='] = true, [','] = true, [']'] = true, ['}'] = true, ['<'] = true }
+local function term_end(text, at)
+    local depth = 0
+    while true do
+        local from, to, close, name, empty = text:find('<(/?)(%a+)[^>]-(/?)>', at)
+        if not from or (close == '/' and depth == 0) then return at end
+        if depth == 0 and ((name == 'mo' and FENCES[text:match('^<mo[^>]*>(.-)</mo>', from)]) or
+            text:match('^<mspace width="[12]', from)) then return at end
+        if close == '/' then depth = depth - 1 elseif empty == '' then depth = depth + 1 end
+        at = to + 1
+    end
+end
+local function coloured(text)
+    local out, at = '', 1
+    while true do
+        local from, _, letter = text:find('<msub><mi>k</mi><mi>([eads])</mi></msub>', at)
+        if not from then return out .. text:sub(at) end
+        local to = term_end(text, from)
+        out = out .. text:sub(at, from - 1) .. '<mrow class="' .. letter .. '">' .. text:sub(from, to - 1) .. '</mrow>'
+        at = to
+    end
+end
+local function mathml(math)
+    local text = pandoc.write(pandoc.Pandoc{ pandoc.Plain{ math } }, 'html',
+        pandoc.WriterOptions{ html_math_method = 'mathml' })
+    local body, note = text:match('^(.-)(<annotation.*)$')
+    if not body then return nil end
+    body = body:gsub('minsize="[%d.]+" maxsize="[%d.]+" stretchy="false"', 'minsize="2.4em" stretchy="true" symmetric="true"')
+    body = body:gsub('<mtable>', '<mtable displaystyle="true">')
+    return pandoc.RawInline('html', coloured(body) .. note)
 end
 
 -- ---- the parts of a slide
@@ -63,7 +103,8 @@ local function parts_of(blocks)
                 asking.to = asking.question
                 slide.questions:insert(asking)
             elseif block.text:match('^</summary>') then asking.to = asking.answer
-            elseif block.text:match('^</details>') then asking = nil end
+            elseif block.text:match('^</details>') then asking = nil
+            elseif block.text:match('^<!%-%- build') then slide.build = true end
         elseif asking then asking.to:insert(block)
         elseif picture_of(block) then slide.picture = picture_of(block)
         elseif is_equation(block) then slide.equations:insert(block)
@@ -72,7 +113,11 @@ local function parts_of(blocks)
         elseif block.t == 'CodeBlock' then slide.listings:insert(block)
         else slide.text:insert(block) end
     end
-    slide.links = live_links(slide.text)
+    slide.links, slide.asked = live_links(slide.text), pandoc.List()
+    for _, ask in ipairs(slide.questions) do
+        slide.asked:extend(live_links(ask.question))
+        slide.asked:extend(live_links(ask.answer))
+    end
     slide.with = slide.links[1] and slide.links[1].target:match('with=([^&]*)') or 'none'
     return slide
 end
@@ -88,17 +133,15 @@ local function title_of(heading)
     return title, place
 end
 
--- Drawings of lines on white paper: dark pages turn their lightness round. 41_beam is none, its lightness
--- is an amount of light; SVG pictures have colours for dark pages of their own.
-local DRAWINGS = { '12_edges', '28_lobes', '42_angles', '43_pinhole', '44_microfacets' }
-local function class_of(image)
-    for _, name in ipairs(DRAWINGS) do
-        if image.src:match(name) then return ' class="drawing"' end
-    end
-    return ''
-end
 local function file_of(image)
     return image.src:match('/') and (image.src:gsub('^%.%./%.%./', '')) or 'pictures/' .. image.src
+end
+-- Width by height of a PNG, as its header has them
+local function aspect_of(path)
+    local file = assert(io.open(path, 'rb'))
+    local a, b, c, d, e, f, g, h = file:read(24):byte(17, 24)
+    file:close()
+    return (((a * 256 + b) * 256 + c) * 256 + d) / (((e * 256 + f) * 256 + g) * 256 + h)
 end
 local function alt_of(image) return escaped(pandoc.utils.stringify(image.caption)) end
 local function with_links(blocks, change)
@@ -110,17 +153,22 @@ end
 local function article(heading, slide)
     local out = pandoc.List{ html('<article id="' .. count .. '"><h2><a href="#' .. count .. '">'),
         pandoc.Plain(heading), html('</a></h2>') }
+    local name = 'live-' .. count
     local function words(blocks)
         return with_links(blocks, function(link)
             if is_live(link) then
-                return pandoc.Link(link.content, page_address(link), '', { class = 'play' })
+                return pandoc.Link(link.content, address(link, slide.with), '', { class = 'play', target = name })
             end
         end)
     end
-    if slide.picture then
+    local first = live and (slide.links[1] or slide.asked[1])
+    if first then
+        out:insert(html('<div class="picture"><iframe name="' .. name .. '" loading="lazy" title="' ..
+            escaped(spoken(heading)) .. '" src="' .. escaped(address(first, slide.with)) .. '"></iframe></div>'))
+    elseif slide.picture then
         local file = file_of(slide.picture)
         out:insert(html('<a class="picture" href="' .. file .. '"><img src="' .. file .. '"' ..
-            class_of(slide.picture) .. ' alt="' .. alt_of(slide.picture) .. '" loading="lazy"></a>'))
+            ' alt="' .. alt_of(slide.picture) .. '" loading="lazy"></a>'))
     end
     out:insert(html('<div class="words">'))
     out:extend(words(slide.text))
@@ -142,25 +190,37 @@ end
 
 -- ---- slides
 
--- The live picture in a frame that has a name, so that links reach it; or the picture of the lesson
-local function figure(slide, name)
+-- The picture of a lesson. Its title may be "0-76: left | middle | right": the rows of it that are shown, in
+-- percent, and captions in letters of the slide, in place of those that are drawn in it.
+local function still(image)
+    local img = '<img src="' .. file_of(image) .. '" alt="' .. alt_of(image) .. '"'
+    local from, to, rest = image.title:gsub('^fig:', ''):match('^(%d+)%-(%d+):? ?(.*)$')
+    if not from then return '<figure>' .. img .. '></figure>' end
+    local shown, spans = (to - from) / 100, ''
+    for caption in rest:gmatch('[^|]+') do spans = spans .. '<span>' .. escaped(caption:match('^ *(.-) *$')) .. '</span>' end
+    return string.format('<figure class="shot" style="--aspect: %.4f"><div>%s style="margin-top: calc(%.4f * 100%%)"></div>' ..
+        '<figcaption>%s</figcaption></figure>', aspect_of(image.src) / shown, img,
+        -from / 100 / aspect_of(image.src), spans)
+end
+-- The place of the live picture, which one frame draws for all slides; or the picture of the lesson
+local function figure(slide)
     local link = live and slide.links[1]
     if link then
-        return html('<figure class="live"><iframe name="' .. name .. '" title="' ..
-            escaped(pandoc.utils.stringify(pandoc.Plain(link.content))) .. '" data-src="' ..
-            escaped(slide_address(link, slide.with)) .. '"></iframe></figure>')
+        local last = slide.build and slide.links[#slide.links] or link
+        return html('<figure class="live" data-first="' .. escaped(address(link, slide.with)) .. '" data-paper="' ..
+            escaped(address(last, slide.with)) .. '"></figure>')
     end
-    if not slide.picture then return nil end
-    return html('<figure><img src="' .. file_of(slide.picture) .. '"' .. class_of(slide.picture) ..
-        ' alt="' .. alt_of(slide.picture) .. '"></figure>')
+    return slide.picture and html(still(slide.picture))
 end
 -- Words that move the live picture
-local function moving(blocks, slide, name)
+local function moving(blocks, slide)
+    local words = 0
     return with_links(blocks, function(link)
         if not is_live(link) then return nil end
         if not live then return link.content end
-        return pandoc.Link(link.content, slide_address(link, slide.with), '',
-                           { class = 'play', target = name })
+        words = words + 1
+        local class = slide.build and words > 1 and 'play fragment' or 'play'
+        return pandoc.Link(link.content, address(link, slide.with), '', { class = class })
     end)
 end
 local function flow(blocks)
@@ -168,37 +228,42 @@ local function flow(blocks)
         return block.t == 'OrderedList' and pandoc.Div(block, { class = 'flow' }) or block
     end)
 end
-local function still(blocks)
+local function unlinked(blocks)
     return with_links(blocks, function(link) return is_live(link) and link.content or nil end)
 end
 local function notes(slide)
     local out = pandoc.List{ html('<aside class="notes">') }
     for _, ask in ipairs(slide.questions) do
-        out:extend(still(ask.question))
-        out:extend(still(ask.answer))
+        out:extend(unlinked(ask.question))
+        out:extend(unlinked(ask.answer))
     end
-    out:extend(slide.code)
+    -- the speaker's view has a style of its own
+    for _, line in ipairs(slide.code) do
+        out:insert(html((line.text:gsub('^<pre>', '<pre style="white-space: pre-wrap; overflow-wrap: anywhere">'))))
+    end
     out:insert(html('</aside>'))
     return out
 end
 local function section(class, title, place, parts)
-    local out = pandoc.List{ html('<section class="' .. class .. '" data-place="' ..
-        escaped(pandoc.utils.stringify(pandoc.Plain(place))) .. '"><h2>'), pandoc.Plain(title), html('</h2>') }
+    local out = pandoc.List{ html('<section class="' .. class .. '" data-part="' .. escaped(part) ..
+        '" data-place="' .. escaped(spoken(place)) .. '"><h2>'), pandoc.Plain(title), html('</h2>') }
     for _, part in ipairs(parts) do out:extend(part) end
     out:insert(html('</section>'))
     return out
 end
 local function layout(slide)
-    if live and slide.links[1] then return 'beside' end
-    return slide.picture and 'below' or 'words'
+    local first = live and slide.links[1] and slide.links[1].target
+    if slide.build then return 'build' end
+    if first and (first:match('[#&]plane=1') or first:match('[#&]raster=1')) then return 'beside plane' end
+    if first and not first:match('[#&]shape=3') and not first:match('[#&]compare=1') then return 'beside' end
+    return (first or slide.picture) and 'below' or 'words'
 end
 
 local function sections(heading, slide)
     local title, place = title_of(heading)
-    local name = 'live-' .. count
     local parts = pandoc.List{ pandoc.List{ html('<div class="statement">') } }
-    parts:extend{ flow(moving(slide.text, slide, name)), slide.listings, pandoc.List{ html('</div>') } }
-    local shown = figure(slide, name)
+    parts:extend{ flow(moving(slide.text, slide)), slide.listings, pandoc.List{ html('</div>') } }
+    local shown = figure(slide)
     if shown then parts:insert(pandoc.List{ shown }) end
     if #slide.equations > 0 then
         parts:extend{ pandoc.List{ html('<div class="equation">') }, slide.equations,
@@ -206,17 +271,19 @@ local function sections(heading, slide)
     end
     parts:insert(notes(slide))
     local out = section(layout(slide), title, place, parts)
-    for i, ask in ipairs(slide.questions) do
-        local own = 'ask-' .. count .. '-' .. i
+    for _, ask in ipairs(slide.questions) do
         local links = live_links(ask.answer)
         local first = live_links(ask.question)[1] or slide.links[1] or links[1]
         local asked = { picture = slide.picture, with = slide.with, links = pandoc.List{ first } }
         local answer = pandoc.List{ html('<div class="statement"><div class="fragment answer">') }
-        answer:extend(moving(ask.answer, asked, own))
-        answer:insert(html('</div></div>'))
-        local picture = figure(asked, own)
+        answer:extend(moving(ask.answer, asked))
+        answer:insert(html('</div>'))
+        local picture = figure(asked)
         local class = 'ask ' .. (picture and layout(asked) or 'words')
-        local inlines = still(ask.question)[1].content
+        local inlines = unlinked(ask.question)[1].content
+        local listing = slide.listings[1]               -- below the answer, where there is room for it
+        if not picture and listing and select(2, listing.text:gsub('\n', '')) < 11 then answer:insert(listing) end
+        answer:insert(html('</div>'))
         out:extend(section(class, inlines, place,
             { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))
     end
@@ -238,10 +305,11 @@ end
 function Pandoc(doc)
     doc = pandoc.Pandoc(pandoc.walk_block(pandoc.Div(doc.blocks), { Inlines = glued }).content, doc.meta)
     deck, live = doc.meta.deck ~= nil, doc.meta.live ~= nil
+    course = pandoc.utils.stringify(doc.meta.course)
     local out, about, heading, body = pandoc.List(), pandoc.List(), nil, pandoc.List()
     local contents = pandoc.List()
     local function finish()
-        if not heading then about:extend(body)
+        if not heading then (count > 0 and out or about):extend(body)
         else
             count = count + 1
             out:extend((deck and sections or article)(heading, parts_of(body)))
@@ -253,11 +321,15 @@ function Pandoc(doc)
         if block.t == 'Header' and block.level == 2 then
             finish()
             heading = block.content
+        elseif block.t == 'Header' and block.level == 1 then
+            finish()
+            heading, part = nil, spoken(block.content)
         else body:insert(block) end
     end
     finish()
-    doc.meta.about = pandoc.MetaBlocks(about)
-    doc.meta.slides = pandoc.MetaBlocks{ pandoc.OrderedList(contents) }
-    doc.blocks = out
+    local function written(blocks) return pandoc.walk_block(pandoc.Div(blocks), { Math = mathml }).content end
+    doc.meta.about = pandoc.MetaBlocks(written(about))
+    doc.meta.slides = pandoc.MetaBlocks(written{ pandoc.OrderedList(contents) })
+    doc.blocks = written(out)
     return doc
 end

@@ -10,8 +10,8 @@ FLAGS="--target=wasm32 -std=c99 -ffreestanding -nostdlib -O2 $WARN -ffp-contract
 
 if ! echo 'int f(void) { return 0; }' |
      $CLANG --target=wasm32 -nostdlib -Wl,--no-entry -x c - -o /dev/null 2>/dev/null; then
-    echo "playground: no clang and lld for wasm32: left out"
-    exit 0
+    echo "playground: nothing is made without clang and lld (apt-get install clang lld)" >&2
+    exit 1
 fi
 mkdir -p "$out/include" && out=$(cd "$out" && pwd) || exit 1
 for header in errno math stdio stdlib string; do

@@ -175,10 +175,11 @@ function lineTex({ tex, formula, numbers, value, why }, sign = '=') {
         part !== all[i + 1]);
     return `${tex} ${sign} ${parts.join(' = ')}` + (why && `\\quad\\text{since }${why}`);
 }
-const asLatex = ({ lines }) => '\\begin{align*}\n' +
-    lines.map(line => lineTex(line, '&=')).join(' \\\\\n') + '\n\\end{align*}\n';
+const asLatex = ({ lines }) => spell('\\begin{align*}\n' +
+    lines.map(line => lineTex(line, '&=')).join(' \\\\\n') + '\n\\end{align*}\n');
 
-function asC({ lines, answer, panel, stored }) {
+const asC = found => spellC(pixelProgram(found));
+function pixelProgram({ lines, answer, panel, stored }) {
     const lamps = LAMPS.filter(j => S['on' + j]);
     const type = value => Array.isArray(value) ? 'vec' : 'double';
     const note = value => Array.isArray(value) ? `(${value.map(v => +v.toFixed(ROOM)).join(', ')})` : +value.toFixed(ROOM);

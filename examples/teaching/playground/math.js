@@ -2,12 +2,30 @@
 // Known are letters, numbers, signs, _ ^ { }, \frac, \sqrt, \mathbf, \text, \class{css}{...}, and the
 // names of SIGNS.
 
-const SIGNS = { cdot: '·', sum: 'Σ', beta: 'β', alpha: 'α', gamma: 'γ', lambda: 'λ', times: '×',
-    ge: '≥', le: '≤', '{': '{', '}': '}' };
+const SIGNS = { cdot: '·', sum: 'Σ', beta: 'β', alpha: 'α', gamma: 'γ', lambda: 'λ', theta: 'θ', phi: 'φ',
+    sigma: 'σ', omega: 'ω', times: '×', ge: '≥', le: '≤', '{': '{', '}': '}' };
 const NAMES = ['cos', 'max', 'sin'];
 const escapeXml = text => text.replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
 
-function mathml(tex) {
+// The letters of a course, which letters= names: those of the page in its letters. I_1 is the light of lamp 1.
+const LETTERS = {
+    uw: { n: 'n_s', 'I_d,\\,I_s': 'I_L', I_d: 'I_L', I_s: 'I_L', X: 'Q' },
+    massey: { n: '\\alpha', N: 'n', L: 'l', V: 'v', R: 'r', H: 'h' },
+    shirley: { n: 'p', N: 'n', L: 'l', V: 'e', R: 'r', H: 'h', k_d: 'c_r', k_a: 'c_{ra}', k_s: 'c_p', I_a: 'c_a',
+        'I_d,\\,I_s': 'c_l', I_d: 'c_l', I_s: 'c_l', I_1: 'c_{l1}', I_2: 'c_{l2}', I_3: 'c_{l3}', '\\phi': '\\sigma' },
+    berkeley: { n: 'p', N: 'n', L: 'l', V: 'v', R: 'r', H: 'h', 'I_d,\\,I_s': 'I', I_d: 'I', I_s: 'I' },
+};
+let letters = {};
+const spell = tex => tex.replace(/(?<=\\mathbf\{)[NLVRH](?=\})|(?<![a-zA-Z\\])(k_[ads]|I_d,\\,I_s|I_[ads123]|[nX])(?![a-zA-Z])|\\phi/g,
+    letter => letters[letter] || letter);
+const spellC = code => code.replace(/\b(k_[ads]|I_[ads123]|n|X_[123])\b/g, name => name[0] === 'X'
+    ? (letters.X || 'X') + name.slice(1) : (letters[name] || name).replace(/[\\{}]/g, ''));
+// A letter as text
+const bare = tex => spell(tex).replace(/\\mathbf\{(.*)\}/, '$1').replace(/\\([a-z]+)/, (_, name) => SIGNS[name])
+    .replace('_s', 'ₛ');
+
+function mathml(written) {
+    const tex = spell(written);
     const tokens = tex.match(/\\[a-zA-Z]+|\\.|\d*\.?\d+|[^\s]/g) || [];
     let at = 0;
     // the tokens of a group in braces as they stand

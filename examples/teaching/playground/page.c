@@ -550,6 +550,20 @@ PAGE(const page_answer *, page_factors)(int corner, int lamp)
     return &answer;
 }
 
+/* Fills the answer for L and V so many degrees from an upright N, by a model: 1 for R, 0 for H. */
+PAGE(const page_answer *, page_plane)(float to_light, float to_viewer, int model)
+{
+    static const page_answer none;
+    const shade_vec2 l = mesh_turn(to_light / 360), v = mesh_turn(to_viewer / 360);
+    const shade_light lamp = shade_directional_light(shade_v3(-l.y, -l.x, 0), shade_v3(1, 1, 1));
+    shade_lighting lighting = { 0 };
+    lighting.model = (shade_model)model;
+    answer = none;
+    factors(&lighting, &lamp, shade_v3(v.y, v.x, 0), shade_v3(0, 0, 0), shade_v3(0, 1, 0),
+            state.material.shininess, answer.unit);
+    return &answer;
+}
+
 /* ---- presets --------------------------------------------------------------------------------- */
 
 PAGE(const shade_material *, page_preset)(int i)

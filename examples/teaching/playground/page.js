@@ -22,6 +22,8 @@ const FIELDS = {
     mark: [-20, 20, ...MARK], part: [0, 1, 0], panel: [0, 2, 1],
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
+    // the vectors in a plane: degrees from N to L and to V; rays: 1 for R, 2 for H
+    plane: [0, 1, 0], toL: [-180, 180, -40], toV: [-180, 180, 20], rays: [0, 3, 3],
     simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
     // the stepper of the rasterizer; a triangle is three corners of x, y and w
     raster: [0, 1, 0], order: [0, 1, 0], step: [0, 576, 0], count: [1, 3, 2], hand: [1, 3, 1],
@@ -40,10 +42,11 @@ function lamp(j, on, far, position, color, c, beta = 180, e = 0) {
         ['e' + j]: [0, 64, e] };
 }
 // those that are whole numbers
-const WHOLE = RegExp('^(shape|detail|room|view|compare|wire|vectors|maps|curve|lobe|part|panel|turn|' +
+const WHOLE = RegExp('^(plane|toL|toV|rays|shape|detail|room|view|compare|wire|vectors|maps|curve|lobe|part|panel|turn|' +
     'model|shading|flags|terms|lamp|simd|lecture|bare|raster|order|step|count|hand|cell|on.|far.)$');
 
 const S = {};
+let course = '';                        // in whose letters symbols are: letters=uw
 let asked = [];                         // names of the controls that a bare page shows: with=n,c1
 const round = v => Math.round(v * 1e4) / 1e4 + 0;
 const limit = (v, low, high) => Math.min(Math.max(v, low), high);
@@ -61,6 +64,7 @@ function readAddress() {
     setField('lecture', [Number(given.get('lecture'))]);
     before = { ...S, lecture: 0 };
     Object.assign(S, stepState(S.lecture), { bare: +given.has('bare') });
+    letters = LETTERS[course = given.get('letters')] || {};
     asked = (given.get('with') || '').split(',').filter(name => /^[a-zA-Z]+\d*$/.test(name));
     for (const name of asked)                           // with=c2 is a row of lamp 2
         if (FIELDS[name] && /[a-zA-Z][123]$/.test(name)) S.lamp = +name.slice(-1);
@@ -85,6 +89,7 @@ function address() {
         String(S[name]) !== String(FIELDS[name].slice(2)));
     const shown = parts.map(name => name + '=' + S[name]);
     if (asked.length) shown.push('with=' + asked);
+    if (LETTERS[course]) shown.push('letters=' + course);
     return '#' + shown.join('&');
 }
 
@@ -358,7 +363,7 @@ function buildControls() {
             color(of('I'), 'I_d,\\,I_s', 'light of the lamp', 'lamps'),
             color(of('A'), 'I_{La}', 'ambient light of the lamp', 'a'),
             ...['x', 'y', 'z'].map((axis, part) =>
-                slider(of('p'), axis, 'position ' + axis, { part, step: 0.1 })),
+                slider(of('p'), 'X_' + axis, 'position ' + axis, { part, step: 0.1 })),
             slider(of('a'), 'a', 'constant attenuation'),
             slider(of('b'), 'b', 'linear attenuation'),
             slider(of('c'), 'c', 'quadratic attenuation'),
@@ -372,6 +377,7 @@ function buildControls() {
     buildLecture();
     buildRaster();
     buildExplain();
+    buildPlane();
 }
 // A bare page shows the controls that with= names.
 function showAsked() {
@@ -509,7 +515,7 @@ function showVectors(answer, last) {
         if (S.vectors && !S.view) for (const name of ['V', 'H', 'L', 'N']) {
             const [X, Y] = at(answer[name]);
             if (name === 'L' && !S['on' + S.lamp]) continue;
-            const label = Math.hypot(X - x, Y - y) < 20 ? '' : name === 'H' ? last : name;
+            const label = Math.hypot(X - x, Y - y) < 20 ? '' : bare(`\\mathbf{${name === 'H' ? last : name}}`);
             html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/>` +
                 head(name, X - x, Y - y, X, Y, large) + '<text ' +
                 `x="${X}" y="${Y}" dx="${name === 'H' ? -22 : 6}" dy="-4">${label}</text></g>`;

@@ -58,13 +58,15 @@ static void raster_record_fragment(const void *uniforms, const shade_fragments *
     for (int k = 0; k < 4; k++) raster_seen.varying[k] = in->varying[k][0];
 }
 
+/* The colour of a triangle, brighter toward corner 0 and darker toward corner 2: interpolated */
 static void raster_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                             shade_colors *SHADE_RESTRICT out)
 {
     const float *rgb = (const float *)uniforms;
-    (void)in;
     SHADE_EACH_LANE(i) {
-        for (int k = 0; k < 3; k++) out->color[k][i] = rgb[k];
+        const float share = 1.5f * in->varying[0][i] + 0.7f * in->varying[1][i] +
+                            0.2f * in->varying[2][i];
+        for (int k = 0; k < 3; k++) out->color[k][i] = rgb[k] * share;
     }
 }
 

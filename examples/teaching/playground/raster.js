@@ -91,10 +91,26 @@ function showGrid() {
 const exactly = v => String(+v.toFixed(4)).replace('-', '−');
 const toPlaces = (v, places = 4) => v.toFixed(places).replace(/^(-?)0\./, '$1.').replace('-', '−');
 const three = list => list.map(v => toPlaces(v, 3)).join(' ');
-function edgeText(a, k) {
+// What one addition makes of a value for the next pixel to the right and for the one below: E and z are
+// linear on the screen. The module says it of two pixels that differ by one.
+function nextPixel(t, { x, y }, of) {
+    const [X, Y] = [Math.min(x, GRID[0] - 2), Math.min(y, GRID[1] - 2)], here = of(askRaster(t, X, Y));
+    const [right, down] = [of(askRaster(t, X + 1, Y)), of(askRaster(t, X, Y + 1))];
+    const sum = v => (v < 0 ? '− ' : '+ ') + toPlaces(Math.abs(v), 4).replace(/0+$/, '').replace(/\.$/, '').replace(/^$/, '0');
+    return [here, right, down].some(v => v === null) ? '' : ` <small>→ ${sum(right - here)} ↓ ${sum(down - here)}</small>`;
+}
+// E of one edge with its numbers; a goes before b where the triangle winds to the right
+function edgeFormula(t, k, { x, y }) {
+    const c = corners(t), a = askRaster(t, x, y), right = (c[3] - c[0]) * (c[7] - c[1]) - (c[4] - c[1]) * (c[6] - c[0]) > 0;
+    const [i, j] = [(k + 1) % 3, (k + 2) % 3].map((v, _, both) => 3 * (right ? v : both[0] + both[1] - v));
+    const [X, Y, U, V] = [c[i], c[i + 1], c[j], c[j + 1]].map(short);
+    return a.area ? mathml(`E_${k} = (${U} - ${X})(${y + 0.5} - ${Y}) - (${V} - ${Y})(${x + 0.5} - ${X}) = ${short(a.edge[k])}`) : '';
+}
+function edgeText(a, k, t, cell) {
     const e = a.edge[k], sign = e > 0 ? '+' : e < 0 ? '−' : a.owns[k] ? '0, top or left' : '0, neither top nor left';
     const good = e > 0 || (e === 0 && a.owns[k]);
-    return `<td class="${good ? 'in' : 'out'}">${exactly(e)} <small>${good ? 'in' : 'out'}: ${sign}</small></td>`;
+    return `<td class="${good ? 'in' : 'out'}">${exactly(e)} <small>${good ? 'in' : 'out'}: ${sign}</small>` +
+        `${nextPixel(t, cell, a => a.edge[k])}</td>`;
 }
 function showNumbers() {
     const cell = rasterCell(), step = rasterStep(), asked = S.cell[0] >= 0;
@@ -106,16 +122,19 @@ function showNumbers() {
     put($('#numbers'), `<table><caption>Pixel (${cell.x}, ${cell.y}), centre ${cell.x + 0.5}, ` +
         `${cell.y + 0.5}${stands ? `: step ${S.step} is triangle ${step.t + 1}` : ''}</caption><tr><td></td>` +
         all.map((_, t) => `<th scope="col" class="of${t}">Triangle ${t + 1}</th>`).join('') + '</tr>' +
-        [0, 1, 2].map(k => row(`<span class="${INKS[k]}">${mathml('E_' + k)}</span>`, a => edgeText(a, k))).join('') +
+        [0, 1, 2].map(k => row(`<span class="${INKS[k]}">${mathml('E_' + k)}</span>`, (a, t) => edgeText(a, k, t, cell))).join('') +
         row(mathml('E_0 + E_1 + E_2'), a => td(exactly(a.area) + ' <small>twice the area</small>')) +
         row('inside', a => td(a.covered ? '<b>yes</b>' : 'no')) +
         row(mathml('E / \\sum E'), covered(a => three(a.share))) +
         row(mathml('\\alpha\\,\\beta\\,\\gamma'), covered(a => three(a.weight))) +
         row(mathml('1 / w'), covered(a => toPlaces(a.rw))) +
-        row(mathml('z'), covered(a => toPlaces(a.z))) +
+        row(mathml('z'), (a, t) => td(a.covered ? toPlaces(a.z) + nextPixel(t, cell, a => a.covered ? a.z : null) : '–')) +
         row('depth before', (a, t) => td(toPlaces(before(a, t)))) +
         row(mathml('z < \\text{depth}'), (a, t) => td(!a.covered ? '–' : a.z < before(a, t) ? '<b>yes</b>' : 'no')) +
-        row('depth after', (a, t) => td(toPlaces(stands && t === step.t ? depthAt(cell) : a.after))) + '</table>');
+        row('depth after', (a, t) => td(toPlaces(stands && t === step.t ? depthAt(cell) : a.after))) + '</table>' +
+        `<p>${mathml('E = (x_b - x_a)(y - y_a) - (y_b - y_a)(x - x_a)')}</p>` +
+        [0, 1, 2].map(k => `<p>${edgeFormula(stands ? step.t : Math.min(S.hand, S.count) - 1, k, cell)}</p>`).join('') +
+        '<p class="hint">→ and ↓: what one addition makes of it at the next pixel.</p>');
     // what the step found: the buffer as it stood one step earlier
     function before(a, t) {
         if (!stands || t !== step.t) return a.before;
@@ -142,7 +161,7 @@ function showLoops() {
 function showRaster() {
     document.body.classList.toggle('raster', !!S.raster);
     if (!S.raster) { stopRaster(); return; }
-    tellRaster(), showGrid(), showNumbers(), showLoops();
+    tellRaster(), showGrid(), showNumbers(), showLoops(), showGuess();
     $('#step').max = rasterSteps;
     $('#step').value = S.step;
     $('#step').setAttribute('aria-valuetext', `step ${S.step} of ${rasterSteps}`);
@@ -155,7 +174,28 @@ function showRaster() {
 
 // A step ends what was pointed at, so that the numbers are those of the step.
 function goTo(step) {
-    S.step = limit(step, 0, rasterSteps), S.cell = [-1, -1], changed();
+    guess = null, S.step = limit(step, 0, rasterSteps), S.cell = [-1, -1], changed();
+}
+// What the next step does is foretold before it is shown: outside, hidden by what is stored, or stored.
+const FATES = ['outside', 'hidden', 'stored'];
+let guess = null;                       // { step, said, fate }, of the step that was foretold last
+function fateOf(step) {
+    wasm.page_raster_run(step);
+    const [t, x, y] = new Int32Array(wasm.memory.buffer, wasm.page_raster_step(step), 3), a = askRaster(t, x, y);
+    wasm.page_raster_run(S.step);
+    return { t, x, y, fate: !a.covered ? 0 : a.passes ? 2 : 1 };
+}
+function foretell(said) {
+    if (S.step >= rasterSteps) return;
+    const { t, x, y, fate } = fateOf(S.step);
+    goTo(S.step + 1);
+    guess = { t, x, y, fate, said };
+}
+function showGuess() {
+    const more = S.step < rasterSteps, next = more && fateOf(S.step);
+    put($('#foretold'), (guess ? `${guess.said === guess.fate ? 'Right' : 'No'}: triangle ${guess.t + 1} at (${guess.x}, ` +
+        `${guess.y}) is ${FATES[guess.fate]}. ` : '') + (more ? `Next: triangle ${next.t + 1} at (${next.x}, ${next.y}). It is …` : ''));
+    for (const button of document.querySelectorAll('#foretell button')) button.disabled = !more;
 }
 function stopRaster() { clearInterval(running), running = 0; }
 function playRaster() {
@@ -229,8 +269,11 @@ function buildRaster() {
     $('#grid').append(svg('g', { id: 'pixels' }), svg('g', { id: 'corners' }));
     for (let t = 0; t < 3; t++) for (let k = 0; k < 3; k++) $('#corners').append(cornerHandle(t, k));
     $('#raster-view').append(make('pre', { id: 'loops', 'data-name': 'loops' }), steps);
+    const foretelling = make('div', { id: 'foretell', class: 'buttons', 'data-name': 'foretell' }, make('span', { id: 'foretold', role: 'status' }),
+        ...FATES.map((name, i) => button(name, `The next pixel is ${name}: ${i + 1}`, () => foretell(i))));
     $('#raster-panel').append(
         make('div', { id: 'numbers', 'data-name': 'numbers', 'aria-live': 'polite' }),
+        group('Foretell the next step', foretelling),
         group('Triangles', scene,
             choice('count', 'Number of triangles', ['One', 'Two', 'Three'], [1, 2, 3])),
         group('Order of the loops', choice('order', 'Order of the loops',
@@ -250,6 +293,10 @@ function buildRaster() {
     for (const [id, on] of [['#stepper', 1], ['#to-light', 0]])
         $(id).addEventListener('click', () => { S.raster = on, changed(); });
     addEventListener('keydown', rasterKey);
+    // what a finger or a mouse has let go of leaves keys to the steps
+    $('#raster').addEventListener('pointerup', ({ target }) => {
+        if (target.closest('button, input, label')) setTimeout(() => document.activeElement.blur());
+    });
     shown.push(showRaster);
 }
 function rasterKey(event) {
@@ -265,6 +312,7 @@ function rasterKey(event) {
     else if (key === 'Backspace' || key === 'ArrowLeft' || key === 'PageUp') goTo(S.step - 1);
     else if (key === 'Home' || key === 'End') goTo(key === 'Home' ? 0 : rasterSteps);
     else if (key === 'Enter') playRaster();
+    else if (FATES[key - 1]) foretell(key - 1);
     else return;
     event.preventDefault();
 }

@@ -1,51 +1,75 @@
-// slide.js - the page in a frame of a slide: the slide says how large letters are, gets back the keys that
-// turn it, and asks for pictures on paper.
+// slide.js - the page in a frame of slides: the deck says how large letters are and what to show, gets back the
+// keys that turn slides, and takes pictures for paper and for its overview.
 
 const DECK_KEYS = ['PageDown', 'PageUp', 'Home', 'End', 'Escape', 'a', 'o', 's', 'z', 'f', 'b', '.'];
-addEventListener('message', ({ data, source }) => {
+let deck = null;                        // the window of the slides
+addEventListener('message', async ({ data, source }) => {
     if (source !== parent || parent === window || !data) return;
+    deck = parent;
     if (data.letter > 0) {
         document.documentElement.classList.add('slide');
         document.documentElement.style.fontSize = data.letter + 'px';
     }
-    if (typeof data.go === 'string') {
-        history.replaceState(null, '', '#' + data.go);
-        readAddress(), refresh();
-    }
-    if (typeof data.draw === 'string') drawForPaper(source, data.draw);
+    if (typeof data.go !== 'string' && typeof data.draw !== 'string') return;
+    while (!shown.length) await new Promise(done => setTimeout(done, 20));
+    if (typeof data.go === 'string') goNow(data.go);
+    else drawForPaper(data.draw, data.scale || 1);
 });
+// Shows an address at once: what the deck places next is this and not what was there before.
+function goNow(hash) {
+    history.replaceState(null, '', '#' + hash);
+    readAddress(), refresh();
+    frame(performance.now());
+    deck.postMessage({ shows: hash }, '*');
+}
+// Keys are the deck's but for a control that was reached by Tab; what a finger or a mouse has let go of gives
+// them back. A flick sideways turns the slide.
+const isDeck = () => S.bare && deck;
 addEventListener('keydown', event => {
-    if (!S.bare || parent === window || event.defaultPrevented) return;
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    if (!isDeck() || event.defaultPrevented || modified(event)) return;
     const free = event.target === document.body && /^(Arrow.*|Enter| |[1-9])$/.test(event.key);
     const key = event.key.length > 1 ? event.key : event.key.toLowerCase();
     if (!free && !DECK_KEYS.includes(key)) return;
     event.preventDefault();
-    parent.postMessage({ key }, '*');
+    deck.postMessage({ key }, '*');
 });
+let touched = null;
+addEventListener('pointerdown', event => { touched = event; }, true);
+addEventListener('pointerup', event => {
+    if (!isDeck()) return;
+    const x = event.clientX - touched.clientX, flick = event.pointerType === 'touch' && event.target === canvas &&
+        event.timeStamp - touched.timeStamp < 300 && Math.abs(x) > 60;
+    setTimeout(() => {
+        document.activeElement.blur();
+        deck.postMessage(flick ? { key: x < 0 ? 'ArrowRight' : 'ArrowLeft' } : { focus: true }, '*');
+    });
+}, true);
 
-// Draws the picture of an address, with the arrows over it, without waiting for frames.
-async function drawForPaper(slide, hash) {
-    while (!wasm || !shown.length) await new Promise(done => setTimeout(done, 20));
+// Draws the picture of an address, with what lies over it, without waiting for frames.
+async function drawForPaper(hash, scale) {
     history.replaceState(null, '', '#' + hash.replace(/with=[^&]*/, 'with=none'));
     readAddress(), refresh();
-    const [width, height] = [canvas.width, canvas.height] = size(finest());
-    context.putImageData(new ImageData(draw(width, height, finest()), width), 0, 0);
+    const [width, height] = [canvas.width, canvas.height] = size(scale * finest());
+    context.putImageData(new ImageData(draw(width, height, scale * finest()), width), 0, 0);
     showAnswer(marked(width, height));
     const copy = make('canvas', { width, height }), on = copy.getContext('2d');
     on.drawImage(canvas, 0, 0);
-    for (const svg of document.querySelectorAll('#arrows, #curve.shown')) on.drawImage(await still(svg), 0, 0);
-    slide.postMessage({ drawn: hash, picture: copy.toDataURL() }, '*');
+    for (const svg of document.querySelectorAll('#arrows, #curve.shown, .plane #plane, .lobe #lobe')) {
+        const box = svg.getBoundingClientRect(), whole = canvas.getBoundingClientRect(), ratio = width / whole.width;
+        on.drawImage(await still(svg, ratio), (box.x - whole.x) * ratio, (box.y - whole.y) * ratio);
+    }
+    deck.postMessage({ drawn: hash, picture: copy.toDataURL() }, '*');
 }
 // What lies over the canvas, with the styles of the page
-async function still(svg) {
-    const copy = svg.cloneNode(true), image = new Image();
+async function still(svg, ratio) {
+    const copy = svg.cloneNode(true), image = new Image(), { width, height } = svg.getBoundingClientRect();
     const style = $('style').textContent + `:root { font-size: ${document.documentElement.style.fontSize} }`;
     copy.prepend(make('style', {}, style));
     copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
-    copy.setAttribute('viewBox', `0 0 ${canvas.clientWidth} ${canvas.clientHeight}`);
-    copy.setAttribute('width', canvas.width), copy.setAttribute('height', canvas.height);
+    if (!svg.hasAttribute('viewBox')) copy.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    copy.setAttribute('width', width * ratio), copy.setAttribute('height', height * ratio);
     image.src = 'data:image/svg+xml,' + encodeURIComponent(new XMLSerializer().serializeToString(copy));
     await image.decode();
     return image;
 }
+if (parent !== window) parent.postMessage({ ready: true }, '*');

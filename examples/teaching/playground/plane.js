@@ -1,0 +1,91 @@
+// plane.js - the vectors at a point in one plane: L and V are dragged, R and H follow, angles are arcs with
+// their degrees, and the lobe says how bright the point is from each side. Values are the module's.
+
+const turned = (angle, far) => [far * Math.sin(angle * Math.PI / 180), -far * Math.cos(angle * Math.PI / 180)];
+const planeAt = (toL, toV, model) => answerAt(wasm.page_plane(toL, toV, model));
+const degrees = ([x, y]) => Math.atan2(x, y) * 180 / Math.PI;
+
+function showPlane() {
+    document.body.classList.toggle('plane', !!S.plane);
+    if (!S.plane) return;
+    const svg = $('#plane'), wide = svg.clientWidth, tall = svg.clientHeight, rem = parseFloat(getComputedStyle(svg).fontSize);
+    // the values stand in the corner or, where it is narrow, below
+    const high = Math.max(tall - 2.4 * rem, 1), corner = wide > 1.5 * high + 13 * rem;
+    const far = Math.max(Math.min(wide / 2 - 1.4 * rem, corner ? high : high - 2.2 * rem), 1), x = wide / 2;
+    const y = (tall + far + (corner ? 1 : -1.4) * rem) / 2;
+    const by = { phong: planeAt(S.toL, S.toV, 1), blinn: planeAt(S.toL, S.toV, 0) };
+    const [toR, toH] = [by.phong, by.blinn].map(answer => degrees(answer.unitH)), blinn = S.model !== 1;
+    const shown = blinn ? by.blinn : by.phong, lit = shown.gate, seen = Math.abs(S.toV) < 90;
+    const at = (angle, length) => turned(angle, length).map((v, i) => (v + [x, y][i]).toFixed(1));
+    const name = letter => bare(`\\mathbf{${letter}}`), size = value => Math.round(Math.abs(value)) + '°';
+    const ray = (letter, angle, css, grip = '') => {
+        const [X, Y] = turned(angle, far), [tx, ty] = at(angle, far + 0.75 * rem);
+        return `<g class="${css}"${grip}>${grip && `<circle class="grip" cx="${x + X}" cy="${y + Y}" r="${1.2 * rem}"/>`}` +
+            `<line x1="${x}" y1="${y}" x2="${x + X * 0.97}" y2="${y + Y * 0.97}"/>` +
+            head(css, X, Y, x + X, y + Y, rem / 14) + `<text x="${tx}" y="${ty}">${name(letter)}</text></g>`;
+    };
+    // an arc between two directions, its letter and degrees in its middle
+    const arc = (from, to, share, sign, css) => {
+        const [ax, ay] = at(from, share * far), [bx, by] = at(to, share * far), middle = (from + to) / 2;
+        const [tx, ty] = at(middle, share * far + 1.1 * rem);
+        return `<g class="${css}"><path class="arc" d="M${ax} ${ay}A${share * far} ${share * far} 0 0 ${+(to > from)} ${bx} ${by}"/>` +
+            (sign ? `<text class="degrees" x="${tx}" y="${ty}">${bare(sign)} ${size(to - from)}</text>` : '') + '</g>';
+    };
+    // iteration three without colours: the light that leaves toward each side; a term that is alone has k = 1
+    const k = bit => S.terms & bit && (S.terms & 12 ^ bit ? luminance(bit === 4 ? S.kd : S.ks) : 1);
+    const leaves = answer => 0.9 * far * answer.gate * (k(4) * answer.nl + k(8) * answer.power * (S.flags & 8 ? answer.nl : 1));
+    let lobe = '';
+    if (S.terms & 12) {
+        const points = [];
+        for (let v = -90; v <= 90; v += 1.5) points.push(at(v, leaves(planeAt(S.toL, v, S.model))).join(' '));
+        lobe = `<path class="lobe" d="M${points.join('L')}Z"/>`;
+        if (seen && lit) {
+            const [cx, cy] = at(S.toV, leaves(shown));
+            lobe += `<circle class="value" cx="${cx}" cy="${cy}" r="${rem / 5}"/>`;
+        }
+    }
+    const [mirror, half] = [S.rays & 1, S.rays & 2], slip = (angle, way) => ` tabindex="0" role="slider" data-to="${way}" ` +
+        `aria-label="${way[2]}, degrees from N" aria-valuemin="-180" aria-valuemax="180" aria-valuenow="${Math.round(angle)}"`;
+    const dot = (a, b) => `${name(a)} · ${name(b)}`, raised = `<tspan dy="-.5em" font-size="75%">${bare('n')}</tspan>`;
+    const line = [`${dot('N', 'L')} = ${figure(shown.nl)}`];
+    if (!lit) line.push('B = 0');
+    else if (!seen) line.push(`${name('V')} is behind the surface`);
+    else if (S.rays & 3 && !(S.terms & 8)) line.push(`${blinn ? dot('N', 'H') : dot('R', 'V')} = ${figure(shown.base)}`);
+    else if (S.rays & 3) line.push(`(${blinn ? dot('N', 'H') : dot('R', 'V')})${raised}<tspan dy=".38em"> = ${figure(shown.power)}</tspan>`);
+    svg.innerHTML = `<rect class="below" x="0" y="${y}" width="${wide}" height="${0.5 * rem}"/>` +
+        `<line class="surface" x2="${wide}" y1="${y}" y2="${y}"/>` +
+        `<clipPath id="above"><rect width="${wide}" height="${Math.max(y, 0)}"/></clipPath><g clip-path="url(#above)" class="${S.terms & 8 ? 'H' : 'N'}">${lobe}</g>` +
+        arc(0, S.toL, 0.42, '\\theta', 'L') + (mirror ? arc(0, toR, 0.42, '', 'L') + arc(toR, S.toV, 0.62, '\\phi', 'H') : '') +
+        (half && lit ? arc(0, toH, 0.8, '\\omega', 'H') : '') +
+        ray('N', 0, 'N') + (mirror ? ray('R', toR, 'H') : '') + (half ? ray('H', toH, 'H') : '') +
+        ray('V', S.toV, 'V', slip(S.toV, 'toV')) + ray('L', S.toL, 'L', slip(S.toL, 'toL')) +
+        line.map((text, i) => `<text class="values ${corner ? 'corner' : ''}" x="${corner ? wide : x}" ` +
+            `y="${(corner ? 0.8 : y / rem + 1.1) * rem + 1.3 * i * rem}">${text}</text>`).join('');
+    svg.dataset.centre = [x, y];
+}
+function buildPlane() {
+    const svg = $('#plane');
+    let held = '';
+    const toward = event => {
+        const box = svg.getBoundingClientRect(), [x, y] = svg.dataset.centre.split(',').map(Number);
+        return Math.atan2(event.clientX - box.x - x, y - event.clientY + box.y) * 180 / Math.PI;
+    };
+    const set = (way, angle) => { S[way] = limit(Math.round(angle), -180, 180), changed(); };
+    svg.addEventListener('pointerdown', event => {
+        const grip = event.target.closest('[data-to]'), angle = toward(event);
+        held = grip ? grip.dataset.to : Math.abs(angle - S.toL) < Math.abs(angle - S.toV) ? 'toL' : 'toV';
+        svg.setPointerCapture(event.pointerId), set(held, angle);
+    });
+    svg.addEventListener('pointermove', event => { if (held) set(held, toward(event)); });
+    for (const end of ['pointerup', 'pointercancel']) svg.addEventListener(end, () => { held = ''; });
+    svg.addEventListener('keydown', event => {
+        const way = event.target.dataset.to, step = { ArrowLeft: -2, ArrowRight: 2, ArrowDown: -2, ArrowUp: 2 }[event.key];
+        if (modified(event) || !way || !step) return;
+        event.preventDefault();
+        set(way, S[way] + step);
+        showPlane();
+        svg.querySelector(`[data-to=${way}]`).focus();
+    });
+    shown.push(showPlane);
+    new ResizeObserver(showPlane).observe(svg);
+}
