@@ -12,6 +12,12 @@ ${MAKE:-make} -s build/batch build/thumbnail build/compare build/shade.o || { ec
 [ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }
 cd "$T" || exit 1
 
+refused() {                     # what it says, command ...: status 1, one line
+    text=$1; shift
+    "$@" >out 2>err </dev/null
+    same "$?" 1 && same "$(wc -l <err)" 1 && grep "^batch: .*$text" err
+}
+
 # ---- frames -------------------------------------------------------------------------------------
 turn="--frames 12 --size 97x60 --samples 2"
 missing() { "$BATCH" $turn --out "$1" --missing | tr '\n' ' '; }
@@ -80,6 +86,31 @@ sleep 1.1                       # the clock of any file system
 check "resumed" "$BATCH" $turn --out two
 check "to the same bits" diff -r one two
 check "four were drawn" same "$(find two -name '*.ppm' -newer before | wc -l)" 4
+
+# what is there and of something else is refused, and stays
+other() { "$BATCH" "$@" --out one; }
+refuses() { refused "one: holds pieces of another model or of other options" other "$@"; }
+cp -r one before_one
+printf 'v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >wedge.obj
+check "another model into these frames" refuses wedge.obj $turn
+check "one that does not exist" refused "none.obj: No such file" other none.obj $turn
+for k in "--quick" "--no-shadow" "--view top" "--color red" "--up z" "--shading face" "--model phong" \
+    "--section x" "--section x=0.5" "--view 0,0,1.5"; do
+    check "$k" refuses $turn $k
+done
+check "fewer frames" refuses --frames 11 --size 97x60
+check "strips" refuses --strips 12 --size 97x60
+check "which are missing then" refuses $turn --quick --missing
+check "more threads are the same" other $turn --threads 3 --max-triangles 9000000 --quiet
+check "they stay" diff -r one before_one
+"$BATCH" wedge.obj $turn --out edited
+sed 's/^v 0 2 0/v 0 3 0/' wedge.obj >wedge2.obj && mv wedge2.obj wedge.obj
+check "a model that has changed" refused "edited: holds" "$BATCH" wedge.obj $turn --out edited
+rm edited/*.ppm
+check "where no frame is left" "$BATCH" wedge.obj $turn --out edited
+check "all are drawn" same "$(ls edited | wc -l)" 12
+: >unknown.txt; mkdir unknown; cp one/00003.ppm unknown
+check "frames without a word of what they are" refused "unknown: holds" "$BATCH" $turn --out unknown
 
 # ended in the middle
 slow="--frames 40 --size 600x400 --out cut"
@@ -150,11 +181,6 @@ else echo "no script: the progress line is left out"
 fi
 
 # ---- bad input ----------------------------------------------------------------------------------
-refused() {                     # what it says, command ...: status 1, one line
-    text=$1; shift
-    "$@" >out 2>err </dev/null
-    same "$?" 1 && same "$(wc -l <err)" 1 && grep "^batch: .*$text" err
-}
 : >empty.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1' >half.obj
 check "a missing model" refused "none.obj: No such file" "$BATCH" none.obj --frames 2
@@ -269,6 +295,33 @@ if command -v ffmpeg >/dev/null; then
     film -i turn.mp4 -frames:v 1 first.ppm
     "$BATCH" $turn --size 96x60 --piece 0 --out even
     check "that shows the first frame" "${BATCH%batch}compare" --limit 40 --count 5% even/00000.ppm first.ppm
+    # its colours say what they are, and are what the frames have
+    check "an MP4 tells its colours" same "$(ffprobe -v error -show_entries \
+        stream=color_range,color_space,color_transfer,color_primaries -of csv=p=0 turn.mp4)" \
+        tv,bt709,iec61966-2-1,bt709
+    "$BATCH" wedge.obj --frames 2 --size 96x60 --color '#e60000' --shading face --film red.mp4
+    "$BATCH" wedge.obj --frames 2 --size 96x60 --color '#e60000' --shading face --out red
+    film -i red.mp4 -frames:v 1 -vf scale=in_color_matrix=bt709:flags=accurate_rnd red.ppm
+    check "red plays as red" "${BATCH%batch}compare" --limit 12 --count 6% red/00000.ppm red.ppm
+    full() { (trap '' XFSZ; ulimit -f 8; exec "$BATCH" $turn --size 96x60 --film "$1"); }
+    for k in full.mp4 full.webp; do
+        echo old >$k
+        full $k 2>err; check "$k: a full disk" same $? 1
+        check "is said" grep -q "^batch: $k: ffmpeg could not make it" err
+        check "leaves the old film" same "$(cat $k)" old
+        check "and no part" no ls $k.*.part
+    done
+    # an encoder that makes its file late, as ffmpeg does with its first frame
+    mkdir late; printf '#!/bin/sh\nsleep 1\nfor k; do :; done\necho late >"$k"\n' >late/ffmpeg; chmod +x late/ffmpeg
+    for signal in INT TERM; do
+        env --default-signal=INT PATH="$T/late:$PATH" "$BATCH" --frames 90 --size 600x400 --film late.mp4 2>/dev/null &
+        running=$!
+        soon sh -c 'ls late.mp4.*.part'
+        kill -$signal $running
+        wait $running 2>/dev/null
+        sleep 1.5
+        check "SIG$signal: nothing comes later" no ls late.mp4.*.part
+    done
     check "an MP4 of odd size" refused "size 97x60: MP4 needs even" "$BATCH" $turn --film odd.mp4
     check "a film of strips" refused "does not go with" "$BATCH" --strips 3 --film a.mp4
     check "a film where nothing can be" refused "none/a.webp" "$BATCH" $turn --film none/a.webp 2>/dev/null

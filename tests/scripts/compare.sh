@@ -82,6 +82,20 @@ check "16 bits beside 8" status 0 "$compare" --limit 0.5 "$T/wide.ppm" "$T/narro
 check "32768 of 65535 is no 128 of 255" grep -q '^max    0.4981 at 0,0$' "$T/out"
 printf 'P5 3 1 255\n\1\2\3' >"$T/grey.pgm"
 printf 'P3 3 1 255 1 1 1 2 2 2 3 3 3' >"$T/grey.ppm"
+printf 'P3 2 1 255 1 1 1 2 2 2' >"$T/g1.ppm"
+printf 'P3 2 1 255 1 1 1 2 5 2' >"$T/g2.ppm"
+check "quiet" status 1 "$compare" --quiet "$T/a.ppm" "$T/b.ppm"
+check "no word" same "$(cat "$T/out" "$T/err")" ""
+check "JSON" status 1 "$compare" --json --limit 2 "$T/g1.ppm" "$T/g2.ppm"
+check "has all numbers" python3 -c 'import json, sys
+assert json.load(sys.stdin) == {"result": "different", "width": 2, "height": 1, "max": 3, "x": 1, "y": 0,
+    "mean": .5, "psnr": 46.37, "count": 1, "pixels": 2, "limit": 2, "allowed": 0}' <"$T/out"
+check "JSON of what is the same" status 0 "$compare" --json "$T/g1.ppm" "$T/g1.ppm"
+check "has no PSNR" python3 -c 'import json, sys
+assert json.load(sys.stdin)["psnr"] is None' <"$T/out"
+check "JSON of two sizes" status 1 "$compare" --json "$T/g1.ppm" "$T/grey.pgm"
+check "has both" python3 -c 'import json, sys
+assert json.load(sys.stdin) == {"result": "different", "sizes": [[2, 1], [3, 1]]}' <"$T/out"
 check "grey is three equal channels" status 0 "$compare" "$T/grey.pgm" "$T/grey.ppm"
 check "another size is different" status 1 "$compare" --limit 255 "$T/a.ppm" "$T/grey.ppm"
 check "and said" grep -q '^size   23 x 17 and 3 x 1$' "$T/out"
@@ -96,6 +110,10 @@ colors() {
             " 40 40 40 120 120 0 156 0 0 223 0 0 "
 }
 check "grey, yellow, red by the difference" colors
+check "two sizes have a picture" status 1 "$compare" --difference "$T/d.ppm" "$T/g.ppm" "$T/grey.ppm"
+check "of the larger one" same "$(head -c 11 "$T/d.ppm" | tr '\n' ' ')" "P6 4 1 255 "
+check "red where there is one alone" same "$(tail -c 3 "$T/d.ppm" | od -An -v -tu1 | tr -s ' \n' ' ')" " 255 0 0 "
+status 1 "$compare" --limit 2 --difference "$T/d.ppm" "$T/g.ppm" "$T/h.ppm"
 check "the numbers stay" grep -q '^count  2 of 4 pixels beyond 2, 0 allowed$' "$T/out"
 check "nothing is left beside it" test ! -e "$T/d.ppm.part"
 mkdir "$T/directory"
@@ -153,8 +171,8 @@ kept() {                        # text, file, command ...
     cp "$file" "$T/before"
     refused "$text" "$@" && cmp "$file" "$T/before"
 }
-cp "$T/a.ppm" "$T/d.png"; cp "$T/a.ppm" "$T/d.obj"
-for k in d.png d.obj; do
+cp "$T/a.ppm" "$T/d.jpg"; cp "$T/a.ppm" "$T/d.obj"
+for k in d.jpg d.obj; do
     check "no PPM into $k" kept "--difference .*$k: FILE ends in .ppm" "$T/$k" "$compare" "$T/a.ppm" \
         "$T/b.ppm" --difference "$T/$k"
 done
@@ -209,8 +227,6 @@ printf 'v 0 0 0\nv 1 0\n' >"$T/bad.obj"
 check "a bad model" refused "bad.obj:2: expected a number" "$compare" "$T/a.ppm" "$T/bad.obj"
 check "no model" refused "none.obj: No such file" "$compare" "$T/none.obj" "$T/a.ppm"
 check "a format that needs assimp" refused "tent.glb" "$compare" "$T/a.ppm" "$T/tent.glb"
-check "a transparent background" refused "no colours to compare" "$compare" "$T/a.ppm" "$T/tent.obj" \
-    --background none
 check "a size that is none" refused "--size 0x5: pixels of the picture" "$compare" "$T/a.ppm" \
     "$T/tent.obj" --size 0x5
 # ---- PNG, by stb --------------------------------------------------------------------------------
@@ -230,6 +246,39 @@ if printf '#include "stb/stb_image.h"\n' | $CC -fsyntax-only -x c - 2>/dev/null;
     head -c 50 "$T/two.png" >"$T/cut.png"
     check "PNG cut off" refused "cut.png: " "$compare" "$T/cut.png" "$T/two.ppm"
     check "no picture" refused "shade.h: " "$compare" shade.h "$T/two.ppm"
+    # alpha and 16 bits, by a writer of PNG in Python
+    python3 - "$T" <<'END'
+import struct, sys, zlib
+def png(name, width, depth, kind, *samples):
+    raw = b"\0" + b"".join(struct.pack(">H" if depth == 16 else "B", s) for s in samples)
+    def chunk(k, d): return struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d))
+    open(f"{sys.argv[1]}/{name}.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(
+        b"IHDR", struct.pack(">IIBBBBB", width, 1, depth, kind, 0, 0, 0)) +
+        chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
+png("solid", 2, 8, 6, 1, 2, 3, 255, 4, 5, 6, 255)
+png("half", 2, 8, 6, 1, 2, 3, 255, 4, 5, 6, 128)
+png("clear", 2, 8, 6, 1, 2, 3, 0, 4, 5, 6, 0)
+png("clear_too", 2, 8, 6, 9, 200, 3, 0, 4, 255, 6, 0)
+png("ids", 3, 16, 0, 1, 2, 258)
+png("no_ids", 3, 16, 0, 0, 0, 256)
+END
+    check "alpha of 255 is that of PPM" status 0 "$compare" "$T/solid.png" "$T/two.ppm"
+    check "what covers half is different" status 1 "$compare" --limit 126 "$T/solid.png" "$T/half.png"
+    check "by its alpha" grep -q '^max    127 at 1,0$' "$T/out"
+    check "its mean is that of four channels" grep -q "^mean   $(awk 'BEGIN {
+        printf "%.4g", (127 + 15 * (1 - 128 / 255)) / 8 }')$" "$T/out"
+    check "an invisible picture is another one" status 1 "$compare" --limit 254 "$T/clear.png" "$T/two.ppm"
+    check "what cannot be seen does not count" status 0 "$compare" "$T/clear.png" "$T/clear_too.png"
+    check "a map of ids is no empty map" status 1 "$compare" "$T/ids.png" "$T/no_ids.png"
+    check "by 2 of 65535" grep -q '^max    0.007782 at 1,0$' "$T/out"
+    check "and is itself" status 0 "$compare" "$T/ids.png" "$T/ids.png"
+    status 1 "$compare" --limit 2 --difference "$T/d.ppm" "$T/g.ppm" "$T/h.ppm"
+    check "a difference as PNG" status 1 "$compare" --limit 2 --difference "$T/d.png" "$T/g.ppm" "$T/h.ppm"
+    check "is that as PPM" status 0 "$compare" "$T/d.png" "$T/d.ppm"
+    $CC $FLAGS -DSHADE__IMPLEMENTED -DMODEL_STB examples/programs/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/thumbnail"
+    "$T/thumbnail" "$T/tent.obj" "$T/clear.png" --size 64x48 --background none --no-shadow
+    check "a model without a background" status 0 "$compare" "$T/clear.png" "$T/tent.obj" --background none --no-shadow
+    check "with one it is another" status 1 "$compare" "$T/clear.png" "$T/tent.obj" --no-shadow
 else echo "compare: no stb_image.h: PNG left out"
 fi
 finish

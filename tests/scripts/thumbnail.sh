@@ -101,6 +101,11 @@ formats() {
     check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0
     check "a shadow" draw torus.obj b.ppm --background 204060
     check "darkens below" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    # a plate so flat that ground within its maps of shadows lies behind their far planes
+    awk 'BEGIN { for (i = 0; i < 8; i++) print "v", i % 2 * 2 - 1, (i > 3) / 25, int(i / 2) % 2 * 2 - 1
+                 print "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 2 6 8 4\nf 4 8 7 3\nf 3 7 5 1" }' >"$T/plate.obj"
+    check "a plate" draw plate.obj a.ppm --background white --view 30,40,0.5 --size 100x100
+    check "throws no shadow on ground that the lamp sees" "$T/look" pixel "$T/a.ppm" .29 .34 255 255 255 0
     for k in torus glass; do
         check "$k by one thread" draw $k.obj one.ppm --threads 1
         for n in 2 5 256; do

@@ -12,10 +12,13 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-/* The data of the signal handler: the file that is being written, and the work in progress */
+/* The data of the signal handler: the file that is being written, the program that writes it where
+   it is another one, and the work in progress */
 static char guard_part[4400];
+static volatile pid_t guard_child;
 static const char *volatile guard_doing = "starting";
 static const char *volatile guard_file = ""; /* the file that it reads */
 static int guard_lines = 2;                  /* the descriptor that takes the program's lines */
@@ -47,6 +50,7 @@ static void guard_end(int number)
 {
     const int crashed = number == SIGSEGV || number == SIGBUS || number == SIGFPE ||
                         number == SIGILL || number == SIGABRT;
+    if (guard_child > 0 && !kill(guard_child, SIGKILL)) waitpid(guard_child, NULL, 0);
     if (guard_part[0]) unlink(guard_part);
     guard_say(program_name);
     guard_say(number == SIGALRM ? ": gave up after --max-seconds while "
@@ -174,8 +178,10 @@ static inline int guard_terminal(void) { return isatty(2); }
 #define GUARD_WINDOWS
 #include "paths.h"
 
-/* What the watchers read: the file that is being written, in UTF-16, and the work in progress */
+/* What the watchers read: the file that is being written, in UTF-16, the program that writes it
+   where it is another one, and the work in progress */
 static wchar_t guard_part[4400];
+static volatile HANDLE guard_child;
 static const char *volatile guard_doing = "starting";
 static const char *volatile guard_file = "";
 static int guard_status = 1;
@@ -188,6 +194,7 @@ static inline void guard_say(const char *text)
 
 static void guard_tell(const char *what)
 {
+    if (guard_child && TerminateProcess(guard_child, 1)) WaitForSingleObject(guard_child, 5000);
     if (guard_part[0]) DeleteFileW(guard_part); /* save_begin shares it, so that it may be */
     guard_say(program_name);
     guard_say(what);

@@ -261,23 +261,22 @@ static inline void portrait_png_sink(void *user, void *bytes, int size)
     s->failed |= portrait_sink(s->file, bytes, (size_t)size);
 }
 
-static inline int portrait_write_png(FILE *file, const portrait_file *f)
+#define PORTRAIT_PNG "png", /* among the endings of pictures */
+
+static inline int portrait_write_png(FILE *file, const uint8_t *bytes, int width, int height,
+                                     int channels)
 {
-    const int width = f->picture->width, channels = f->channels;
     portrait_png sink = { file, 0 };
-    uint8_t *bytes = portrait_bytes(f->picture, channels);
-    if (!bytes) return 1;
-    sink.failed |= !stbi_write_png_to_func(portrait_png_sink, &sink, width, f->picture->height,
-                                           channels, bytes, width * channels);
-    free(bytes);
+    sink.failed |= !stbi_write_png_to_func(portrait_png_sink, &sink, width, height, channels, bytes,
+                                           width * channels);
     return sink.failed;
 }
 #else
-static inline int portrait_write_png(FILE *file, const portrait_file *f)
+#define PORTRAIT_PNG
+static inline int portrait_write_png(FILE *file, const uint8_t *bytes, int width, int height,
+                                     int channels)
 {
-    (void)file;
-    (void)f;
-    return 1;
+    return (void)file, (void)bytes, (void)width, (void)height, (void)channels, 1;
 }
 #endif
 
@@ -285,8 +284,16 @@ static inline int portrait_write_png(FILE *file, const portrait_file *f)
 static inline int portrait_write(FILE *file, const void *data)
 {
     const portrait_file *f = (const portrait_file *)data;
+    uint8_t *bytes;
+    int failed;
     errno = 0;
-    if (f->png) return portrait_write_png(file, f);
+    if (f->png) {
+        bytes = portrait_bytes(f->picture, f->channels);
+        failed = !bytes || portrait_write_png(file, bytes, f->picture->width, f->picture->height,
+                                              f->channels);
+        free(bytes);
+        return failed;
+    }
     return shade_encode_ppm(portrait_sink, file, f->picture) != SHADE_OK;
 }
 

@@ -1029,8 +1029,8 @@ static inline void renderer_face_normals(const renderer_batch *b, const shade_fr
     }
 }
 
-/* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta is nearer
-   to the lamp there by their tangent.  P moves along N, which is nearly unit, by what makes up for
+/* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta off the
+   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit, by what makes up for
    it, and for the chords of round shapes, which differ from map to picture. */
 static inline void renderer_shadow(const renderer_batch *b, const renderer_surface *s,
                                    const float (*P)[SHADE_LANES], const float (*N)[SHADE_LANES],
@@ -1044,14 +1044,14 @@ static inline void renderer_shadow(const renderer_batch *b, const renderer_surfa
     SHADE_EACH_LANE(i)
     {
         const shade_vec3 p = lane(P[0], i), n = lane(N[0], i), l = lane(L[0], i);
-        const float cosine = shade_dot(n, l), square = 1 - cosine * cosine;
+        const float lean = shade_dot(n, shade_v3(axis.x, axis.y, axis.z)), square = 1 - lean * lean;
         /* three tangents of the root of the square stand in for the sine, which is below them */
         const float low = 0.125f + 2 * square, high = 0.5f + 0.5f * square;
         const float middle = 0.25f + square, least = low < middle ? low : middle;
         const float sine = least < high ? least : high;
         const float away = axis.x * p.x + axis.y * p.y + axis.z * p.z + axis.w;
         const float texel = r->texel + r->texel_slope * (away > 0 ? away : 0);
-        facing[i] = cosine;
+        facing[i] = shade_dot(n, l);
         lane_put(at[0], i, shade_madd(p, 2.2f * texel * (sine + 0.1f) + 2 * s->sag[i], n));
     }
     SHADE_EACH_LANE(i)
@@ -1428,6 +1428,24 @@ static inline float renderer_aim_spot(const shade_light *lamp, shade_vec3 at, sh
     return 1.02f * sine / renderer_sine(sine);
 }
 
+/* How far along the way of a lamp the finite planes reach, which its map shows and the sphere around
+   what casts shadows does not: cut off at the far plane, they would be dark along that line. */
+static inline float renderer_floors(const renderer_picture *p, const renderer_scene *s,
+                                    shade_vec3 at, shade_vec3 aim, float most)
+{
+    for (int i = 0; i < p->object_count; i++) {
+        const renderer_object *o = &p->objects[i];
+        shade_vec3 centre;
+        if ((o->flags & (RENDERER_HIDDEN | RENDERER_CASTS_NO_SHADOW)) || renderer_is_endless(o))
+            continue;
+        if (o->kind != RENDERER_PLANE) continue;
+        const float r = renderer_reach(s, o, &centre);
+        const float away = shade_dot(aim, shade_sub(centre, at)) + r;
+        most = away > most ? away : most;
+    }
+    return most;
+}
+
 /* The view of the lamp: of a distant one the sphere around what casts shadows */
 static inline renderer_view renderer_lamp_view(renderer *r, const renderer_picture *p,
                                                const renderer_scene *s)
@@ -1440,13 +1458,14 @@ static inline renderer_view renderer_lamp_view(renderer *r, const renderer_pictu
         aim = shade_neg(shade_normalize(at));
         at = shade_madd(centre, -2 * reach, aim);
         v.near_z = 0.5f * reach;
-        v.far_z = 3.5f * reach;
+        v.far_z = renderer_floors(p, s, at, aim, 3.5f * reach);
         v.parallel = 1;
         v.projection = shade_mat4_ortho(-reach, reach, -reach, reach, v.near_z, v.far_z);
         v.scale = 0.5f * size / reach;
     } else {
         const float tangent = renderer_aim_spot(lamp, at, centre, reach, &v, &aim);
         const float half = tangent * v.near_z;
+        v.far_z = renderer_floors(p, s, at, aim, v.far_z);
         v.projection = shade_mat4_frustum(-half, half, -half, half, v.near_z, v.far_z);
         v.scale = 0.5f * size / tangent;
     }

@@ -137,7 +137,7 @@ static float studio_seen(const studio_map *m, shade_vec3 P)
     float scale = 0.5f * (float)m->size / STUDIO_REACH, last = (float)m->size - 1.001f;
     float x = (shade_dot(P, m->right) + STUDIO_REACH) * scale - 0.5f;
     float y = (STUDIO_REACH - shade_dot(P, m->up)) * scale - 0.5f;
-    float z = 0.5f - 0.5f * shade_dot(P, m->toward) / STUDIO_REACH;
+    float z = fminf(1, 0.5f - 0.5f * shade_dot(P, m->toward) / STUDIO_REACH); /* empty texels: 1 */
     const float *row;
     float u, v;
     int i, j;

@@ -5,12 +5,14 @@
    ./batch bunny.obj --film bunny.mp4
 
    A piece is a file that appears whole or not at all.  A piece that exists is not drawn again,
-   and its bits depend on the options alone.  The strips in their order, concatenated, are the
+   and its bits depend on the model and the options alone, which the file .shade-batch beside the
+   pieces names: others are refused there.  The strips in their order, concatenated, are the
    poster. */
 #define _DEFAULT_SOURCE /* NOLINT: the system's own name, for fileno with -std=c99 */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "film.h"
+#include "mark.h"
 #include "sheet.h"
 
 static const char usage[] =
@@ -19,7 +21,8 @@ static const char usage[] =
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n" MODEL_USAGE
-    "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
+    "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips); pieces that are\n"
+    "                        there stay, and must be of this model and these options\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --film FILE           FILE ends in .webp or .mp4: a film, where ffmpeg is installed\n"
     "  --rate N              frames a second of the film, 1 .. 240 (30)\n"
@@ -147,21 +150,65 @@ static int write_piece(batch *b, int k, const batch_piece *p)
     return failed ? complain("standard output: %s", strerror(errno)) : 0;
 }
 
-/* Loads the model and gets memory, before the first piece is drawn.  Returns 1 with a line on
-   stderr. */
+/* Returns 1 with a line on stderr. */
+static int load(batch *b)
+{
+    b->request.pieces = 20;
+    while ((float)b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
+    return scene_load(&b->scene, &b->request, NULL, NULL);
+}
+
+/* Gets memory, before the first piece is drawn.  Returns 1 with a line on stderr. */
 static int get_ready(batch *b)
 {
     if (b->sheet.scene) return 0;
-    b->request.pieces = 20;
-    while ((float)b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
-    if (!b->sink && !b->film && batch_folder(b->out) && errno != EEXIST) {
-        complain("%s: %s", b->out, strerror(errno));
-        return 1;
-    }
-    if (scene_load(&b->scene, &b->request, NULL, NULL)) return 1;
     if (!sheet_open(&b->sheet, &b->scene, b->width, b->height, b->samples)) return 0;
     complain("out of memory");
     return 1;
+}
+
+/* What the pieces are drawn of and with, as a line of text.  Threads and limits leave no trace in
+   a picture. */
+static void describe(const batch *b, char *line, size_t room)
+{
+    const model_options *o = &b->scene.how;
+    const int words[] = { o->up,    o->plain,   o->no_shadow,      o->quick,        o->viewed,
+                          o->model, o->section, o->section_placed, (int)o->shading, o->outside };
+    const float numbers[] = { o->azimuth, o->elevation, o->zoom, (float)o->section_at };
+    uint64_t mark = mark_of_model(&b->scene.model);
+    mark = mark_words(mark, words, sizeof words / sizeof *words);
+    mark = mark_words(mark, numbers, sizeof numbers / sizeof *numbers);
+    mark = mark_words(mark, &o->material, sizeof o->material / 4);
+    snprintf(line, room,
+             "shade-batch %d: %d %s of %dx%d, samples %d, model and options %08lx%08lx\n",
+             SHADE_VERSION, b->count, b->strips ? "strips" : "frames", b->width, b->height,
+             b->samples, (unsigned long)(mark >> 32), (unsigned long)(mark & 0xFFFFFFFF));
+}
+
+/* Refuses a folder with pieces of another model or of other options.  A line in it tells, which the
+   first of all jobs writes before its first piece.  Returns 1 with a line on stderr. */
+static int claim(const batch *b)
+{
+    char line[200], path[4200];
+    int known = 0;
+    FILE *file;
+    describe(b, line, sizeof line);
+    snprintf(path, sizeof path, "%s/.shade-batch", b->out);
+    for (int k = 0; k <= b->count && !known; k++) { /* one more: of a longer film */
+        file = path_open(find_piece(b, k).path, "rb");
+        known = file != NULL;
+        if (file) fclose(file);
+    }
+    if (batch_is_whole(path, line, (long long)strlen(line))) return 0;
+    if (known)
+        return complain(
+            "%s: holds pieces of another model or of other options: remove them, or "
+            "choose another --out",
+            b->out);
+    if (b->missing) return 0;
+    if (batch_folder(b->out) && errno != EEXIST) return complain("%s: %s", b->out, strerror(errno));
+    file = save_begin(path);
+    return !file || save_end(file, path, fputs(line, file) < 0);
 }
 
 /* Draws those of all pieces, or of the one piece of the command line, that are missing. */
@@ -170,6 +217,7 @@ static int write_pieces(batch *b)
     int first = b->piece < 0 ? 0 : b->piece, last = b->piece < 0 ? b->count : b->piece + 1;
     batch_clock clock = batch_start(b->strips ? "strips" : "frames");
     int drawn = 0;
+    if (!b->sink && claim(b)) return 1;
     for (int k = first; k < last; k++) {
         batch_piece p = find_piece(b, k);
         int there = !b->sink && batch_is_whole(p.path, p.header, p.bytes);
@@ -200,8 +248,9 @@ int main(int argc, char **argv)
     end = read_options(&b, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     guard_interrupts();
+    end = load(&b);
     guard_doing = "drawing";
-    end = b.film ? write_film(&b, b.film) : write_pieces(&b);
+    end = end || (b.film ? write_film(&b, b.film) : write_pieces(&b));
     if (b.sheet.scene) sheet_close(&b.sheet);
     scene_close(&b.scene);
     return end;

@@ -1,4 +1,5 @@
-/* child.h - another program, which reads what we write.  POSIX or Windows.
+/* child.h - another program, which reads what we write.  POSIX or Windows.  Of several that run at
+   a time, an interrupt ends the last one alone.
 
        child c;
        const char *const words[] = { "ffmpeg", "-i", "-", "film.mp4", NULL };
@@ -67,7 +68,7 @@ static inline int child_start(child *c, const char *const *words)
     how.hStdError = GetStdHandle(STD_ERROR_HANDLE);
     if (CreateProcessW(NULL, wide, NULL, NULL, TRUE, 0, NULL, NULL, &how, &started))
         CloseHandle(started.hThread);
-    c->process = started.hProcess;
+    guard_child = c->process = started.hProcess;
     CloseHandle(theirs);
     free(wide);
     file = _open_osfhandle((intptr_t)ours, 0);
@@ -81,14 +82,13 @@ static inline int child_end(child *c)
     const int lost = fclose(c->input);
     if (!c->process) return CHILD_MISSING;
     WaitForSingleObject(c->process, INFINITE);
+    guard_child = NULL;
     GetExitCodeProcess(c->process, &status);
     CloseHandle(c->process);
     if (lost && !status) return CHILD_CRASHED;
     return status < 256 ? (int)status : CHILD_CRASHED;
 }
 #else
-#include <sys/wait.h>
-
 typedef struct child {
     FILE *input;
     pid_t process;
@@ -106,6 +106,7 @@ static inline int child_start(child *c, const char *const *words)
         execvp(*words, (char **)(uintptr_t)words);
         _exit(CHILD_MISSING);
     }
+    guard_child = c->process;
     close(ends[0]);
     c->input = fdopen(ends[1], "wb");
     return c->input == NULL;
@@ -116,6 +117,7 @@ static inline int child_end(child *c)
     int status = 0;
     const int lost = fclose(c->input);
     while (waitpid(c->process, &status, 0) < 0 && errno == EINTR) continue;
+    guard_child = 0;
     if (lost && !status) return CHILD_CRASHED;
     return WIFEXITED(status) ? WEXITSTATUS(status) : CHILD_CRASHED;
 }

@@ -5,9 +5,10 @@
    ./compare --limit 2 golden.ppm part.stl
 
    It is made for tests that draw a picture and compare it with one that is kept.  In place of a
-   picture may stand a model, which is drawn as thumbnail draws it.  Pictures are read row by row,
+   picture may stand a model, which is drawn as thumbnail draws it.  PPM and PGM are read row by row,
    so that a poster takes no more memory than an icon.  With -DMODEL_STB and stb installed, it also
-   reads PNG and the other formats of stb, with -DMODEL_ASSIMP and -lassimp the models of assimp. */
+   reads PNG, with alpha and 16 bits, and the other formats of stb, with -DMODEL_ASSIMP and -lassimp
+   the models of assimp. */
 #define _DEFAULT_SOURCE /* NOLINT: the system's own name, for POSIX with -std=c99 */
 #define SHADE_IMPLEMENTATION
 #define STBI_FAILURE_USERMSG
@@ -18,12 +19,14 @@ static const char usage[] =
     "usage: compare [options] golden picture      PPM, PGM or, with stb, PNG; -: standard input\n"
     "  --limit N             a channel may differ by N of 255 (0)\n"
     "  --count N|N%          N pixels, or N % of them, may differ by more than the limit (0)\n"
-    "  --difference FILE     FILE ends in .ppm: golden in grey, differences in yellow, those\n"
-    "                        beyond the limit in red\n"
+    "  --difference FILE     FILE ends in .ppm or, with stb, .png: golden in grey, differences in\n"
+    "                        yellow, those beyond the limit and what only one has in red\n"
+    "  --json                prints the numbers as an object of JSON; --quiet prints none\n"
     "  --help, --version     prints this text; the version\n"
     "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"
     "picture that it is compared with:\n" PORTRAIT_USAGE MODEL_USAGE
     "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
+    "Colours count as much as they cover: with alpha 0 any two are the same.\n"
     "exit status: 0 the same within limit and count, 1 different, 2 error\n";
 
 enum { SAME, DIFFERENT, ERROR };
@@ -31,8 +34,9 @@ typedef struct picture {
     const char *name;
     FILE *file;
     int width, height, channels, most, plain;
-    unsigned char *whole, *bytes; /* all of it where stb has read it; one row as it is stored */
-    double *row;                  /* one row, three channels a pixel, 0 .. 255 */
+    uint16_t *whole;      /* RGBA, all of it, where it is no PPM */
+    unsigned char *bytes; /* one row as it is stored */
+    double *row;          /* one row, RGB times alpha and alpha, 0 .. 255 */
 } picture;
 
 /* Prints one line on stderr and returns the exit status for it. */
@@ -67,9 +71,8 @@ static int read_header(picture *p)
 #ifdef MODEL_STB
     if (kind != 'P') {
         ungetc(kind, p->file);
-        p->whole = stbi_load_from_file(p->file, &p->width, &p->height, &p->channels, 3);
-        p->channels = 3;
-        p->most = 255;
+        p->whole = stbi_load_from_file_16(p->file, &p->width, &p->height, &p->channels, 4);
+        p->most = 65535;
         return p->whole ? SAME : fail(p->name, stbi_failure_reason());
     }
 #endif
@@ -89,7 +92,7 @@ static int read_header(picture *p)
 static int open_rows(picture *p)
 {
     p->bytes = (unsigned char *)malloc((size_t)p->width * 6);
-    p->row = (double *)calloc((size_t)p->width * 3, sizeof *p->row);
+    p->row = (double *)calloc((size_t)p->width * 4, sizeof *p->row);
     return p->bytes && p->row ? SAME : fail(p->name, "out of memory");
 }
 
@@ -104,18 +107,19 @@ static int read_row(picture *p, int y)
 {
     int n = p->width * p->channels, wide = p->most > 255;
     const unsigned char *b = p->bytes;
-    if (p->whole)
-        b = p->whole + (size_t)n * (size_t)y;
-    else if (!p->plain && fread(p->bytes, (size_t)(1 + wide), (size_t)n, p->file) < (size_t)n)
+    const uint16_t *rgba = p->whole ? p->whole + 4 * (size_t)p->width * (size_t)y : NULL;
+    for (int k = 0; k < 4 * p->width && rgba; k++)
+        p->row[k] = 255.0 * rgba[k] / 65535 * (k % 4 < 3 ? rgba[k | 3] / 65535.0 : 1);
+    if (rgba) return SAME;
+    if (!p->plain && fread(p->bytes, (size_t)(1 + wide), (size_t)n, p->file) < (size_t)n)
         return fail(p->name, ferror(p->file) ? strerror(errno) : "ends too early");
     for (int k = 0; k < n; k++) {
         int v = p->plain ? number(p->file) : wide ? b[2 * k] << 8 | b[2 * k + 1] : b[k];
         if (v < 0) return fail(p->name, "ends too early, or holds what is no number");
         if (v > p->most) return fail(p->name, "a value above its own maximum");
-        if (p->channels == 3)
-            p->row[k] = 255.0 * v / p->most;
-        else
-            p->row[3 * k] = p->row[3 * k + 1] = p->row[3 * k + 2] = 255.0 * v / p->most;
+        for (int i = p->channels == 3 ? k % 3 : 0, end = p->channels == 3 ? i + 1 : 3; i < end; i++)
+            p->row[k / p->channels * 4 + i] = 255.0 * v / p->most;
+        p->row[k / p->channels * 4 + 3] = 255;
     }
     return SAME;
 }
@@ -143,43 +147,64 @@ typedef struct comparison {
     picture *a, *b;
     double limit;
     result *result;
+    int width, height;    /* of the larger one */
+    unsigned char *drawn; /* a row of the difference picture, or for PNG all of it */
+    int png;
 } comparison;
+
+/* How far two pixels are apart, of which the second may be missing */
+static double compare_pixel(result *r, const double *a, const double *b)
+{
+    double most = b ? 0 : 255;
+    for (int k = 0; k < 4 && b; k++) {
+        const double d = fabs(a[k] - b[k]);
+        r->sum += d;
+        r->squares += d * d;
+        if (d > most) most = d;
+    }
+    return most;
+}
 
 /* A save_writer: writes the rows of a difference picture, which may be NULL. */
 static int compare_rows(FILE *difference, const void *data)
 {
     const comparison *c = (const comparison *)data;
-    picture *a = c->a;
+    picture *a = c->a, *b = c->b;
     result *r = c->result;
-    for (int y = 0; y < a->height; y++) {
-        if (read_row(a, y) || read_row(c->b, y)) return SAVE_SAID;
-        for (int x = 0; x < a->width; x++) {
-            double most = 0;
-            for (int k = 3 * x; k < 3 * x + 3; k++) {
-                double d = fabs(a->row[k] - c->b->row[k]);
-                r->sum += d;
-                r->squares += d * d;
-                if (d > most) most = d;
-            }
+    const size_t row = 3 * (size_t)c->width;
+    for (int y = 0; y < c->height; y++) {
+        unsigned char *out = c->drawn + (c->png ? row * (size_t)y : 0);
+        if ((y < a->height && read_row(a, y)) || (y < b->height && read_row(b, y)))
+            return SAVE_SAID;
+        for (int x = 0; x < c->width; x++) {
+            const double *one = x < a->width && y < a->height ? a->row + 4 * x : NULL;
+            const double *other = x < b->width && y < b->height ? b->row + 4 * x : NULL;
+            static const double neither[4];
+            const double most = compare_pixel(r,
+                                              one     ? one
+                                              : other ? other
+                                                      : neither,
+                                              one ? other : NULL);
             if (most > r->most) {
                 r->most = most;
                 r->x = x;
                 r->y = y;
             }
             r->beyond += most > c->limit;
-            mark(a->bytes + 3 * x, a->row + 3 * x, most, c->limit);
+            mark(out + 3 * x, one ? one : neither, most, one && other ? c->limit : 0);
         }
-        if (difference && fwrite(a->bytes, 3, (size_t)a->width, difference) < (size_t)a->width)
-            return 1;
+        if (difference && !c->png && fwrite(out, 1, row, difference) < row) return 1;
     }
     return SAME;
 }
 
 static int compare_into(FILE *file, const void *data)
 {
-    const picture *a = ((const comparison *)data)->a;
-    fprintf(file, "P6\n%d %d\n255\n", a->width, a->height);
-    return compare_rows(file, data);
+    const comparison *c = (const comparison *)data;
+    int failed;
+    if (!c->png) fprintf(file, "P6\n%d %d\n255\n", c->width, c->height);
+    failed = compare_rows(file, data);
+    return failed || !c->png ? failed : portrait_write_png(file, c->drawn, c->width, c->height, 3);
 }
 
 /* ---- command line --------------------------------------------------------------------------- */
@@ -188,6 +213,7 @@ typedef struct options {
     const char *names[2], *difference;
     double limit, count;
     int percent; /* count is a percentage */
+    int json;
     int max_seconds;
     portrait portrait;
     model_options how;
@@ -211,9 +237,9 @@ static int take_count(void *to, const char *value)
 
 static int take_difference(void *to, const char *value)
 {
-    static const char *const ppm[] = { "ppm", NULL };
+    static const char *const endings[] = { "ppm", PORTRAIT_PNG NULL };
     *(const char **)to = value;
-    return save_is_device(value) || save_ends_in(value, ppm);
+    return save_is_device(value) || save_ends_in(value, endings);
 }
 
 /* Reads the command line.  Returns what options_read does. */
@@ -223,6 +249,7 @@ static int read_options(options *o, int argc, char **argv)
         { "--limit", take_limit, offsetof(options, limit), 0, 0 },
         { "--count", take_count, 0, 0, 0 },
         { "--difference", take_difference, offsetof(options, difference), 0, 0 },
+        { "--json", NULL, offsetof(options, json), 1, 0 },
         { "--max-seconds", NULL, offsetof(options, max_seconds), 0, 1000000000 },
         { NULL, NULL, 0, 0, 0 }
     };
@@ -235,8 +262,6 @@ static int read_options(options *o, int argc, char **argv)
     if (end) return end;
     if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-"))
         return complain("only one picture can be standard input");
-    if (o->portrait.background == PORTRAIT_NONE)
-        return complain("--background none: transparent pixels have no colours to compare");
     for (int i = 0; o->difference && i < 2; i++)
         if (save_same(o->names[i], o->difference))
             return complain("%s is read: it cannot be written as well", o->difference);
@@ -246,14 +271,19 @@ static int read_options(options *o, int argc, char **argv)
 /* ---- drawing --------------------------------------------------------------------------------- */
 
 /* Makes a drawn model a picture: the bytes that thumbnail writes. */
-static int take_pixels(picture *p, const shade_target *drawn)
+static int take_pixels(picture *p, const shade_target *drawn, int clear)
 {
-    p->whole = portrait_bytes(drawn, 3);
+    const size_t n = 4 * (size_t)drawn->width * (size_t)drawn->height;
+    uint8_t *bytes = portrait_bytes(drawn, 4);
+    p->whole = (uint16_t *)malloc(n * sizeof *p->whole);
+    for (size_t i = 0; bytes && p->whole && i < n; i++)
+        p->whole[i] = (uint16_t)(257 * (i % 4 == 3 && !clear ? 255 : bytes[i]));
+    free(bytes);
     p->width = drawn->width;
     p->height = drawn->height;
-    p->channels = 3;
-    p->most = 255;
-    return p->whole ? SAME : fail(p->name, "out of memory");
+    p->channels = clear ? 4 : 3;
+    p->most = 65535;
+    return bytes && p->whole ? SAME : fail(p->name, "out of memory");
 }
 
 static int draw_model(picture *p, const portrait *as, const model_options *how)
@@ -275,7 +305,7 @@ static int draw_model(picture *p, const portrait *as, const model_options *how)
             fail(p->name, portrait_says(wrong));
         } else {
             drawn = canvas_finish(&c);
-            failed = take_pixels(p, &drawn);
+            failed = take_pixels(p, &drawn, as->background == PORTRAIT_NONE);
         }
         free(c.target.color);
         free(c.target.depth);
@@ -308,37 +338,64 @@ static int open_both(picture *p, const options *o)
 
 /* ---- the answer ------------------------------------------------------------------------------ */
 
-static int print(const picture *a, const result *r, const options *o)
+static int print(const comparison *c, const options *o)
 {
-    double pixels = (double)a->width * a->height, mean_square = r->squares / (3 * pixels);
-    double allowed = o->percent ? floor(o->count * pixels / 100) : floor(o->count);
-    printf("max    %.4g", r->most);
-    if (r->most > 0) printf(" at %d,%d", r->x, r->y);
-    printf("\nmean   %.4g\n", r->sum / (3 * pixels));
-    if (mean_square > 0)
-        printf("PSNR   %.2f dB\n", 10 * log10(255.0 * 255.0 / mean_square));
-    else
-        printf("PSNR   infinite\n");
-    printf("count  %.0f of %.0f pixels beyond %g, %.0f allowed\n", r->beyond, pixels, o->limit,
-           allowed);
-    puts(r->beyond <= allowed ? "same" : "different");
-    return r->beyond <= allowed ? SAME : DIFFERENT;
+    const picture *a = c->a, *b = c->b;
+    const result *r = c->result;
+    const int sized = a->width == b->width && a->height == b->height;
+    const int channels = a->channels % 2 && b->channels % 2 ? 3 : 4; /* 2 or 4: with alpha */
+    const double pixels = (double)c->width * c->height, square = r->squares / (channels * pixels);
+    const double mean = r->sum / (channels * pixels);
+    const double allowed = o->percent ? floor(o->count * pixels / 100) : floor(o->count);
+    const int status = sized && r->beyond <= allowed ? SAME : DIFFERENT;
+    const char *word = status == SAME ? "same" : "different";
+    char psnr[40] = "null";
+    if (square > 0) snprintf(psnr, sizeof psnr, "%.2f", 10 * log10(255.0 * 255.0 / square));
+    if (o->how.quiet) return status;
+    if (o->json && sized)
+        printf(
+            "{\"result\": \"%s\", \"width\": %d, \"height\": %d, \"max\": %.6g, \"x\": %d, "
+            "\"y\": %d, \"mean\": %.6g, \"psnr\": %s, \"count\": %.0f, \"pixels\": %.0f, "
+            "\"limit\": %g, \"allowed\": %.0f}\n",
+            word, a->width, a->height, r->most, r->x, r->y, mean, psnr, r->beyond, pixels, o->limit,
+            allowed);
+    else if (o->json)
+        printf("{\"result\": \"%s\", \"sizes\": [[%d, %d], [%d, %d]]}\n", word, a->width, a->height,
+               b->width, b->height);
+    if (o->json) return status;
+    if (sized) {
+        printf("max    %.4g", r->most);
+        if (r->most > 0) printf(" at %d,%d", r->x, r->y);
+        printf("\nmean   %.4g\nPSNR   %s%s\n", mean, square > 0 ? psnr : "infinite",
+               square > 0 ? " dB" : "");
+        printf("count  %.0f of %.0f pixels beyond %g, %.0f allowed\n", r->beyond, pixels, o->limit,
+               allowed);
+    } else {
+        printf("size   %d x %d and %d x %d\n", a->width, a->height, b->width, b->height);
+    }
+    puts(word);
+    return status;
 }
 
 static int run(picture *p, const options *o)
 {
     picture *a = &p[0], *b = &p[1];
     result r = { 0 };
-    const comparison both = { a, b, o->limit, &r };
+    comparison c = { a, b, o->limit, &r, 0, 0, NULL, 0 };
+    int failed = 0;
     if (open_both(p, o)) return ERROR;
     guard_doing = "comparing";
-    if (a->width != b->width || a->height != b->height) {
-        printf("size   %d x %d and %d x %d\ndifferent\n", a->width, a->height, b->width, b->height);
-        return DIFFERENT;
+    c.width = a->width > b->width ? a->width : b->width;
+    c.height = a->height > b->height ? a->height : b->height;
+    c.png = o->difference && save_is_png(o->difference);
+    if (o->difference || (a->width == b->width && a->height == b->height)) {
+        c.drawn = (unsigned char *)malloc(3 * (size_t)c.width * (c.png ? (size_t)c.height : 1));
+        failed = !c.drawn        ? fail(a->name, "out of memory")
+                 : o->difference ? save_bytes(o->difference, compare_into, &c)
+                                 : compare_rows(NULL, &c);
     }
-    if (o->difference ? save_bytes(o->difference, compare_into, &both) : compare_rows(NULL, &both))
-        return ERROR;
-    return print(a, &r, o);
+    free(c.drawn);
+    return failed ? ERROR : print(&c, o);
 }
 
 int main(int argc, char **argv)

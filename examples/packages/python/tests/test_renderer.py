@@ -356,6 +356,41 @@ def test_no_face_of_a_convex_mesh_shadows_itself(lean):
     assert looked > 8000
 
 
+@pytest.mark.parametrize("ball", [True, False])
+@pytest.mark.parametrize("floor", ["plane", "mesh"])
+def test_a_finite_floor_throws_no_shadow_on_itself(floor, ball):
+    """Near spots with cones of any width and lamps at infinity, aimed past and at floors of any size:
+    beside a ball every point of the floor is as lit as without shadows, below it none."""
+    rng, below = np.random.default_rng(1), 0
+    camera = shade.Camera.look_at((3, -3, 3), (0, 0, 0), aspect=4 / 3)
+    eye, way = rays(camera, 120, 160)
+    for i in range(40):
+        made, (a, b) = shade.Renderer(120, 160), rng.uniform(0.5, 30 if floor == "plane" else 8, 2)
+        square = [[-a, -b, 0], [a, -b, 0], [a, b, 0], [-a, b, 0]]
+        shape = made.mesh(square, [[0, 1, 2], [0, 2, 3]]) if floor == "mesh" else "plane"
+        made.add(shape, *([] if floor == "mesh" else [(a, b)]))
+        if ball:
+            made.add("sphere", 0.3, at=(0, 0, 0.3))
+        at = np.array([*rng.uniform(-1, 1, 2), rng.uniform(0.8, 4)])
+        aim = rng.normal(size=3) * 0.5 - [0, 0, 1]
+        lamp = shade.Light.spot(at, aim, rng.uniform(0.2, 1.5)) if i % 4 else \
+            shade.Light.directional(aim * (1, 1, np.sign(aim[2]) * -1))
+        made.light([lamp], (0.1, 0.1, 0.1))
+        bright = made.render(camera)
+        made.light([lamp], (0.1, 0.1, 0.1), shadow=0)
+        dark = (made.render(camera).color.astype(int) - bright.color).min(-1) < -2
+        on = bright.ids[..., 0] == 0
+        p = eye + np.where(on, bright.depth, 0)[..., None] * way
+        toward = at - p if i % 4 else np.broadcast_to(np.array(lamp.position[:3]), p.shape)
+        toward = toward / np.linalg.norm(toward, axis=-1, keepdims=True)
+        off = np.linalg.norm(np.cross(np.array([0, 0, 0.3]) - p, toward), axis=-1)
+        assert not dark[on & ((off > 0.6) | (not ball))].any(), i
+        lit = (bright.color > 110).all(-1)
+        assert not ball or dark[on & lit & (off < 0.2)].all(), i
+        below += (on & lit & (off < 0.2)).sum()
+    assert below > 300 or not ball, below
+
+
 def test_ground_without_anything_on_it_is_lit():
     made = shade.Renderer(20, 30)
     made.add("plane")
