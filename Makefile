@@ -42,8 +42,14 @@ SIXEL    = $(shell echo 'int main(void) { return !sixel_output_new; }' | \
                    rm -f $@.sixel && echo -DVIEW_SIXEL -lsixel || \
                    echo 'no libsixel: sixels of view are left out' >&2)
 
-# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL, PLY, OFF and
-# glTF assimp's (libassimp-dev)
+# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL, PLY, OFF,
+# glTF and 3MF assimp's (libassimp-dev)
+# files in archives are unpacked by zlib (zlib1g-dev)
+ZLIB     = $(shell flags="$$(pkg-config --cflags --libs zlib 2>/dev/null || echo -lz)"; \
+                   echo "int main(void) { return !zlibVersion(); }" | \
+                   $(CC) -include zlib.h -x c - $$flags -o $@.zlib 2>/dev/null && \
+                   rm -f $@.zlib && echo -DMODEL_ZLIB $$flags || \
+                   echo "no zlib: 3MF that is packed is left out" >&2)
 STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include \
                    stb/stb_image_write.h -x c - 2>/dev/null && \
                    echo -DMODEL_STB || \
@@ -51,7 +57,7 @@ STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include 
 ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | \
                    $(CC) -include assimp/cimport.h -x c - -lassimp -o $@.assimp 2>/dev/null && \
                    rm -f $@.assimp && echo -DMODEL_ASSIMP -lassimp || \
-                   echo 'no assimp: programs read OBJ, STL, PLY, OFF and glTF alone' >&2)
+                   echo 'no assimp: programs read OBJ, STL, PLY, OFF, glTF and 3MF alone' >&2)
 
 NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/[0-9]*.c)))
 # those of README, which read well when they are small
@@ -75,8 +81,8 @@ build/%: %.c build/shade.o $(HEADERS)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o $(LDFLAGS) -lm $(LIBRARIES) -o $@
 build/19_threads $(PROGRAMS): EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
-build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ASSIMP)
-build/thumbnail build/batch build/compare: LIBRARIES = $(STB) $(ASSIMP)
+build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ZLIB) $(ASSIMP)
+build/thumbnail build/batch build/compare: LIBRARIES = $(STB) $(ZLIB) $(ASSIMP)
 build/sheets.1: build/thumbnail
 build/sheets: examples/programs/batch/sheets.sh
 	@mkdir -p build

@@ -118,15 +118,19 @@ elif wants pages; then left_out "pages: no zip, or no clang and lld for wasm32";
 
 # ---- programs for Windows, with a model to try them on
 windows_program() {             # name
-    "$zig" cc -target x86_64-windows-gnu -O2 -std=gnu99 -ffp-contract=off -Wno-unused-function $stb -I. \
-        -s "examples/programs/$1/$1.c" -o "$folder/shade-$1.exe" -lshell32 && rm -f "$folder/shade-$1.pdb"
+    "$zig" cc -target x86_64-windows-gnu -O2 -std=gnu99 -ffp-contract=off -Wno-unused-function $stb $zlib -I. \
+        -s "examples/programs/$1/$1.c" -o "$folder/shade-$1.exe" -lshell32 $packed && rm -f "$folder/shade-$1.pdb"
 }
 if wants windows && [ -x "$zig" ] && command -v zip >/dev/null; then
-    folder=$WORK/$NAME-windows stb=
+    folder=$WORK/$NAME-windows stb= zlib= packed=
     mkdir -p "$folder" "$WORK/headers/stb"
     if cp /usr/include/stb/stb_image.h /usr/include/stb/stb_image_write.h "$WORK/headers/stb" 2>/dev/null; then
         stb="-DMODEL_STB -I$WORK/headers"
     else left_out "PNG of the programs for Windows: no stb (libstb-dev)"; fi
+    mingw=/usr/x86_64-w64-mingw32
+    if cp $mingw/include/zlib.h $mingw/include/zconf.h "$WORK/headers" 2>/dev/null; then
+        zlib="-DMODEL_ZLIB -I$WORK/headers" packed=$mingw/lib/libz.a
+    else left_out "3MF of the programs for Windows: no zlib (libz-mingw-w64-dev)"; fi
     for program in thumbnail compare batch; do windows_program $program; done
     cp LICENSE "$folder/LICENSE.txt"
     sh examples/programs/thumbnail/nut.sh >"$folder/nut.obj"

@@ -712,13 +712,14 @@ float python_text(const char *text, float size, float x, float y, unsigned char 
 /* Python takes a model for its mesh, which must be what it begins with. */
 typedef char python_mesh_first[offsetof(model, mesh) == 0 ? 1 : -1];
 
-/* Reads an OBJ, STL or PLY file from memory; what stands beside path, which may be NULL, describes
-   its surfaces.  name stands in messages, and its end tells the format where there is one.  Points
-   without faces are vertices without indices.  Returns NULL with a sentence in error. */
+/* Reads a file of any format from memory; what stands beside path, which may be NULL, describes its
+   surfaces, and inflate unpacks archives.  name stands in messages, and its end tells the format
+   where there is one.  Points without faces are vertices without indices.  Returns NULL with a
+   sentence in error. */
 SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, const char *path,
-                            char *error, size_t room);
-model *python_read(const void *bytes, size_t size, const char *name, const char *path, char *error,
-                   size_t room)
+                            zip_inflate *inflate, char *error, size_t room);
+model *python_read(const void *bytes, size_t size, const char *name, const char *path,
+                   zip_inflate *inflate, char *error, size_t room)
 {
     static const model empty;
     const model_request q = { error, room, NULL, NULL, 0, 0 };
@@ -726,6 +727,7 @@ model *python_read(const void *bytes, size_t size, const char *name, const char 
     said.points_wanted = 1;
     said.path = path;
     said.beside = path ? model_load_file : NULL;
+    said.inflate = inflate;
     if (m && !model_read_with(bytes, size, name, m, &q, &said)) {
         if (path) model_read_libraries(path, m);
         return m;

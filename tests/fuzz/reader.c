@@ -1,5 +1,6 @@
-/* reader.c - the OBJ, STL, PLY and glTF readers of examples/kit/read/files.h: any bytes give a
-   valid model, which a section leaves valid, or an error. */
+/* reader.c - the OBJ, STL, PLY, OFF, glTF and 3MF readers of examples/kit/read/files.h: any bytes
+   give a valid model, which a section leaves valid, or an error.  XML is put into an archive, for
+   few damaged archives have the checksums of what they hold. */
 #include "input.h"
 #include "examples/kit/draw/section.h"
 
@@ -63,7 +64,7 @@ static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name
     char error[64];
     int returns = memchr(bytes, '\r', size) != NULL, zeros = memchr(bytes, 0, size) != NULL;
     int binary = mesh_is_stl(name, bytes, size) || mesh_is_ply(name, bytes, size) ||
-                 (size >= 4 && !memcmp(bytes, "glTF", 4));
+                 mesh_is_threemf(name, bytes, size) || (size >= 4 && !memcmp(bytes, "glTF", 4));
     if (!other) exit(2);
     for (size_t i = 0; i < size; i++) {
         if (bytes[i] == '\n') other[n++] = '\r';
@@ -75,6 +76,67 @@ static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name
         if (!result) mesh_free(&again);
     }
     free(other);
+}
+
+static uint8_t *reader_put(uint8_t *to, uint32_t value, int bytes)
+{
+    for (int k = 0; k < bytes; k++) *to++ = (uint8_t)(k < 4 ? value >> 8 * k : 0);
+    return to;
+}
+
+/* The head of a file in an archive, or its entry in the directory. */
+static uint8_t *reader_head(uint8_t *to, const uint8_t *bytes, size_t n, const char *name,
+                            int where)
+{
+    to = reader_put(to, where < 0 ? 0x04034B50 : 0x02014B50, 4);
+    to = reader_put(to, 20, where < 0 ? 2 : 4);
+    to = reader_put(to, 0, 4);
+    to = reader_put(to, 0, 4);
+    to = reader_put(to, zip_crc(bytes, n), 4);
+    to = reader_put(to, (uint32_t)n, 4);
+    to = reader_put(to, (uint32_t)n, 4);
+    to = reader_put(to, (uint32_t)strlen(name), 2);
+    to = reader_put(to, 0, where < 0 ? 2 : 12);
+    if (where >= 0) to = reader_put(to, (uint32_t)where, 4);
+    memcpy(to, name, strlen(name));
+    return to + strlen(name);
+}
+
+/* An archive of up to three files, which are bytes apart by zeros.  The caller frees it. */
+static uint8_t *reader_archive(const uint8_t *bytes, size_t n, size_t *size)
+{
+    static const char *const names[3] = { "3D/3dmodel.model", "3D/1.model", "a.png" };
+    uint8_t *made = (uint8_t *)malloc(n + 1024), *to = made;
+    const uint8_t *part[4] = { bytes, NULL, NULL, NULL };
+    int where[3], count = 0;
+    uint32_t directory;
+    if (!made) exit(2);
+    while (count < 3 && part[count]) {
+        const size_t left = (size_t)(bytes + n - part[count]);
+        const uint8_t *zero = count < 2 ? (const uint8_t *)memchr(part[count], 0, left) : NULL;
+        const size_t own = zero ? (size_t)(zero - part[count]) : left;
+        where[count] = (int)(to - made);
+        to = reader_head(to, part[count], own, names[count], -1);
+        memcpy(to, part[count], own);
+        to += own;
+        part[++count] = zero ? zero + 1 : NULL;
+    }
+    directory = (uint32_t)(to - made);
+    for (int i = 0; i < count; i++) {
+        const size_t own = part[i + 1] ? (size_t)(part[i + 1] - part[i]) - 1
+                                       : (size_t)(bytes + n - part[i]);
+        to = reader_head(to, part[i], own, names[i], where[i]);
+    }
+    *size = (size_t)(to - made) - directory;
+    to = reader_put(to, 0x06054B50, 4);
+    to = reader_put(to, 0, 4);
+    to = reader_put(to, (uint32_t)count, 2);
+    to = reader_put(to, (uint32_t)count, 2);
+    to = reader_put(to, (uint32_t)*size, 4);
+    to = reader_put(to, directory, 4);
+    to = reader_put(to, 0, 2);
+    *size = (size_t)(to - made);
+    return made;
 }
 
 static void reader_progress(void *user, double part)
@@ -111,14 +173,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *name = names[kind % 4];
     size_t n = (size_t)(in.end - in.at), error_size = kind & 16 ? kind >> 5 : 200;
     int result, calls = 0;
-    uint8_t *bytes;
+    uint8_t *bytes, *archive = NULL;
     char *error;
     model m;
     model_request request = { NULL, error_size, reader_progress, &calls, 0, 0 };
+    if (kind % 4 == 2 && n && *in.at == '<') archive = reader_archive(in.at, n, &n);
     if (n > GUARD_ROOM) return 0;
     bytes = (uint8_t *)guard_take(n, kind >> 2 & 1);
     error = (char *)guard_take(error_size, 1);
-    if (n) memcpy(bytes, in.at, n);
+    if (n) memcpy(bytes, archive ? archive : in.at, n);
+    free(archive);
     guard_seal(bytes);
     request.error = error_size ? error : NULL;
     request.most = kind & 32 ? 4 : 0;

@@ -78,10 +78,6 @@ if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco
         RECORDING="$T/tree/examples/packages/python/tests/robots.json" \
         sh -c "cd '$T/use' && node --test test/robots.test.js"
 else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
-npm install --silent --no-audit --no-fund --prefix "$T/xml" @xmldom/xmldom@0.9.12 >"$T/log" 2>&1 ||
-    left_out "3MF: npm cannot fetch @xmldom/xmldom"
-XMLDOM=$T/xml/node_modules/@xmldom/xmldom/lib/index.js
-[ -f "$XMLDOM" ] && export XMLDOM
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
 
 for python in python3 /usr/bin/python3; do

@@ -16,10 +16,13 @@ check() {                       # what, command ...
 
 # ---- programs ------------------------------------------------------------------------------------
 build=programs
-STB= ASSIMP= LIBRARIES=
+STB= ZLIB= ASSIMP= LIBRARIES=
 echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
     2>/dev/null && STB=-DMODEL_STB
 [ "$STB" ] || echo "no stb (libstb-dev): PNG and textures are left out"
+echo 'int main(void) { return !zlibVersion(); }' | $CC -include zlib.h -x c - -lz -o "$T/probe" \
+    2>/dev/null && ZLIB="-DMODEL_ZLIB -lz"
+[ "$ZLIB" ] || echo "no zlib (zlib1g-dev): packed 3MF is left out"
 echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
     -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
 [ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
@@ -28,7 +31,7 @@ compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
 compile -DSHADE_IMPLEMENTATION -x c -c shade.h -o "$T/shade.o"
 compile -DSHADE__IMPLEMENTED examples/programs/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/plain"
 [ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/programs/thumbnail/thumbnail.c "$T/shade.o" \
-    $LIBRARIES -lm -o "$T/full"
+    $LIBRARIES $ZLIB -lm -o "$T/full"
 compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/programs/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/alone"
 compile tests/thumbnail/models.c -lm -o "$T/models"
 compile $STB tests/thumbnail/look.c -lm -o "$T/look"

@@ -29,9 +29,14 @@ scenes() {
 }
 check "the scenes have the hashes of all systems" scenes
 
+# zlib for Windows: libz-mingw-w64-dev
+zlib=
+echo 'int main(void) { return !zlibVersion(); }' | $cc -include zlib.h -x c - -static -lz -o "$T/zlib.exe" \
+    2>/dev/null && zlib="-DMODEL_ZLIB -lz"
+[ "$zlib" ] || left_out "3MF on Windows: no libz-mingw-w64-dev"
 for p in thumbnail compare batch; do
-    check "$p builds for Windows" $cc $built -static examples/programs/$p/$p.c -lm -lshell32 -o "$T/$p.exe"
-    check "$p builds" cc $built -pthread examples/programs/$p/$p.c -lm -o "$T/$p"
+    check "$p builds for Windows" $cc $built -static examples/programs/$p/$p.c $zlib -lm -lshell32 -o "$T/$p.exe"
+    check "$p builds" cc $built -pthread examples/programs/$p/$p.c $zlib -lm -o "$T/$p"
 done
 # A cube cut from a grid of triangles, under a name of three alphabets.
 name="$T/würfel куб 立方.obj"
@@ -62,6 +67,12 @@ printf 'newmtl r\nKd 1 0 0\n' >"$T/ordner/red.mtl"
 check "a red triangle here" here "$T/ordner/red.obj" "$T/red.ppm"
 check "a red triangle under Wine" there_too "$(echo "Z:$T/ordner/red.obj" | tr / '\\')" "$T/red there.ppm"
 check "is as red" cmp "$T/red.ppm" "$T/red there.ppm"
+if [ "$zlib" ] && there python3; then
+    check "a 3MF" python3 tests/thumbnail/bomb.py "$T/a.3mf" 100
+    check "a 3MF here" here "$T/a.3mf" "$T/a.ppm"
+    check "a 3MF under Wine" there_too "$T/a.3mf" "$T/a there.ppm"
+    check "to the bit" cmp "$T/a.ppm" "$T/a there.ppm"
+fi
 piped() { there_too "$name" - >"$T/piped.ppm"; }
 check "thumbnail to standard output" piped
 check "bytes, not lines of text" bits "$T/piped.ppm"

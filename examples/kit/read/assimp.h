@@ -356,7 +356,6 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     tree t = empty_tree;
     int failed;
     *m = empty_model;
-    if (!kind.text[0] && size > 3 && !memcmp(bytes, "PK\3\4", 4)) kind = model_kind_of("a.3mf");
     if (!set) return mesh_fail(&r, "out of memory");
     errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
@@ -370,7 +369,7 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     if (!t.scene) return assimp_failed(&r);
     t.reader = &r;
     t.model = m;
-    m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
+    m->z_up = !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
     m->up_told = m->z_up || tells_up(kind.text);
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)

@@ -1,5 +1,5 @@
-/* files.h - reads model files: OBJ with MTL, STL and PLY as text or binary, OFF, glTF
-   and GLB.
+/* files.h - reads model files: OBJ with MTL, STL and PLY as text or binary, OFF, glTF, GLB and
+   3MF.
 
        owned_mesh m;  char error[300];
        if (mesh_read_file("bunny.obj", &m, error, sizeof error)) fprintf(stderr, "%s\n", error);
@@ -21,6 +21,7 @@
 #include "off.h"
 #include "ply.h"
 #include "stl.h"
+#include "threemf.h"
 
 /* The extension of a file name in small letters; "" where it has none, or a long one */
 typedef struct model_kind {
@@ -75,6 +76,14 @@ static inline int mesh_is_gltf(const char *name, const unsigned char *bytes, siz
     return at < size && bytes[at] == '{';
 }
 
+/* 1: the file is 3MF, by its extension or, where that is none of ours, by its contents. */
+static inline int mesh_is_threemf(const char *name, const unsigned char *bytes, size_t size)
+{
+    const model_kind kind = model_kind_of(name);
+    if (!strcmp(kind.text, "3mf")) return 1;
+    return !kind.text[0] && size >= 4 && !memcmp(bytes, "PK\3\4", 4);
+}
+
 static inline int model_read_stl(mesh_reader *r, model *m)
 {
     if (stl_read(r, m)) return 1;
@@ -97,14 +106,6 @@ typedef struct model_request {
     int outside; /* pictures outside of the folder of the model are read, too */
 } model_request;
 
-/* The bytes behind a byte order mark of UTF-8, which editors of Windows put before text */
-static inline const unsigned char *model_text_of(const unsigned char *bytes, size_t *size)
-{
-    const size_t mark = *size >= 3 && !memcmp(bytes, "\xEF\xBB\xBF", 3) ? 3 : 0;
-    *size -= mark;
-    return bytes + mark;
-}
-
 static inline int model_read_once(const void *bytes, size_t size, const char *name, model *m,
                                   const model_request *q)
 {
@@ -116,6 +117,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     int failed;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_threemf(name, begin, size))
+        failed = threemf_read(&r, m);
     else if (mesh_is_gltf(name, begin, size))
         failed = gltf_read(&r, m);
     else if (mesh_is_off(name, begin, size))
@@ -165,11 +168,35 @@ static inline int model_read_with(const void *bytes, size_t size, const char *na
     return model_read_once(bytes, size, name, m, q);
 }
 
+/* zlib, where the program is built with it */
+#ifdef MODEL_ZLIB
+#include <zlib.h>
+static inline int model_inflate(const unsigned char *packed, size_t packed_size, unsigned char *out,
+                                size_t size)
+{
+    z_stream s;
+    int result;
+    memset(&s, 0, sizeof s);
+    if (packed_size > UINT_MAX || size > UINT_MAX || inflateInit2(&s, -15) != Z_OK) return 1;
+    s.next_in = (z_const Bytef *)packed;
+    s.avail_in = (uInt)packed_size;
+    s.next_out = out;
+    s.avail_out = (uInt)size;
+    result = inflate(&s, Z_FINISH);
+    inflateEnd(&s);
+    return result != Z_STREAM_END || s.avail_out;
+}
+#else
+static zip_inflate *const model_inflate = NULL;
+#endif
+
 static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
                                     const model_request *q)
 {
     static const model empty;
-    return model_read_with(bytes, size, name, m, q, &empty);
+    model said = empty;
+    said.inflate = model_inflate;
+    return model_read_with(bytes, size, name, m, q, &said);
 }
 
 static inline int model_load_file(const char *path, const char *name, unsigned char **bytes,
@@ -281,6 +308,7 @@ static inline int model_read_file(const char *path, model *m, const model_reques
     *m = empty;
     said.path = path;
     said.beside = model_load_file;
+    said.inflate = model_inflate;
     if (!failed) failed = model_read_with(bytes, size, path, m, q, &said);
     free(bytes);
     if (!failed) model_read_libraries(path, m);

@@ -4,6 +4,41 @@
 
 #include "faces.h"
 
+/* ---- where things are ------------------------------------------------------------------------ */
+
+typedef struct gather_matrix {
+    double at[16];
+} gather_matrix; /* columns, as in the files */
+
+static inline gather_matrix gather_product(const gather_matrix *a, const gather_matrix *b)
+{
+    gather_matrix m;
+    for (int c = 0; c < 4; c++) {
+        for (int k = 0; k < 4; k++) {
+            double sum = 0;
+            for (int i = 0; i < 4; i++) sum += a->at[4 * i + k] * b->at[4 * c + i];
+            m.at[4 * c + k] = sum;
+        }
+    }
+    return m;
+}
+
+static inline double gather_cofactor(const gather_matrix *m, int row, int column)
+{
+    const int r[2] = { (row + 1) % 3, (row + 2) % 3 },
+              c[2] = { (column + 1) % 3, (column + 2) % 3 };
+    return m->at[4 * c[0] + r[0]] * m->at[4 * c[1] + r[1]] -
+           m->at[4 * c[1] + r[0]] * m->at[4 * c[0] + r[1]];
+}
+
+static inline double gather_determinant(const gather_matrix *m)
+{
+    return m->at[0] * gather_cofactor(m, 0, 0) + m->at[4] * gather_cofactor(m, 0, 1) +
+           m->at[8] * gather_cofactor(m, 0, 2);
+}
+
+/* ---- what is gathered ------------------------------------------------------------------------ */
+
 typedef struct gather {
     mesh_floats positions, normals, texcoords, colors;
     faces faces;

@@ -59,10 +59,6 @@ static const gltf_extension gltf_known[] = { { "KHR_mesh_quantization", 1 },
                                              { "VRM", 0 },
                                              { NULL, 0 } };
 
-typedef struct gltf_matrix {
-    double at[16];
-} gltf_matrix; /* columns, as in the files */
-
 typedef struct gltf_bytes {
     const unsigned char *at;
     size_t size;
@@ -395,37 +391,24 @@ static inline int gltf_attribute(gltf *g, uint32_t attributes, const char *name,
 
 /* ---- where things are ------------------------------------------------------------------------ */
 
-static inline gltf_matrix gltf_product(const gltf_matrix *a, const gltf_matrix *b)
-{
-    gltf_matrix m;
-    for (int c = 0; c < 4; c++) {
-        for (int k = 0; k < 4; k++) {
-            double sum = 0;
-            for (int i = 0; i < 4; i++) sum += a->at[4 * i + k] * b->at[4 * c + i];
-            m.at[4 * c + k] = sum;
-        }
-    }
-    return m;
-}
-
-static inline gltf_matrix gltf_moved(const double *t, const double *q, const double *s)
+static inline gather_matrix gltf_moved(const double *t, const double *q, const double *s)
 {
     const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     const double n = length > 0 ? 1 / length : 0;
     const double x = q[0] * n, y = q[1] * n, z = q[2] * n, w = length > 0 ? q[3] * n : 1;
-    const gltf_matrix m = { { s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
-                              s[0] * 2 * (x * z - y * w), 0, s[1] * 2 * (x * y - z * w),
-                              s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w), 0,
-                              s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
-                              s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1 } };
+    const gather_matrix m = { { s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
+                                s[0] * 2 * (x * z - y * w), 0, s[1] * 2 * (x * y - z * w),
+                                s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w), 0,
+                                s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
+                                s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1 } };
     return m;
 }
 
 /* A node in its parent */
-static inline gltf_matrix gltf_local(const gltf *g, uint32_t node)
+static inline gather_matrix gltf_local(const gltf *g, uint32_t node)
 {
     double t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
-    gltf_matrix m;
+    gather_matrix m;
     if (json_array(&g->j, node, "matrix", m.at, 16)) return m;
     json_array(&g->j, node, "translation", t, 3);
     json_array(&g->j, node, "rotation", q, 4);
@@ -454,34 +437,20 @@ static inline int gltf_parents(gltf *g)
 }
 
 /* A node in the world */
-static inline gltf_matrix gltf_world(const gltf *g, uint32_t node)
+static inline gather_matrix gltf_world(const gltf *g, uint32_t node)
 {
-    gltf_matrix m = gltf_local(g, g->item[GLTF_NODE][node]);
+    gather_matrix m = gltf_local(g, g->item[GLTF_NODE][node]);
     for (int depth = 0; depth < GLTF_DEPTH && g->parent[node]; depth++) {
-        gltf_matrix above;
+        gather_matrix above;
         node = g->parent[node] - 1;
         above = gltf_local(g, g->item[GLTF_NODE][node]);
-        m = gltf_product(&above, &m);
+        m = gather_product(&above, &m);
     }
     return m;
 }
 
-static inline double gltf_cofactor(const gltf_matrix *m, int row, int column)
-{
-    const int r[2] = { (row + 1) % 3, (row + 2) % 3 },
-              c[2] = { (column + 1) % 3, (column + 2) % 3 };
-    return m->at[4 * c[0] + r[0]] * m->at[4 * c[1] + r[1]] -
-           m->at[4 * c[1] + r[0]] * m->at[4 * c[0] + r[1]];
-}
-
-static inline double gltf_determinant(const gltf_matrix *m)
-{
-    return m->at[0] * gltf_cofactor(m, 0, 0) + m->at[4] * gltf_cofactor(m, 0, 1) +
-           m->at[8] * gltf_cofactor(m, 0, 2);
-}
-
 /* The matrices of a skin's joints; free them afterwards. */
-static inline int gltf_joints(gltf *g, uint32_t node, gltf_matrix **out, uint32_t *count)
+static inline int gltf_joints(gltf *g, uint32_t node, gather_matrix **out, uint32_t *count)
 {
     const uint32_t number = json_member(&g->j, node, "skin");
     uint32_t skin, joints, at, inverse;
@@ -497,11 +466,11 @@ static inline int gltf_joints(gltf *g, uint32_t node, gltf_matrix **out, uint32_
         free(bind.v);
         return mesh_fail(g->r, "a skin has not a matrix for each joint");
     }
-    *out = (gltf_matrix *)calloc((size_t)*count + 1, sizeof **out);
+    *out = (gather_matrix *)calloc((size_t)*count + 1, sizeof **out);
     at = joints + 1;
     for (uint32_t i = 0; *out && i < *count; i++, at = g->j.value[at].end) {
         const double joint = json_number_at(&g->j, at, -1);
-        gltf_matrix from;
+        gather_matrix from;
         if (!(joint >= 0 && joint < (double)g->count[GLTF_NODE])) {
             free(bind.v);
             return mesh_fail(g->r, "a joint is no node");
@@ -509,7 +478,7 @@ static inline int gltf_joints(gltf *g, uint32_t node, gltf_matrix **out, uint32_
         (*out)[i] = gltf_world(g, (uint32_t)joint);
         if (!bind.v) continue;
         memcpy(from.at, bind.v + 16 * i, sizeof from.at);
-        (*out)[i] = gltf_product(&(*out)[i], &from);
+        (*out)[i] = gather_product(&(*out)[i], &from);
     }
     free(bind.v);
     return *out ? 0 : mesh_fail(g->r, "out of memory");
@@ -730,7 +699,7 @@ static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
 /* What a primitive has at its vertices */
 typedef struct gltf_vertices {
     gltf_values position, normal, uv, color, joint[2], weight[2], index;
-    gltf_matrix *bone;
+    gather_matrix *bone;
     uint32_t bones;
 } gltf_vertices;
 
@@ -799,9 +768,9 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
 
 /* Where a vertex is: its place in the world, or the mean of the places of its joints.  0: its
    weights are wrong */
-static inline gltf_matrix gltf_bone(const gltf_vertices *v, size_t i, const gltf_matrix *at)
+static inline gather_matrix gltf_bone(const gltf_vertices *v, size_t i, const gather_matrix *at)
 {
-    gltf_matrix m = { { 0 } };
+    gather_matrix m = { { 0 } };
     double sum = 0;
     if (!v->bone || !v->joint[0].v || !v->weight[0].v) return *at;
     for (size_t k = 0; k < 8; k++) {
@@ -816,17 +785,17 @@ static inline gltf_matrix gltf_bone(const gltf_vertices *v, size_t i, const gltf
     return sum > 0 ? m : *at;
 }
 
-static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const gltf_matrix *at,
+static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const gather_matrix *at,
                               const gltf_place *place)
 {
-    const gltf_matrix m = gltf_bone(v, i, at);
-    const double *p = v->position.v + 3 * i, sign = gltf_determinant(&m) < 0 ? -1 : 1;
+    const gather_matrix m = gltf_bone(v, i, at);
+    const double *p = v->position.v + 3 * i, sign = gather_determinant(&m) < 0 ? -1 : 1;
     gather_corner c = { .color = { 1, 1, 1 } };
     float normal[3] = { 0, 0, 0 };
     for (int k = 0; k < 3; k++) {
         c.position[k] = m.at[k] * p[0] + m.at[4 + k] * p[1] + m.at[8 + k] * p[2] + m.at[12 + k];
         for (int l = 0; v->normal.v && l < 3; l++)
-            normal[k] += (float)(sign * gltf_cofactor(&m, k, l) * v->normal.v[3 * i + (size_t)l]);
+            normal[k] += (float)(sign * gather_cofactor(&m, k, l) * v->normal.v[3 * i + (size_t)l]);
     }
     memcpy(&c.normal, normal, sizeof normal);
     if (v->color.v) c.color = gltf_color(v->color.v + (size_t)v->color.width * i);
@@ -881,7 +850,7 @@ static inline int gltf_count(gltf *g, uint32_t primitive, double mode, size_t in
 }
 
 typedef struct gltf_instances {
-    const gltf_matrix *at;
+    const gather_matrix *at;
     size_t count;
 } gltf_instances;
 
@@ -909,10 +878,10 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     g->all.colored |= v.color.v != NULL;
     for (size_t k = 0; k < in->count && !failed; k++) {
         const size_t first = g->all.positions.count / 3, n = v.position.count;
-        const gltf_matrix m = n ? gltf_bone(&v, 0, &in->at[k]) : in->at[k];
+        const gather_matrix m = n ? gltf_bone(&v, 0, &in->at[k]) : in->at[k];
         for (size_t i = 0; i < n && !failed; i++)
             failed = gltf_vertex(g, &v, i, &in->at[k], place && place->used > 0 ? place : NULL);
-        if (!failed) failed = gltf_faces(g, &v, mode, first, gltf_determinant(&m) < 0);
+        if (!failed) failed = gltf_faces(g, &v, mode, first, gather_determinant(&m) < 0);
     }
     free(v.bone);
     gltf_free_vertices(&v);
@@ -920,8 +889,8 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
 }
 
 /* The places of the instances of a node; free them afterwards. */
-static inline int gltf_instanced(gltf *g, uint32_t node, const gltf_matrix *at, gltf_matrix **out,
-                                 size_t *count)
+static inline int gltf_instanced(gltf *g, uint32_t node, const gather_matrix *at,
+                                 gather_matrix **out, size_t *count)
 {
     const uint32_t extension = gltf_extended(g, node, "EXT_mesh_gpu_instancing");
     const uint32_t list = json_of(&g->j, extension, "attributes", JSON_OBJECT);
@@ -940,26 +909,26 @@ static inline int gltf_instanced(gltf *g, uint32_t node, const gltf_matrix *at, 
     if (n > GLTF_TRIANGLES) return mesh_fail(g->r, "more than %d instances", GLTF_TRIANGLES);
     *count = n < 0 ? 1 : (size_t)n;
     if (g->counting) return 0;
-    *out = (gltf_matrix *)malloc((*count + 1) * sizeof **out);
+    *out = (gather_matrix *)malloc((*count + 1) * sizeof **out);
     if (!*out) return mesh_fail(g->r, "out of memory");
     for (int k = 0; k < 3 && n >= 0 && !failed; k++)
         failed = gltf_attribute(g, list, names[k], k == 1 ? 4 : 3, k == 1 ? 4 : 3, *count, &v[k]);
     for (size_t i = 0; i < *count && !failed; i++) {
         static const double still[3] = { 0, 0, 0 }, straight[4] = { 0, 0, 0, 1 };
         static const double same[3] = { 1, 1, 1 };
-        const gltf_matrix m =
+        const gather_matrix m =
             gltf_moved(v[0].v ? v[0].v + 3 * i : still, v[1].v ? v[1].v + 4 * i : straight,
                        v[2].v ? v[2].v + 3 * i : same);
-        (*out)[i] = n < 0 ? *at : gltf_product(at, &m);
+        (*out)[i] = n < 0 ? *at : gather_product(at, &m);
     }
     for (int k = 0; k < 3; k++) free(v[k].v);
     return failed;
 }
 
-static inline int gltf_mesh(gltf *g, uint32_t node, const gltf_matrix *at)
+static inline int gltf_mesh(gltf *g, uint32_t node, const gather_matrix *at)
 {
     uint32_t mesh, list, part;
-    gltf_matrix *places;
+    gather_matrix *places;
     gltf_instances in = { NULL, 0 };
     int failed;
     if (gltf_item(g, GLTF_MESHES, json_member(&g->j, node, "mesh"), &mesh)) return 1;
@@ -982,17 +951,17 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gltf_matrix *at)
     return failed;
 }
 
-static inline int gltf_node(gltf *g, uint32_t at, const gltf_matrix *above)
+static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
 {
     uint32_t node, children, lower;
-    gltf_matrix local, here;
+    gather_matrix local, here;
     int failed = 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
         return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
                          GLTF_DEPTH);
     if (gltf_item(g, GLTF_NODE, at, &node)) return 1;
     local = gltf_local(g, node);
-    here = gltf_product(above, &local);
+    here = gather_product(above, &local);
     if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &here);
     children = json_of(&g->j, node, "children", JSON_ARRAY);
     lower = children + 1;
@@ -1008,7 +977,7 @@ static inline int gltf_node(gltf *g, uint32_t at, const gltf_matrix *above)
 /* The scene of the file, or where there is none all nodes that have no parent */
 static inline int gltf_scene(gltf *g, int counting)
 {
-    static const gltf_matrix one = { { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
+    static const gather_matrix one = { { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
     uint32_t scene = 0, roots, at = json_member(&g->j, JSON_ROOT, "scene");
     int failed = 0;
     g->counting = counting;

@@ -3,7 +3,7 @@
 #ifndef MODEL_MODEL_H
 #define MODEL_MODEL_H
 
-#include "reader.h"
+#include "zip.h"
 
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
@@ -74,10 +74,11 @@ typedef struct model {
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
     const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
     model_load_beside *beside;
-    int movable;       /* the file has more digits than floats: read again, about another
+    zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */
+    int movable;          /* the file has more digits than floats: read again, about another
                                   origin, the positions are more exact */
-    char warning[400]; /* what the picture lacks; "": nothing */
-    char note[200];    /* what it shows otherwise than the file has it; "": nothing */
+    char warning[400];    /* what the picture lacks; "": nothing */
+    char note[200];       /* what it shows otherwise than the file has it; "": nothing */
 } model;
 
 static inline void model_free(model *m)

@@ -264,8 +264,7 @@ static inline int obj_read(mesh_reader *r, model *m)
     if (!failed) failed = obj_finish(r, &o, m);
     for (int k = 0; k < 3; k++) free(o.list[k].v);
     free(o.color.v);
-    free(o.corners.triple);
-    free(o.corners.slot);
+    mesh_set_free(&o.corners);
     faces_free(&o.faces);
     return failed;
 }

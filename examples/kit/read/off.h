@@ -171,8 +171,7 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
         else
             memcpy(m->colors + 3 * i, &c, sizeof c);
     }
-    free(made.triple);
-    free(made.slot);
+    mesh_set_free(&made);
     if (failed) return mesh_fail(r, "out of memory");
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);

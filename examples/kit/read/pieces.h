@@ -48,8 +48,7 @@ static inline uint32_t *mesh_places(const owned_mesh *m, uint32_t **at, size_t *
         if (!failed && at && set.count > before) (*at)[place[i]] = (uint32_t)i;
     }
     *count = set.count;
-    free(set.triple);
-    free(set.slot);
+    mesh_set_free(&set);
     if (!failed) return place;
     free(place);
     if (at) free(*at);

@@ -1,6 +1,6 @@
-/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL, PLY, OFF and
-   glTF by own readers, other formats by assimp, the pictures on surfaces by stb_image.  A message
-   names a library that is missing. */
+/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL, PLY, OFF, glTF
+   and 3MF by own readers, other formats by assimp, the pictures on surfaces by stb_image.  A
+   message names a library that is missing. */
 #ifndef MODEL_READ_H
 #define MODEL_READ_H
 
@@ -55,7 +55,9 @@ static int check_file(const char *path, const model_request *q, unsigned char *h
 /* 1: the file is for our own readers, by its extension or, where it has none, by its contents. */
 static int is_ours(model_kind kind, const unsigned char *head, size_t size)
 {
-    static const char *const ours[] = { "", "obj", "stl", "ply", "off", "gltf", "glb", NULL };
+    static const char *const ours[] = {
+        "", "obj", "stl", "ply", "off", "gltf", "glb", "3mf", NULL
+    };
     return option_among(ours, kind.text) || mesh_is_ply("", head, size) ||
            mesh_is_gltf("a.a", head, size);
 }
@@ -72,7 +74,7 @@ static int read_other(const char *path, model_kind kind, model *m, const model_r
     (void)m;
     return mesh_fail(&r,
                      ".%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
-                     "STL, PLY, OFF and glTF",
+                     "STL, PLY, OFF, glTF and 3MF",
                      kind.text, program_name);
 #endif
 }
@@ -90,7 +92,8 @@ static void show_invisible(model *m)
 static int is_certain(const unsigned char *head, size_t size)
 {
     return mesh_is_gltf("", head, size) || mesh_is_off("", head, size) ||
-           mesh_is_ply("", head, size) || mesh_is_stl("", head, size);
+           mesh_is_threemf("", head, size) || mesh_is_ply("", head, size) ||
+           mesh_is_stl("", head, size);
 }
 #endif
 

@@ -160,6 +160,23 @@ static inline int mesh_set_add(mesh_set *s, mesh_triple t, uint32_t *number)
     return 0;
 }
 
+/* The number of a triple that is there; returns 0 where it is not. */
+static inline int mesh_set_find(const mesh_set *s, mesh_triple t, uint32_t *number)
+{
+    size_t at = s->slots ? (size_t)mesh_hash(t) & (s->slots - 1) : 0;
+    for (; s->slots && s->slot[at]; at = (at + 1) & (s->slots - 1)) {
+        *number = s->slot[at] - 1;
+        if (!memcmp(&s->triple[*number], &t, sizeof t)) return 1;
+    }
+    return 0;
+}
+
+static inline void mesh_set_free(mesh_set *s)
+{
+    free(s->triple);
+    free(s->slot);
+}
+
 /* The bits of a position; -0 and 0 are the same place. */
 static inline mesh_triple mesh_position_key(const float *p)
 {
@@ -243,8 +260,7 @@ static inline int mesh_fill_normals(owned_mesh *m, int apart)
 done:
     free(place);
     free(mean);
-    free(places.triple);
-    free(places.slot);
+    mesh_set_free(&places);
     mesh_free(&welded);
     return failed;
 }
@@ -335,6 +351,14 @@ static inline void mesh_relative(mesh_origin *o, const double *v, float *out)
         const double from = v[k] - o->at[k];
         out[k] = fabs(from) <= (double)FLT_MAX ? (float)from : NAN;
     }
+}
+
+/* The bytes behind a byte order mark of UTF-8, which editors of Windows put before text */
+static inline const unsigned char *model_text_of(const unsigned char *bytes, size_t *size)
+{
+    const size_t mark = *size >= 3 && !memcmp(bytes, "\xEF\xBB\xBF", 3) ? 3 : 0;
+    *size -= mark;
+    return bytes + mark;
 }
 
 /* The next few bytes as printable text, for messages */

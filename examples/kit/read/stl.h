@@ -196,8 +196,7 @@ static inline int stl_paint(const stl_data *s, model *out)
     m->positions = positions;
     m->normals = normals;
     mesh_link(m, (int)vertices.count, m->view.index_count);
-    free(vertices.triple);
-    free(vertices.slot);
+    mesh_set_free(&vertices);
     return failed;
 }
 
@@ -228,8 +227,7 @@ static inline int stl_read(mesh_reader *r, model *out)
                  mesh_fill_normals(m, !s.colored);
         if (failed) mesh_fail(r, "out of memory");
     }
-    free(s.places.triple);
-    free(s.places.slot);
+    mesh_set_free(&s.places);
     free(s.indices.v);
     free(s.word.v);
     return failed;

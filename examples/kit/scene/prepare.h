@@ -23,8 +23,7 @@ static double crease_cost(const owned_mesh *m)
         for (size_t i = 0; i < places.count; i++) cost += (double)count[i] * (double)count[i];
     }
     free(place);
-    free(places.triple);
-    free(places.slot);
+    mesh_set_free(&places);
     return failed ? 0 : cost;
 }
 

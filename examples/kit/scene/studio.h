@@ -270,8 +270,7 @@ static uint32_t *studio_cells(const owned_mesh *m, float **mean, size_t *count)
         for (size_t k = 0; k < 3; k++) to[k] += (m->positions[3 * i + k] - to[k]) / (to[3] + 1);
         to[3] += 1;
     }
-    free(set.triple);
-    free(set.slot);
+    mesh_set_free(&set);
     if (*mean) return cell;
     free(cell);
     return NULL;

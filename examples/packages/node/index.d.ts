@@ -215,7 +215,8 @@ export type Decoder = (bytes: Uint8Array, mimeType: string | undefined) => Textu
     ShadeError for a file that is damaged or needs what is not read. */
 export function readGltf(bytes: Uint8Array, options?: { picture?: Decoder }): MeshSource[];
 
-/** Reads 3MF: one mesh with the colours of its faces, and +z up, of all that the file builds.  Browsers have
-    the DOMParser; in Node.js, from 20.12 on, that of @xmldom/xmldom is handed over.  Rejects with a
-    ShadeError for a file that is damaged or unpacks to far more than it has. */
-export function read3mf(bytes: Uint8Array, options?: { DOMParser?: unknown }): Promise<MeshSource[]>;
+/** Reads 3MF: one mesh for each surface, with colours by vertex and +z up, of all that the file builds.
+    Needs DecompressionStream: Node.js from 18 on.  Rejects with a ShadeError for a file that is damaged,
+    unpacks to far more than it has, or needs what is not read.  The DOMParser that 1.2 wanted is not used. */
+export function read3mf(bytes: Uint8Array,
+                        options?: { picture?: Decoder; DOMParser?: unknown }): Promise<MeshSource[]>;

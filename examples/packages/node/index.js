@@ -1,22 +1,25 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
 import { boxOf, eyeOf, fitted, given, originOf, placed, studio, used } from "./camera.js";
-import { gltfReaderOf } from "./gltf.js";
 import encoded from "./module.js";
+import { readersOf } from "./model.js";
 import { mujocoOf } from "./mujoco.js";
 import { Picture } from "./picture.js";
 import { rendererOf } from "./renderer.js";
-import { read3mf } from "./threemf.js";
 
 const { ShadeError } = check;
-export { Picture, ShadeError, read3mf };
+export { Picture, ShadeError };
 
 // Compiled at once, without await, which neither require nor a classic script can do.
 const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));
 // The C library can print, which nothing here does: what it would call fails.
 const failing = () => 52;
 const system = { fd_close: failing, fd_seek: failing, fd_write: failing };
-const library = new WebAssembly.Instance(new WebAssembly.Module(binary), { wasi_snapshot_preview1: system }).exports;
+// What unpacks a file of an archive: model.js sets it before a call.
+const archive = { inflate: () => 1 };
+const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
+    wasi_snapshot_preview1: system, shade: { inflate: (...file) => archive.inflate(...file) },
+}).exports;
 library._initialize();
 
 // Structs of module.c, in words of four bytes
@@ -315,8 +318,11 @@ export function render(meshes, options) {
 
 // ---- cameras
 
+const readers = readersOf({ library, withMemory, take, put, floats, words, text, archive });
 /** The meshes of a GLB: see index.d.ts. */
-export const readGltf = gltfReaderOf({ library, withMemory, put, floats, words, text });
+export const readGltf = readers.readGltf;
+/** The meshes of a 3MF: see index.d.ts. */
+export const read3mf = readers.read3mf;
 
 /** One scene and many cameras: see index.d.ts. */
 export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared });

@@ -9,8 +9,10 @@
 
 #ifdef __wasm__
 #define EXPORT(name) __attribute__((export_name(#name)))
+#define IMPORT(name) __attribute__((import_module("shade"), import_name(#name)))
 #else
 #define EXPORT(name)
+#define IMPORT(name)
 #endif
 
 enum { CREASE_TRIANGLES = 200000, CREASE_FACES = 2000 };    /* as in mesh.py */
@@ -481,15 +483,43 @@ typedef struct module_model {
     double origin[3];
 } module_model;
 
-/* Reads glTF, without anything beside it.  NULL with a line in error */
+/* Unpacks a file of an archive, as index.js does it.  out NULL: will be wanted */
+IMPORT(inflate)
+int module_inflate(const unsigned char *packed, size_t packed_size, unsigned char *out,
+                   size_t size);
+
+/* Names the packed files of an archive that a model may consist of to module_inflate. */
+EXPORT(archive) void module_archive(const unsigned char *bytes, size_t size);
+void module_archive(const unsigned char *bytes, size_t size)
+{
+    static const char *const kinds[] = { "model", "rels", "png", "jpg", "jpeg", NULL };
+    mesh_reader r = { bytes, bytes, bytes + size, "", 0, NULL, 0, NULL, NULL, 0 };
+    zip z = { NULL, NULL, NULL, 0, 0, NULL };
+    const int failed = zip_open(&r, &z);
+    for (size_t i = 0; i < z.count && !failed; i++) {
+        const zip_entry *e = &z.entry[i];
+        const unsigned char *packed = e->method ? zip_packed(&r, &z, e) : NULL;
+        char *name = model_text(e->name, e->length);
+        int wanted = 0;
+        for (int k = 0; name && kinds[k]; k++)
+            wanted |= !strcmp(model_kind_of(name).text, kinds[k]);
+        if (packed && wanted) module_inflate(packed, (size_t)e->packed, NULL, (size_t)e->size);
+        if (packed && wanted) z.left -= (double)e->size;
+        free(name);
+    }
+    free(z.entry);
+}
+
+/* Reads glTF, without anything beside it, or 3MF.  NULL with a line in error */
 EXPORT(model_open)
-model *module_model_open(const void *bytes, size_t size, char *error, size_t room);
-model *module_model_open(const void *bytes, size_t size, char *error, size_t room)
+model *module_model_open(const void *bytes, size_t size, int is_threemf, char *error, size_t room);
+model *module_model_open(const void *bytes, size_t size, int is_threemf, char *error, size_t room)
 {
     model *m = (model *)calloc(1, sizeof *m);
     const unsigned char *begin = model_text_of((const unsigned char *)bytes, &size);
     mesh_reader r = { begin, begin, begin + size, "model", 1, error, room, NULL, NULL, 0 };
-    if (m && !gltf_read(&r, m)) return m;
+    if (m) m->inflate = module_inflate;
+    if (m && !(is_threemf ? threemf_read(&r, m) : gltf_read(&r, m))) return m;
     python_unload(m);
     return NULL;
 }

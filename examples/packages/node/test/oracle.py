@@ -186,7 +186,7 @@ def threemf():
                     for i, f in enumerate(corners)) + "</triangles></mesh>"
 
     root = head + '<basematerials id="5"><base name="a" displaycolor="#FF8000"/></basematerials>' \
-        '<m:colorgroup id="6"><m:color color="#00FF00"/><m:color color="#0000FF80"/></m:colorgroup>' \
+        '<m:colorgroup id="6"><m:color color="#00FF00"/><m:color color="#0000FF"/></m:colorgroup>' \
         '<object id="1" pid="5" pindex="0">' + mesh(*box(3, 2, 1), ["", ' pid="6" p1="1"']) + '</object>' \
         '<object id="2"><components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 2"/>' \
         '<component objectid="7" p:path="/3D/other.model" transform="0 1 0 -1 0 0 0 0 1 5 0 0.5"/></components></object>' \

@@ -136,6 +136,10 @@ class OwnedMesh(Structure):
                 ("chunks", c_void_p)]
 
 
+#: zip_inflate
+INFLATE = ctypes.CFUNCTYPE(c_int, c_void_p, c_size_t, c_void_p, c_size_t)
+
+
 def _open() -> Any:
     name = "libshade.dll" if sys.platform == "win32" else "libshade.so"
     path = Path(__file__).with_name(name)
@@ -151,7 +155,7 @@ def _open() -> Any:
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_read", POINTER(OwnedMesh),
-             [c_char_p, c_size_t, c_char_p, c_char_p, c_char_p, c_size_t]),
+             [c_char_p, c_size_t, c_char_p, c_char_p, INFLATE, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
             ("python_origin", POINTER(c_double), [POINTER(OwnedMesh)]),
             ("python_normals", c_int, [POINTER(OwnedMesh)]),

@@ -5,13 +5,14 @@ import ctypes
 import io
 import os
 import warnings
+import zlib
 from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from . import cloud
-from ._native import Array, Bytes, Error, Run, library, pointer
+from ._native import INFLATE, Bytes, Error, Run, library
 from .annotate import display as _display
 from .light import Material
 from .mesh import WRAPS, Mesh, Surface
@@ -98,7 +99,8 @@ def _look(run: Any, image: Any) -> Surface:
     opacity, holes = 1 - run.transparency, image is not None and not run.opaque
     if not run.physical:
         return Surface(None, image, run.transparency > 0, opacity,
-                       0.5 if holes and not run.transparency else 0.0)
+                       0.5 if holes and not run.transparency else 0.0,
+                       (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
     k = run.material
     material = Material(tuple(k.emission[:]), tuple(k.ambient[:]), tuple(k.diffuse[:]),
                         tuple(k.specular[:]), k.shininess)
@@ -135,11 +137,23 @@ def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:
     return out
 
 
+@INFLATE
+def _inflate(packed: int, packed_size: int, out: int, size: int) -> int:
+    """Unpacks a file of an archive to as many bytes as the archive says."""
+    try:
+        made = zlib.decompressobj(-15).decompress(ctypes.string_at(packed, packed_size), size + 1)
+    except (zlib.error, MemoryError):
+        return 1
+    if len(made) == size:
+        ctypes.memmove(out, made, size)
+    return int(len(made) != size)
+
+
 def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, Any]]:
     """Vertices and faces, and options of Mesh."""
     words = ctypes.create_string_buffer(400)
     title = os.fsencode(name)
-    owned = library.python_read(data, len(data), title, path, words, len(words))
+    owned = library.python_read(data, len(data), title, path, _inflate, words, len(words))
     if not owned:
         raise Error(words.value.decode("utf-8", "replace") or "out of memory")
     try:
@@ -170,17 +184,6 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
     return (vertices, faces), found
 
 
-def _any(data: bytes, name: str, path: bytes | None) -> Any:
-    """Vertices, faces and options of Mesh of a file of any kind, which its first bytes tell."""
-    try:
-        if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
-            from . import threemf
-            return threemf.read(data)
-    except Error as why:
-        raise Error(f"{name}: {why}") from None
-    return _read(data, name, path)
-
-
 # ---- all -----------------------------------------------------------------------------------------
 
 def load(path: Any, **options: Any) -> Mesh:
@@ -201,7 +204,7 @@ def load(path: Any, **options: Any) -> Mesh:
     else:
         data = read_file(path, MODEL_BYTES)
         name, beside = os.fsdecode(path), os.fsencode(path)
-    (vertices, faces), found = _any(data, name, beside)
+    (vertices, faces), found = _read(data, name, beside)
     plain = any(options.get(k) is not None for k in ("color", "texture", "surfaces"))
     if plain:
         found = {"up": found["up"]}

@@ -1,5 +1,5 @@
-// Reads glTF 2.0 by the module: GLB, or JSON with its buffers inside.  Each surface becomes one mesh,
-// as render takes them.
+// Reads glTF 2.0 (GLB, or JSON with its buffers inside) and 3MF by the module.  Each surface becomes
+// one mesh, as render takes them.  What 3MF has packed is unpacked by the platform, before it is read.
 import { ShadeError, record } from "./arguments.js";
 
 // python_model and python_part of module.c, in words of four bytes
@@ -25,10 +25,28 @@ function rows(all, width, at, change = (x) => x) {
     return out;
 }
 
-/** readGltf, with what index.js has of the module */
-export function gltfReaderOf({ library, withMemory, put, floats, words, text }) {
+/** Raw deflate of so many bytes; null where it is damaged. */
+async function unpacked(packed, size) {
+    const reader = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
+    const out = new Uint8Array(size);
+    let at = 0;
+    try {
+        for (let got = await reader.read(); !got.done; got = await reader.read()) {
+            if (at + got.value.length > size) throw new RangeError("more bytes than the archive says");
+            out.set(got.value, at);
+            at += got.value.length;
+        }
+    } catch {
+        reader.cancel().catch(() => {});
+        return null;
+    }
+    return at === size ? out : null;
+}
+
+/** readGltf and read3mf, with what index.js has of the module; unpack becomes what the module calls. */
+export function readersOf({ library, withMemory, take, put, floats, words, text, archive }) {
     if (library.size(6) !== 4 * MODEL || library.size(7) !== 4 * PART) {
-        throw new Error("gltf.js and module.js do not fit");
+        throw new Error("model.js and module.js do not fit");
     }
 
     /** The image of a part, decoded by the caller; null where there is none. */
@@ -53,12 +71,13 @@ export function gltfReaderOf({ library, withMemory, put, floats, words, text }) 
         used.forEach((vertex, i) => place.set(vertex, i));
         const of = (name, width, change) => rows(floats(all[name], width * all.vertices), width, used, change);
         const k = [...values.subarray(11, 24)], [isOpaque, isBlended] = [ints[8], ints[25]];
+        const blend = isBlended || values[5] > 0, cutoff = ints[10] || isOpaque || blend ? values[24] : 0.5;
         const material = { emission: k.slice(0, 3), ambient: k.slice(3, 6), diffuse: k.slice(6, 9),
                            specular: k.slice(9, 12), shininess: k[12] };
         return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
-                 indices: corners.map((vertex) => place.get(vertex)), material,
-                 ...(isBlended ? { blend: true, opacity: 1 - values[5] } : {}),
-                 ...(image && values[24] > 0 ? { cutoff: values[24] } : {}),
+                 indices: corners.map((vertex) => place.get(vertex)), ...(ints[10] ? { material } : {}),
+                 ...(blend ? { blend: true, opacity: 1 - values[5] } : {}),
+                 ...(image && cutoff > 0 ? { cutoff } : {}),
                  ...(all.smooth ? { normals: of("normals", 3) } : {}),
                  ...(all.colors ? { colors: of("colors", 3, displayed) } : {}),
                  ...(image && all.uv ? { uv: of("uv", 2, (x, axis) => (axis ? 1 - x : x)),
@@ -85,15 +104,18 @@ export function gltfReaderOf({ library, withMemory, put, floats, words, text }) 
         });
     }
 
-    return function readGltf(bytes, options) {
-        const { picture } = record("options", options, ["picture"]);
+    function checked(bytes, options, names) {
+        const { picture } = record("options", options, names);
         if (!(bytes instanceof Uint8Array)) throw new ShadeError("model: must be the bytes of a file, a Uint8Array");
         if (picture !== undefined && typeof picture !== "function") {
             throw new ShadeError("options.picture must be a function");
         }
+        return picture;
+    }
+
+    function opened(at, length, is3mf, picture) {
         return withMemory((room) => {
-            const error = room(400), at = put(room(bytes.length), bytes);
-            const model = library.model_open(at, bytes.length, error, 400);
+            const error = room(400), model = library.model_open(at, length, is3mf, error, 400);
             if (!model) throw new ShadeError(text(error) || "model: out of memory");
             try {
                 return meshesOf(model, picture);
@@ -101,5 +123,31 @@ export function gltfReaderOf({ library, withMemory, put, floats, words, text }) 
                 library.model_close(model);
             }
         });
-    };
+    }
+
+    function readGltf(bytes, options) {
+        const picture = checked(bytes, options, ["picture"]);
+        return withMemory((room) => opened(put(room(bytes.length), bytes), bytes.length, 0, picture));
+    }
+
+    async function read3mf(bytes, options) {
+        const picture = checked(bytes, options, ["picture", "DOMParser"]);
+        const at = put(take(bytes.length), bytes), files = new Map(), wanted = [];
+        try {
+            archive.inflate = (from, length, to, size) => { wanted.push([from >>> 0, length, size]); return 1; };
+            library.archive(at, bytes.length);
+            for (const [from, length, size] of wanted) {
+                files.set(from, await unpacked(new Uint8Array(library.memory.buffer, from, length).slice(), size));
+            }
+            archive.inflate = (from, length, to, size) => {
+                const file = files.get(from >>> 0);
+                if (file?.length === size) new Uint8Array(library.memory.buffer, to >>> 0, size).set(file);
+                return file?.length === size ? 0 : 1;
+            };
+            return opened(at, bytes.length, 1, picture);
+        } finally {
+            library.give(at);
+        }
+    }
+    return { readGltf, read3mf };
 }
