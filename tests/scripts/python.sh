@@ -32,7 +32,8 @@ check "it is the wheel that is imported" \
     $python -c "import shade_h; assert shade_h.__file__.startswith('$T/env'), shade_h.__file__"
 
 # the tests, beside the tree but not beside its sources
-mkdir -p "$T/run/examples/packages/python"
+mkdir -p "$T/run/examples/packages/python" "$T/run/tests"
+ln -s "$OLDPWD/tests/scripts" "$T/run/tests/scripts"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" \
     "$P/mcp_server.py" "$T/run/examples/packages/python"

@@ -565,8 +565,8 @@ int module_size(int which)
     static const size_t size[] = { sizeof(asked_mesh), sizeof(asked_item), sizeof(asked_view),
                                    sizeof(shade_light), sizeof(renderer_object),
                                    sizeof(renderer_picture), sizeof(module_model),
-                                   sizeof(python_part) };
-    return which >= 0 && which < 8 ? (int)size[which] : 0;
+                                   sizeof(python_part), sizeof(shade_mesh) };
+    return which >= 0 && which < 9 ? (int)size[which] : 0;
 }
 
 EXPORT(take) void *module_take(size_t bytes);

@@ -4,8 +4,11 @@ import * as check from "./arguments.js";
 
 const { ShadeError } = check;
 
-// Words of renderer_object, of renderer_picture, of shade_mesh and of shade_light
-const OBJECT = 28, SHOT = 67, MESH = 14, LIGHT = 21;
+// Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
+const OBJECT = 28, SHOT = 67, LIGHT = 21;
+const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
+              "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
+              "indices16"];
 const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
@@ -42,7 +45,7 @@ function rangeOf(p) {
 
 /** The class, over the functions of index.js that know the module's memory. */
 export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared }) {
-    [[4, OBJECT], [5, SHOT], [3, LIGHT]].forEach(([i, words]) => {
+    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
     const forgotten = new FinalizationRegistry(({ scene, scratch, held }) => {
@@ -111,7 +114,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const given = check.isArray(got.normals);
             const kind = given ? "flat" : check.choice("normals", got.normals ?? "flat", ["flat", "smooth"]);
             const arrays = [positions, given ? check.rows("normals", got.normals, 3) : null,
-                            got.uv ? check.rows("uv", got.uv, 2) : null, null, indices];
+                            got.uv ? check.rows("uv", got.uv, 2) : null, indices];
             [[1, 3, "normals"], [2, 2, "uv"]].forEach(([k, width, name]) => {
                 if (arrays[k] && arrays[k].length !== width * vertices) {
                     throw new ShadeError(`${name} must have a row for each of ${vertices} vertices`);
@@ -119,9 +122,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             });
             const made = withMemory((room) => {
                 const at = arrays.map((array) => (array ? put(room(array.byteLength || 4), array) : 0));
-                const ask = Uint32Array.of(at[0], 0, at[1], 0, at[2], 0, 0, 0, vertices, at[4],
-                                           indices.length, 0, 0, 0);
-                return library.scene_mesh(this.#scene, put(room(4 * MESH), ask), kind === "smooth" ? 1 : 0);
+                const set = { positions: at[0], normals: at[1], texcoords: at[2], vertex_count: vertices,
+                              indices: at[3], index_count: indices.length };
+                const ask = Uint32Array.from(MESH, (name) => set[name] ?? 0);
+                return library.scene_mesh(this.#scene, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0);
             });
             if (made < 0) throw new RangeError("memory is not enough for the mesh");
             this.#meshes++;

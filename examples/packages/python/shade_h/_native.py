@@ -69,13 +69,19 @@ class Texture(Structure):
                 ("filter", c_int), ("mipmaps", c_void_p), ("mipmap_count", c_int)]
 
 
+class Raster(Structure):
+    """shade_raster"""
+    _fields_ = [("cull", c_int), ("depth_test", c_int), ("blend", c_int),
+                ("depth_read_only", c_int), ("depth_zero_to_one", c_int), ("depth_bias", c_float)]
+
+
 class State(Structure):
     """shade_draw_state"""
     _fields_ = [("model", c_float * 16), ("view", c_float * 16), ("projection", c_float * 16),
                 ("material", POINTER(Material)), ("lighting", Lighting), ("shading", c_int),
                 ("diffuse_map", POINTER(Texture)), ("transparency", c_float),
-                ("alpha_cutoff", c_float), ("raster", c_int * 5), ("depth_bias", c_float),
-                ("fragment", c_void_p), ("uniforms", c_void_p)]
+                ("alpha_cutoff", c_float), ("raster", Raster), ("fragment", c_void_p),
+                ("uniforms", c_void_p)]
 
 
 class Item(Structure):
