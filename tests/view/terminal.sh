@@ -254,15 +254,16 @@ bad "a missing file" missing.obj "No such file"
 bad "a directory" "$T" "directory"
 bad "an empty file" "$T/empty.obj" "empty"
 bad "half an OBJ" "$T/cut.obj" "cut.obj:3"
-bad "numbers that are none" "$T/nan.obj" "nan.obj:1"
+bad "numbers that are none" "$T/nan.obj" "nan.obj:2"
 bad "an index out of range" "$T/index.obj" "index.obj:4"
 bad "half an STL" "$T/cut.stl" "cut.stl"
 bad "no OBJ at all" "$T/noise.obj" "noise.obj"
+bad "a triangle that is a point" "$T/point.obj" "no triangle of it has an area"
 truncate -s 8G "$T/huge.stl" 2>/dev/null &&
     start_command 80 24 sh -c "ulimit -v 500000; exec env $full '$VIEW' huge.stl" &&
     check "a file larger than memory" restored 1 && check "that is said" said "out of memory"
 rm -f "$T/huge.stl"
-for model in one large point; do
+for model in one large; do
     start 80 24 "$full" --still "$T/$model.obj"
     check "$model.obj is drawn" soon drawn true 80 24 "" "$T/$model.obj"
 done
