@@ -1,6 +1,6 @@
 /* 42_angles.c - the vectors of the notes, their angles, and how R and H are built.  Left: L and its
    mirror image R add up to 2 (L.N) N, hence R = 2 (L.N) N - L; Phong's highlight is the cosine, to
-   the n, of the angle between R and V, which Shirley calls sigma and others phi.  Right: H halves
+   the n, of the angle between R and V, which Shirley calls sigma, UW and Massey phi.  Right: H halves
    the angle between L and V, because the sum of two unit vectors is the diagonal of a rhombus;
    Blinn's highlight is the cosine of omega, to the n.  Try to_eye = 50: both highlights are 1.
 
