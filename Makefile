@@ -135,7 +135,8 @@ conformance:
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
-	@sh examples/teaching/playground/build.sh; made=$$?; sh examples/teaching/course/build.sh && exit $$made
+	@sh examples/teaching/playground/build.sh; made=$$?; \
+	sh examples/teaching/course/build.sh && exit $$made
 course:
 	@PDF=1 sh examples/teaching/course/build.sh
 course-zip:

@@ -44,6 +44,7 @@ set style fill solid 1.0 noborder
 stats '$build/bench_ratio.tsv' using 3 nooutput
 set yrange [$rows - 0.4 : -0.6]
 set xrange [0 : 1.25 * STATS_max]
+set xlabel 'how many times as fast as llvmpipe'
 set grid x noy
 unset key
 set border 1

@@ -1,4 +1,4 @@
-/* 04_interpolation.c - where light is computed, on a sphere of few triangles (UW, Massey).  Above:
+/* 04_interpolation.c - where light is computed, on a coarse sphere (UW, Massey, Berkeley).  Above:
    once for each face (flat); at each vertex, whose colours are interpolated (Gouraud); at each
    pixel, where normals are interpolated (Phong).  The lamp stands so that the middle of one facet
    mirrors it into the eye.  Gouraud computes no light there and misses the highlight.  Below: the

@@ -1,7 +1,7 @@
 /* 13_cool_to_warm.c - a teapot in Phong's light, by tone alone, and with outlines: the technical
-   illustration of Shirley's notes.  The tone goes from cool to warm with the angle to the light and
-   never gets dark, so that the form can be read everywhere and black lines stand out.  The two
-   colours are those of the notes and, as there, are stored without sRGB.
+   illustration of Shirley's notes, Gooch's in UW's.  The tone goes from cool to warm with the
+   angle to the light and is never dark, so that the form can be read everywhere and black lines
+   stand out.  The two colours are those of the notes and, as there, are stored without sRGB.
    Try (0.8f, 0.7f, 0.7f) for both colours: the lines alone show the form.
 
    cc -O2 -I. examples/lessons/13_cool_to_warm.c -lm -o cool_to_warm && ./cool_to_warm */

@@ -1,5 +1,5 @@
-/* 27_exponent.c - what n does, and what the other numbers do (UW: a smaller or larger n, varying
-   the parameters).  Above: n = 1, 4, 16, 64, 256, and the angle between N and H at which (N.H)^n
+/* 27_exponent.c - what n does, and what the other numbers do (UW, Shirley: a larger n, other
+   parameters).  Above: n = 1, 4, 16, 64, 256, and the angle between N and H at which (N.H)^n
    has fallen to one half: four times n, half as wide.  For n = 1 the highlight is still bright
    where N.L = 0, and B cuts it off there, a hard rim.  Below: metal (k_d small, k_s large, both of
    its colour), plastic (k_s white) and a planet (k_d from a map, no k_s).

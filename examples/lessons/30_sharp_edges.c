@@ -1,9 +1,10 @@
-/* 30_sharp_edges.c - one mesh, three sets of normals: a block whose upright edges are rounded by
-   four facets each (Berkeley).  Left: each face has its own normal, and facets show.  Middle: each
-   vertex has the mean of all faces around it; rims look soft, flat sides bent.  Right: the mean of
-   those faces alone that meet at less than 45 degrees, by shade_mesh_corner_normals: the edges are
-   round, the rims hard, because a vertex of the rim has two normals, that of the lid and that of
-   the side.  Below: the greatest angle between a normal and that of the true, round block.
+/* 30_sharp_edges.c - one mesh, three sets of normals: a block with upright edges rounded by four
+   facets each (Shirley, Berkeley).  Left: each face has its own normal, and facets show.  Middle:
+   each vertex has the mean of all faces around it; rims look soft, flat sides bent.  Right: the
+   mean of those faces alone that meet at less than 45 degrees, by shade_mesh_corner_normals: the
+   edges are round, the rims hard, because a vertex of the rim has two normals, that of the lid
+   and that of the side.  Below: the greatest angle between a normal and that of the true, round
+   block.
    Try 20 degrees on the right: facets, which meet at 22.5, become hard edges.
 
    cc -O2 -I. examples/lessons/30_sharp_edges.c -lm -o sharp_edges && ./sharp_edges */

@@ -26,7 +26,7 @@ static void add_up(const canvas *c, const float *z)
     }
     float sum = z[begin], dz = (z[begin + count] - sum) / (float)count, off = 0;
     for (int i = 0; i <= count; i++, sum += dz) off = fmaxf(off, fabsf(sum - z[begin + i]));
-    label_print(c, 80, 530, 20, white, "z along x: after %d times z += dz it is off by %.1e",
+    label_print(c, 80, 530, 20, white, "z along x: %d times z += dz stray by %.1e of its range",
                 count, (double)off);
 }
 
@@ -73,7 +73,7 @@ int main(int argc, char **argv)
     plot(&c, z, (const shade_vec4 *)picture.color + ROW * 2 * W);
     add_up(&c, z);
     canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);
-    label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
+    label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer: near is bright");
     mesh_free(&cube);
     return canvas_save(&c, argc, argv, "z_buffer.ppm");
 }

@@ -1,7 +1,7 @@
 /* 42_angles.c - the vectors of the notes, their angles, and how R and H are built.  Left: L and its
    mirror image R add up to 2 (L.N) N, hence R = 2 (L.N) N - L; Phong's highlight is the cosine, to
-   the n, of the angle between R and V, which Shirley calls sigma and others phi.  Right: H halves
-   the angle between L and V, because the sum of two unit vectors is the diagonal of a rhombus;
+   the n, of the angle between R and V, phi (UW, Massey) or sigma (Shirley).  Right: H halves the
+   angle between L and V, because the sum of two unit vectors is the diagonal of a rhombus;
    Blinn's highlight is the cosine of omega, to the n.  Try to_eye = 50: both highlights are 1.
 
    cc -O2 -I. examples/lessons/42_angles.c -lm -o angles && ./angles            writes angles.ppm */

@@ -1,5 +1,5 @@
-/* 44_microfacets.c - what k_s and k_d stand for.  A smooth interface is a mirror: rays leave side
-   by side.  A rough one is made of microfacets, each of them a mirror.  Tilted a little, they
+/* 44_microfacets.c - what k_s and k_d stand for (Massey).  A smooth interface is a mirror: rays
+   leave side by side.  A rough one is made of microfacets, each a mirror.  Tilted a little, they
    spread the rays about R, the highlight, with a smaller n the rougher they are: glossy.  Tilted
    every way they send light in all directions, UW's first picture of k_d.  So does pigment, its
    second, which absorbs light and re-emits the rest in its own colour.  RMS of 20,000 rays.

@@ -749,6 +749,25 @@ check('iteration three reads the same on every screen', read.size === 1 &&
     await page.keyboard.press('e');
     check('it is shown as MathML', await page.evaluate(() => $('#explanation').open &&
         document.querySelectorAll('#lines math').length > 20 && !/undefined|NaN|\\\\/.test($('#lines').textContent)));
+    // beside the picture, with the result in sight; lamps that bring nothing are one line, which says why
+    for (const hash of ['turn=0', RICH + '&shading=1', 'turn=0&p1=-3,1,-3&on2=0']) {
+        await go(page, hash);
+        await page.evaluate(() => $('#explanation').open || explain());
+        await page.waitForFunction(() => $('#lines .result'));
+        const [dialog, picture, result] = await Promise.all(['#explanation', 'figure canvas', '#lines .result'].map(
+            what => page.locator(what).first().boundingBox()));
+        check('beside the picture: ' + hash, dialog.x >= picture.x + picture.width - 1, [dialog, picture]);
+        check('with its result in sight: ' + hash, result.y + result.height <= 768 && result.x + result.width <= 1367, result);
+    }
+    check('a lamp that brings nothing is folded, and says why', await soon(async () =>
+        /^Lamp 1 brings nothing here: .*=0$/.test((await page.locator('#lines summary').textContent()).replace(/\s/g, ' ')
+            .replace(/ = /g, '='))), await page.locator('#lines').textContent());
+    await page.evaluate(() => { S.p1 = [3, 2, 3], changed(); });
+    check('and it follows what changes', await soon(() => page.evaluate(() => !document.querySelector('#lines summary'))));
+    check('each term that is 0 says why', await page.evaluate(() => {
+        Object.assign(S, { ks: [0, 0, 0] }), refresh();
+        return explanation().lines.filter(({ c, why }) => /^specular_1/.test(c) && /k_s = 0/.test(why)).length === 1;
+    }));
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
     for (const [id, wanted] of [['#copy-latex', /^\\begin\{align\*\}[^]*N\}[^]*align\*\}\n$/],
         ['#copy-c', /^\/\* The equation[^]*return 0;\n\}\n$/]]) {

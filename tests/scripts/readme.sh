@@ -161,18 +161,19 @@ check "every example is listed" none "$(
         name=$(basename "$file" .c)
         grep -qE "src=\"pictures/$name\.png\".*</a> \| \`$name\`" examples/README.md || echo "$name"
     done)"
-# on a course's slides, in their order; besides, those that the table of lessons says it asks for
-of_course() {                   # UW uw
-    slides=$(grep -oE 'pictures/[0-9]{2}_' "examples/teaching/course/$2.md" | grep -oE '[0-9]{2}' |
-        awk '!seen[$0]++' | tr '\n' ' ')
-    sed -n 's/.*<\/a> | `\([0-9][0-9]\)_[a-z_]*` | \([^|]*\)|.*/\1 \2/p' examples/README.md | grep "$1" |
-        cut -c1-2 | sort | grep -vxF "$(echo $slides | tr ' ' '\n')" | tr '\n' ' ' >"$T/besides"
-    echo " $slides| $(cat "$T/besides")|"
-}
-check "the teacher's guide has the lessons of each course" none "$(
-    for course in UW:uw Massey:massey Shirley:shirley Berkeley:berkeley; do
-        want=$(of_course "${course%:*}" "${course#*:}")
-        [ "$(sed -n "s/^| ${course%:*}, [^|]*|//p" examples/lessons/TEACHING.md)" = "$want" ] || echo "$course:$want"
+check "the teacher's guide has the lessons of each course" test \
+    "$(sed -n '/^| course /,/^$/p' examples/lessons/TEACHING.md)" = "$(sh examples/lessons/guide.sh)"
+check "its path has each lesson once" test \
+    "$(sed -n '/^## Alone/,/^## What students/s/^[0-9]*\. `\([0-9a-z_]*\)`.*/\1/p' examples/lessons/TEACHING.md | sort)" = \
+    "$(cd examples/lessons && ls [0-9]*.c | sed 's/\.c$//')"
+check "the table of lessons names the courses that they name" none "$(
+    for file in examples/lessons/[0-9]*.c; do
+        name=$(basename "$file" .c)
+        for course in UW Massey Shirley Berkeley; do
+            in_table=$(grep -E "^\| <a.*\`$name\` \| [^|]*\b$course\b[^|]*\|" examples/README.md)
+            in_lesson=$(sed '/\*\//q' "$file" | grep -w "$course")
+            [ -z "$in_table" ] && [ -z "$in_lesson" ] || { [ "$in_table" ] && [ "$in_lesson" ]; } || echo "$name: $course"
+        done
     done)"
 check "every lesson says the line that builds it" none "$(
     for file in examples/lessons/[0-9]*.c; do

@@ -67,7 +67,7 @@ for (const name of pages) {
             [...article.querySelectorAll('a.play')].every(a => a.target === article.querySelector('iframe').name)]));
         check('live figures: ' + what, name === 'courses.html' || live.length > 10 && live.every(([n, own]) => n === 1 && own), live);
         if (width === 1366 && live.length) {
-            const word = page.locator('article:has(a.play:nth-of-type(2)) a.play').nth(1);
+            const word = page.locator('.words > p:has(a.play:nth-of-type(2)) a.play').nth(1);
             await word.scrollIntoViewIfNeeded();
             const name = await word.getAttribute('target'), hash = (await word.getAttribute('href')).split('#')[1];
             const inside = () => page.frames().find(one => one.name() === name);
@@ -241,8 +241,8 @@ const at = page => page.evaluate(() => Reveal.getSlides().indexOf(Reveal.getCurr
 const answered = page => page.evaluate(() => !!document.querySelector('.present .answer.visible'));
 for (const name of decks) {
     const page = await openDeck(name, {}, '', false);
-    const steps = await page.evaluate(() => Reveal.getSlides().length +
-        document.querySelectorAll('.answer').length - 1);
+    const steps = await page.evaluate(() => Reveal.getSlides().length - 1 + Reveal.getSlides().reduce((sum, slide) =>
+        sum + new Set([...slide.querySelectorAll('.fragment')].map(node => node.dataset.fragmentIndex)).size, 0));
     const keys = ['ArrowRight', 'Space', 'PageDown'];
     for (let i = 0; i < steps; i++) await page.keyboard.press(keys[i % 3]);
     check('keys reach the last slide and show each answer: ' + name, await page.evaluate(() =>
@@ -412,8 +412,8 @@ for (const name of decks) {
 
 for (const name of decks) {
     const page = await openDeck(name, { hasTouch: true, viewport: { width: 820, height: 1180 } }, '', false);
-    const steps = await page.evaluate(() => Reveal.getSlides().length +
-        document.querySelectorAll('.answer').length - 1);
+    const steps = await page.evaluate(() => Reveal.getSlides().length - 1 + Reveal.getSlides().reduce((sum, slide) =>
+        sum + new Set([...slide.querySelectorAll('.fragment')].map(node => node.dataset.fragmentIndex)).size, 0));
     const next = page.locator('.controls .navigate-right');
     for (let i = 0; i < steps; i++) await next.tap();
     check('taps reach the last slide and show each answer: ' + name, await page.evaluate(() =>

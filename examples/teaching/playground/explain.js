@@ -28,6 +28,10 @@ const lineOf = (c, tex, formula, numbers, code, value, why = '') =>
     ({ c, tex, formula, numbers, code, value, why });
 const given = (c, tex, value) => lineOf(c, tex, '', '', '', value);
 
+// Why a term is 0, as the first of these that holds
+const whyZero = (value, reasons) => Math.max(...value) === 0 ? (reasons.find(([holds]) => holds) || [0, ''])[1] : '';
+const dark = rgb => Math.max(...rgb) === 0;
+
 // The lines of one lamp at one point.  q: the point's index in names, or ''
 function lampLines(j, q, a, model, used, out) {
     const of = field => S[field + j], at = (name, letter = name) => [`${name}_${j}${q && '_' + q}`,
@@ -69,6 +73,8 @@ function lampLines(j, q, a, model, used, out) {
     } else out.push(lineOf(spot[0], spot[1], '', '', '1', a.spot, '\\text{it is no spotlight}'));
     const arrives = `${f[1]}\\,${spot[1]}`, arrivesC = `${f[0]} * ${spot[0]}`, I = `I_${j}`;
     const arrived = `${short(a.attenuation)} \\cdot ${short(a.spot)}`;
+    const nothing = (k, value, gated) => [[gated, `${B[1]} = 0`], [!a.spot, `${spot[1]} = 0`], [dark(value), `${k} = 0`],
+        [dark(of('I')), `${I} = 0`]];
     ambientLine();
     if (lit) out.push(lineOf(B[0], B[1], '', '', `${NL[0]} > 0`, a.gate,
         `${NL[1]} ${a.gate ? '>' : '\\le'} 0`));
@@ -78,7 +84,7 @@ function lampLines(j, q, a, model, used, out) {
             `${arrived} \\cdot ${abs ? '' : a.gate + ' \\cdot '}${triad(a.kd)} \\cdot ${triad(of('I'))} \\cdot ` +
                 (abs ? `|${write(a.nl)}|` : short(a.nl)),
             `scale(${arrivesC} * ${abs ? `fabs(${NL[0]})` : `${B[0]} * ${NL[0]}`}, mul(k_d, ${I}))`,
-            a.lampDiffuse));
+            a.lampDiffuse, whyZero(a.lampDiffuse, nothing('k_d', a.kd, !a.gate && !abs))));
     }
     if (used & 8) {
         const H = at(model === 1 ? 'R' : 'H'), s = at('specular', '\\text{specular}'), base = at('base');
@@ -98,11 +104,12 @@ function lampLines(j, q, a, model, used, out) {
             `${arrived} \\cdot ${open ? '' : a.gate + ' \\cdot '}${triad(a.ks)} \\cdot ${triad(of('I'))} \\cdot ` +
                 (weighted ? short(Math.max(0, a.nl)) + ' \\cdot ' : '') + short(a.power),
             `scale(${arrivesC} * ${open ? '' : B[0] + ' * '}${weighted ? `fmax(0, ${NL[0]}) * ` : ''}${power[0]}, ` +
-                `mul(k_s, ${I}))`, a.lampSpecular));
+                `mul(k_s, ${I}))`, a.lampSpecular, whyZero(a.lampSpecular,
+            [...nothing('k_s', a.ks, !a.gate && !open), [a.power < 1e-9, `${base[1]}\\text{ is far below 1}`]])));
     }
     function ambientLine() {
-        const dark = Math.max(...of('A')) === 0, name = at('ambient', '\\text{ambient}');
-        if (!(used & 2) || dark) return;
+        const name = at('ambient', '\\text{ambient}');
+        if (!(used & 2) || dark(of('A'))) return;
         const dimmed = S.flags & 16;
         out.push(lineOf(name[0], name[1], `${dimmed ? arrives + '\\,' : ''}k_a I_{La,${j}}`,
             `${dimmed ? arrived + ' \\cdot ' : ''}${triad(a.ka)} \\cdot ${triad(of('A'))}`,
@@ -133,6 +140,8 @@ function pointLines(k, q, panel, used, out) {
     for (const j of gooch ? lamps.slice(0, 1) : lamps) {
         const from = out.length, b = ask(j);
         lampLines(j, q, b, model, used, out);
+        const brings = [b.lampAmbient, b.lampDiffuse, b.lampSpecular].some(rgb => !dark(rgb));
+        if (!brings && !gooch) for (const line of out.slice(from)) line.idle = j;
         for (const line of out.slice(from))
             if (/^(ambient|diffuse|specular)_/.test(line.c)) parts.push([line.c, line.tex, line.value]);
         if (gooch && used & 4) {
@@ -224,8 +233,7 @@ function explain() {
     const found = explanation(), dialog = $('#explanation');
     if (!found) { say('No surface is marked: point at one.'); return; }
     const lines = $('#lines');
-    lines.replaceChildren(...found.lines.map(line => make('p', { html: mathml(lineTex(line)) })),
-        make('p', {}, `Stored as sRGB, clamped to 0 … 1: ${found.stored.join(', ')}.`));
+    writeLines(found);
     for (const [id, text] of [['#copy-latex', asLatex], ['#copy-c', asC]])
         $(id).onclick = async () => {
             const words = text(found), label = $(id).dataset.label;
@@ -233,13 +241,41 @@ function explain() {
             $(id).textContent = 'Copied';
             setTimeout(() => { $(id).textContent = label; }, 1500);
         };
-    dialog.showModal();
+    dialog.show();
     dialog.querySelector('form').lastElementChild.focus();
+}
+// Formula, numbers and value of a line may stand below each other. Lamps that bring nothing are folded; the
+// result is the last line, which is always seen.
+function writeLines(found) {
+    const paragraph = (line, breaks = / (?==)|(?=\\quad\\text)/) => make('p', { html: lineTex(line).split(breaks).map(mathml).join(' ') });
+    const nodes = [], open = new Set([...document.querySelectorAll('#lines details[open]')].map(node => node.dataset.lamp));
+    for (const line of found.lines.slice(0, -1)) {
+        let fold = nodes[nodes.length - 1];
+        if (line.idle && (!fold || fold.dataset.lamp !== String(line.idle))) {
+            const why = found.lines.filter(other => other.idle === line.idle && other.why).pop();
+            fold = make('details', { 'data-lamp': line.idle }, make('summary', { html: `Lamp ${line.idle} brings nothing here` +
+                (why ? `: ${mathml(why.why)}` : '') }));
+            fold.open = open.has(fold.dataset.lamp);
+            nodes.push(fold);
+        }
+        if (line.idle) fold.append(paragraph(line));
+        else nodes.push(paragraph(line));
+    }
+    const result = paragraph(found.lines[found.lines.length - 1], / (?=[=+])/);
+    result.append(make('span', {}, ` Stored as sRGB, clamped to 0 … 1: ${found.stored.join(', ')}.`));
+    result.className = 'result';
+    $('#lines').replaceChildren(...nodes, result);
 }
 function buildExplain() {
     $('#models').append(make('button', { type: 'button', id: 'explain', 'data-name': 'explain',
         title: 'Every line of the equation with its numbers: E', onclick: explain }, 'Explain this pixel'));
+    // while it is open it follows the point and the controls
+    shown.push(() => requestAnimationFrame(() => {
+        const found = $('#explanation').open && explanation();
+        if (found) writeLines(found);
+    }));
     addEventListener('keydown', event => {
+        if (event.key === 'Escape' && $('#explanation').open) { $('#explanation').close(); return; }
         if (modified(event) || event.key !== 'e' || S.raster || S.lecture || document.querySelector('dialog[open]')) return;
         explain(), event.preventDefault();
     });

@@ -49,13 +49,17 @@ addEventListener('pointerup', event => {
 async function drawForPaper(hash, scale) {
     history.replaceState(null, '', '#' + hash.replace(/with=[^&]*/, 'with=none'));
     readAddress(), refresh();
-    const [width, height] = [canvas.width, canvas.height] = size(scale * finest());
-    context.putImageData(new ImageData(draw(width, height, scale * finest()), width), 0, 0);
-    showAnswer(marked(width, height));
+    const whole = (S.raster ? $('#grid') : canvas).getBoundingClientRect(), ratio = scale * finest();
+    const [width, height] = [whole.width, whole.height].map(v => Math.max(3, Math.floor(v * ratio)));
     const copy = make('canvas', { width, height }), on = copy.getContext('2d');
-    on.drawImage(canvas, 0, 0);
-    for (const svg of document.querySelectorAll('#arrows, #curve.shown, .plane #plane, .lobe #lobe')) {
-        const box = svg.getBoundingClientRect(), whole = canvas.getBoundingClientRect(), ratio = width / whole.width;
+    if (!S.raster) {
+        [canvas.width, canvas.height] = [width, height];
+        context.putImageData(new ImageData(draw(width, height, ratio), width), 0, 0);
+        showAnswer(marked(width, height));
+        on.drawImage(canvas, 0, 0);
+    }
+    for (const svg of document.querySelectorAll(S.raster ? '#grid' : '#arrows, #curve.shown, .plane #plane, .lobe #lobe')) {
+        const box = svg.getBoundingClientRect();
         on.drawImage(await still(svg, ratio), (box.x - whole.x) * ratio, (box.y - whole.y) * ratio);
     }
     deck.postMessage({ drawn: hash, picture: copy.toDataURL() }, '*');
