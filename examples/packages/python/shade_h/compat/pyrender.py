@@ -520,8 +520,13 @@ class Scene(_Bounded):
 
     def _walk(self) -> list[tuple[Node, Array]]:
         out, left = [], [(n, np.eye(4)) for n in reversed(self._roots)]
+        seen: set[int] = set()
         while left:
             node, parent = left.pop()
+            if id(node) in seen:
+                raise ValueError(f"node {node.name or ''} is in the scene twice: a node has one parent, "
+                                 "and is not below itself")
+            seen.add(id(node))
             pose = parent @ node.matrix
             out.append((node, pose))
             left += [(child, pose) for child in reversed(node.children)]
@@ -621,8 +626,12 @@ class OffscreenRenderer:
     def render(self, scene: Scene, flags: int = 0, seg_node_map: Any = None) -> Any:
         """color, (h, w, 3) bytes (4 with RGBA), and depth, (h, w) float32, 0 where there is nothing;
         depth alone with DEPTH_ONLY.  With SEG color has the colours of seg_node_map."""
-        base, lamps, cameras = self._made(), [], []
+        lamps, cameras = [], []
         used: list[Node] = []
+        drawn = [p for n in scene.mesh_nodes if n.mesh.is_visible for p in n.mesh.primitives]
+        if len(self._shapes) > 2 * len({id(p) for p in drawn}) + 8:    # most are of scenes that are gone
+            self._base = None
+        base = self._made()
         base._count = 0
         for node, pose in scene._walk():
             if node.camera is not None:
@@ -748,7 +757,8 @@ class OffscreenRenderer:
                             float(scene.bg_color[3]) if len(scene.bg_color) > 3 else 1.0)
 
     def delete(self) -> None:
-        """There is no context to delete."""
+        """Gives the memory back."""
+        self._base, self._shapes = None, {}
 
 
 class Viewer:
