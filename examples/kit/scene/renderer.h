@@ -1513,8 +1513,7 @@ static inline shade_result renderer_cast(renderer *r, const renderer_picture *p,
     shade_result result;
     if (r->map_valid && r->map_size == size && r->known_count == p->object_count &&
         r->known_tolerance == p->tolerance && r->known_serial == s->serial &&
-        !memcmp(r->known, p->objects, bytes) &&
-        !memcmp(&r->known_light, lamp, sizeof *lamp))
+        !memcmp(r->known, p->objects, bytes) && !memcmp(&r->known_light, lamp, sizeof *lamp))
         return SHADE_OK;
     r->map_valid = 0;
     r->map_size = size;
