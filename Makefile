@@ -17,7 +17,8 @@
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader of the assignments: solutions, wrong answers, cheats
 # make dist          the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
-# make install       header and programs below PREFIX in DESTDIR; make uninstall removes them
+# make install       header and programs below PREFIX in DESTDIR; make uninstall removes them;
+#                    make install-header: the header alone, for pkg-config and CMake
 # make vector-report loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -176,22 +177,28 @@ SAYS_batch     = renders films and posters of a model, in pieces that machines c
 SAYS_sheets    = draws a sheet of views of every model in a folder
 SAYS_compare   = tells by how much two pictures differ
 PLACE     = $(DESTDIR)$(PREFIX)
-FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.thumbnailer \
-            share/mime/packages/shade.xml
+HEADER    = include/shade.h share/pkgconfig/shade.pc share/cmake/shade/shade-config.cmake \
+            share/cmake/shade/shade-config-version.cmake
+FILES     = $(HEADER) share/thumbnailers/shade.thumbnailer share/mime/packages/shade.xml
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
             share/man/man1/shade-$p.1)
 build/%.1: build/% $(BESIDE)/man.sh
 	THUMBNAIL=build/thumbnail sh $(BESIDE)/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
-install: programs
-	sh $(BESIDE)/pkgconfig.sh "$(PREFIX)" >build/shade.pc
+install-header:
+	for f in $(HEADER); do $(INSTALL) -d "$(PLACE)/$${f%/*}" || exit 1; done
+	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
+	@mkdir -p build
+	sh $(BESIDE)/pkgconfig.sh "$(PREFIX)" build
+	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
+	$(INSTALL) -m 644 build/shade-config.cmake build/shade-config-version.cmake \
+	    "$(PLACE)/share/cmake/shade"
+install: programs install-header
 	sh $(BESIDE)/thumbnailer.sh "$(PREFIX)" >build/shade.thumbnailer
 	for f in $(INSTALLED); do $(INSTALL) -d "$(PLACE)/$${f%/*}" || exit 1; done
 	for p in $(notdir $(PROGRAMS)); do \
 	    $(MAKE) -s build/$$p.1 && \
 	    $(INSTALL) -m 755 build/$$p "$(PLACE)/bin/shade-$$p" && \
 	    $(INSTALL) -m 644 build/$$p.1 "$(PLACE)/share/man/man1/shade-$$p.1" || exit 1; done
-	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
-	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
 	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
 	$(INSTALL) -m 644 $(BESIDE)/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
 uninstall:
@@ -201,5 +208,5 @@ clean:
 	rm -rf build out dist
 .PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
         conformance coverage mutation static lint format format-check prove fuzz gallery \
-        playground vector-report dist install uninstall clean
+        playground vector-report dist install install-header uninstall clean
 .SECONDARY:

@@ -677,12 +677,25 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
-static float text_glyph(const shade_target *t, int code, float x, float y, float size)
+/* The number of a letter in the font, -1: it has none */
+static int text_find(int code)
 {
     const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
-    int k = 0, shape = 0;
-    while (k < glyphs && font_glyphs[k].code != code) k++;
-    if (k == glyphs) k = '?' - ' '; /* the table begins with those of ASCII */
+    if (code == 0xB5) code = 0x3BC; /* micro, which is the Greek letter */
+    for (int k = 0; k < glyphs; k++)
+        if (font_glyphs[k].code == code) return k;
+    return -1;
+}
+
+static int text_is_diameter(int code) { return code == 0xD8 || code == 0x2300; }
+
+SHADEDEF int python_has_letter(int code);
+int python_has_letter(int code) { return text_find(code) >= 0 || text_is_diameter(code); }
+
+static float text_glyph(const shade_target *t, int code, float x, float y, float size)
+{
+    int k = text_find(code), shape = 0;
+    if (k < 0) k = '?' - ' '; /* the table begins with those of ASCII */
     for (int i = 0; i < k; i++) shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
     if (t->color) label_glyph(t, &font_glyphs[k], shape, x, y, size / 24, shade_v3(1, 1, 1));
     return size * (float)font_glyphs[k].advance / 240;
@@ -700,7 +713,7 @@ float python_text(const char *text, float size, float x, float y, unsigned char 
     const shade_target t = { .color = rgba, .width = width, .height = height };
     const float start = x;
     while (*text) {
-        const int code = label_code(&text), diameter = code == 0xD8 || code == 0x2300;
+        const int code = label_code(&text), diameter = text_is_diameter(code);
         if (diameter) text_glyph(&t, '/', x + size / 8, y, size);
         x += text_glyph(&t, diameter ? 'O' : code, x, y, size);
     }

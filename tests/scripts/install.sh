@@ -17,6 +17,8 @@ files='-rwxr-xr-x ./bin/shade-batch
 -rwxr-xr-x ./bin/shade-thumbnail
 -rwxr-xr-x ./bin/shade-view
 -rw-r--r-- ./include/shade.h
+-rw-r--r-- ./share/cmake/shade/shade-config-version.cmake
+-rw-r--r-- ./share/cmake/shade/shade-config.cmake
 -rw-r--r-- ./share/man/man1/shade-batch.1
 -rw-r--r-- ./share/man/man1/shade-compare.1
 -rw-r--r-- ./share/man/man1/shade-sheets.1
@@ -30,7 +32,7 @@ files='-rwxr-xr-x ./bin/shade-batch
 P=$T/prefix
 strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P"); }
 check "make install" strict_umask
-check "fourteen files, readable by all" same "$(modes "$P")" "$files"
+check "sixteen files, readable by all" same "$(modes "$P")" "$files"
 check "in directories open to all" same "$(find "$P" -type d ! -perm -755)" ""
 check "the header is this one" cmp shade.h "$P/include/shade.h"
 export THUMBNAIL="$P/bin/shade-thumbnail"    # which sheets calls
@@ -39,6 +41,7 @@ for p in thumbnail view batch sheets compare; do
     check "$p is the one built" cmp build/$p "$P/bin/shade-$p"
     check "$p has the version of shade.h" same "$("$P/bin/shade-$p" --version)" "shade-$p $V"
     check "its page has it" grep -qF "$V" "$page"
+    check "its page has its exit status" sh -c "sed -n '/^.SH \"EXIT STATUS\"/,\$p' '$page' | grep -q '^0'"
     for option in $("$P/bin/shade-$p" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p'); do
         check "its page has $option" grep -q "^[.]B $(echo "$option" | sed 's/-/\\\\-/g')" "$page"
     done
@@ -78,6 +81,26 @@ if command -v pkg-config >/dev/null 2>&1; then
     check "one version" same "$(pkg-config --modversion shade)" "$("$T/client")"
 else echo "install: no pkg-config: the client is left out"
 fi
+if command -v cmake >/dev/null 2>&1; then
+    mkdir "$T/found"
+    cp "$T/client.c" "$T/found"
+    project() {                 # version that is asked for
+        printf '%s\n' 'cmake_minimum_required(VERSION 3.14)' 'project(client C)' "find_package(shade $1 CONFIG REQUIRED)" \
+            'add_executable(client client.c)' 'target_link_libraries(client shade::shade)' >"$T/found/CMakeLists.txt"
+        rm -rf "$T/found/build"
+        cmake -S "$T/found" -B "$T/found/build" -DCMAKE_PREFIX_PATH="$P" -DCMAKE_BUILD_TYPE=Release
+    }
+    check "find_package(shade)" project ""
+    check "a client of CMake" cmake --build "$T/found/build"
+    check "finds this version" same "$("$T/found/build/client")" "$V"
+    check "and this one as 1.2 or later" project 1.2
+    check "not as version 2" no project 2.0
+else echo "install: no cmake: find_package is left out"
+fi
+# the header alone, which compiles nothing
+check "make install-header" sh -c "CC=false $MAKE -s install-header PREFIX='$T/header' CC=false"
+check "has the header's files" same "$(cd "$T/header" && find . -type f | sort | tr '\n' ' ')" "./include/shade.h \
+./share/cmake/shade/shade-config-version.cmake ./share/cmake/shade/shade-config.cmake ./share/pkgconfig/shade.pc "
 
 # ---- the thumbnailer ----------------------------------------------------------------------------
 mkdir "$T/models"

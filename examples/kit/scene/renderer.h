@@ -102,6 +102,8 @@ typedef struct renderer_scene {
     renderer_shape *meshes;
     renderer_texture *textures;
     int mesh_count, texture_count;
+    int borrowed; /* round, box and plane are those of another scene, which outlives it */
+    int serial;   /* of scenes that share a renderer's scratch memory: tells them apart */
 } renderer_scene;
 
 /* An object that can be seen */
@@ -131,7 +133,7 @@ typedef struct renderer {
     float *depth, *large_depth, *map;
     uint32_t *color, *large_color;
     renderer_object *known; /* what the shadow map holds */
-    int known_count, map_valid;
+    int known_count, known_serial, map_valid;
     shade_light known_light;
     float known_tolerance;
     size_t room[11];
@@ -331,10 +333,10 @@ static inline void renderer_texture_free(renderer_texture *t)
 static inline void renderer_scene_close(renderer_scene *s)
 {
     if (!s) return;
-    for (int i = 0; i < 3 * RENDERER_LEVELS; i++)
+    for (int i = 0; i < 3 * RENDERER_LEVELS && !s->borrowed; i++)
         renderer_shape_free(&s->round[i / RENDERER_LEVELS][i % RENDERER_LEVELS]);
-    renderer_shape_free(&s->box);
-    renderer_shape_free(&s->plane);
+    if (!s->borrowed) renderer_shape_free(&s->box);
+    if (!s->borrowed) renderer_shape_free(&s->plane);
     for (int i = 0; i < s->mesh_count; i++) renderer_shape_free(&s->meshes[i]);
     for (int i = 0; i < s->texture_count; i++) renderer_texture_free(&s->textures[i]);
     free(s->meshes);
@@ -354,6 +356,19 @@ static inline renderer_scene *renderer_scene_open(void)
     if (good) return s;
     renderer_scene_close(s);
     return NULL;
+}
+
+/* An empty scene that borrows the shapes of another one, 3 MB.  NULL: out of memory */
+static inline renderer_scene *renderer_scene_like(const renderer_scene *of, int serial)
+{
+    renderer_scene *s = (renderer_scene *)calloc(1, sizeof *s);
+    if (!s) return NULL;
+    memcpy(s->round, of->round, sizeof s->round);
+    s->box = of->box;
+    s->plane = of->plane;
+    s->borrowed = 1;
+    s->serial = serial;
+    return s;
 }
 
 /* A copy of rows of width floats; what is absent stays NULL.  0: out of memory */
@@ -1497,8 +1512,8 @@ static inline shade_result renderer_cast(renderer *r, const renderer_picture *p,
     renderer_batch b = { .r = r };
     shade_result result;
     if (r->map_valid && r->map_size == size && r->known_count == p->object_count &&
-        r->known_tolerance == p->tolerance && !memcmp(r->known, p->objects, bytes) &&
-        !memcmp(&r->known_light, lamp, sizeof *lamp))
+        r->known_tolerance == p->tolerance && r->known_serial == s->serial &&
+        !memcmp(r->known, p->objects, bytes) && !memcmp(&r->known_light, lamp, sizeof *lamp))
         return SHADE_OK;
     r->map_valid = 0;
     r->map_size = size;
@@ -1509,6 +1524,7 @@ static inline shade_result renderer_cast(renderer *r, const renderer_picture *p,
     r->known_count = p->object_count;
     r->known_light = *lamp;
     r->known_tolerance = p->tolerance;
+    r->known_serial = s->serial;
     const renderer_view v = renderer_lamp_view(r, p, s);
     const shade_target target = { .width = size, .height = size, .depth = r->map };
     b.v = &v;

@@ -162,7 +162,9 @@ export function displayed(name, value, width) {
     if (value instanceof Uint8Array || value instanceof Uint8ClampedArray) {
         return Float32Array.from(value, (x) => x * Math.fround(1 / 255));
     }
-    return rows(name, value, width);
+    const got = rows(name, value, width);
+    if (!got.every((x) => x >= 0 && x <= 1)) throw new ShadeError(`${name} must be from 0 to 1`);
+    return got;
 }
 
 /** One display colour: #RRGGBB, #RGB, a name of ours or of CSS, or three numbers. */
@@ -207,6 +209,9 @@ function lamp(name, value) {
     const put = (at, key, given, length = 3) => row.set(vector(`${name}.${key}`, given, length), at);
     const { color: own = [1, 1, 1], ambient = [0, 0, 0], spotDirection = [0, 0, 0] } = got;
     put(0, "position", got.position, 4);
+    if (got.position.every((x) => x === 0)) {
+        throw new ShadeError(`${name}.position must not be zero: with w = 0 it is a direction`);
+    }
     row.set(got.position);    // in double, as meshes are far away
     put(4, "ambient", ambient);
     put(7, "diffuse", got.diffuse ?? own);

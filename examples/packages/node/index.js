@@ -158,6 +158,7 @@ export class Mesh {
         const white = colors !== undefined || got.texture !== undefined;
         this.material = got.material !== undefined ? material(got.material)
             : gloss(plain ?? (white ? [1, 1, 1] : linear(check.color("color", "clay"))));
+        this.tint = plain === null && got.material === undefined ? null : this.material.slice(6, 9);
         this.#at = this.#made(normals, colors, got);
         forgotten.register(this, this.#at, this);
     }
@@ -181,6 +182,7 @@ export class Mesh {
         }
         const shown = colors === undefined ? null : check.displayed("colors", colors, 3);
         const map = texture === undefined ? null : check.texture("texture", texture);
+        this.map = map;
         const arrays = [this.positions, given && rows("normals", normals, 3, vertices),
                         shown && rows("colors", shown, 3, vertices, faces),
                         uv && rows("uv", uv, 2, vertices), this.indices, map?.data];

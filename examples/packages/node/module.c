@@ -422,7 +422,13 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
 /* ---- cameras of renderer.h ------------------------------------------------------------------ */
 
 EXPORT(scene_open) renderer_scene *module_scene_open(void);
-renderer_scene *module_scene_open(void) { return renderer_scene_open(); }
+renderer_scene *module_scene_open(void)
+{
+    static renderer_scene *first; /* with the shapes of all */
+    static int count;
+    if (!first) first = renderer_scene_open();
+    return first ? renderer_scene_like(first, ++count) : NULL;
+}
 
 EXPORT(scene_close) void module_scene_close(renderer_scene *scene);
 void module_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }

@@ -193,12 +193,17 @@ class Stage {
 /** The class of MuJoCo's name, over the Renderer of this package. */
 export function mujocoOf(Base) {
     class Renderer {
-        #mj; #stage; #depth = false; #segmentation = false; #own = []; #taken = false; #live = false;
+        #mj; #stage; #depth = false; #segmentation = false; #own = []; #taken = false; #live = false; #closed = false;
 
         /** mj is the module of @mujoco/mujoco, model one of its MjModel. */
         constructor(mj, model, height = 240, width = 320, max_geom = 10000) {
             this.height = check.integer("height", height, 1, 16384);
             this.width = check.integer("width", width, 1, 16384);
+            const buffer = model.vis?.global_ ?? model.vis?.global ?? {};
+            if (width > buffer.offwidth || height > buffer.offheight) {
+                throw new ShadeError(`width and height must be at most the ${buffer.offwidth} x ${buffer.offheight} of ` +
+                                     "the framebuffer: <visual><global offwidth=... offheight=.../></visual>");
+            }
             this.#mj = mj;
             this.model = model;
             this.#stage = new Stage(Base, model, height, width);
@@ -210,6 +215,7 @@ export function mujocoOf(Base) {
 
         /** Takes the state of data as camera sees it: a number, a name or an MjvCamera; -1 is free. */
         update_scene(data, camera = -1, scene_option = undefined) {
+            if (this.#closed) throw new ShadeError("update_scene cannot be called after close");
             const [scene, option, perturb, own] = this.#own;
             let used = camera;
             if (typeof camera === "number" || typeof camera === "string") {
@@ -235,16 +241,17 @@ export function mujocoOf(Base) {
         /** Colour, (height, width, 3) bytes; or depth, float32 metres; or pairs of object and type. */
         render(out = undefined) {
             const pixels = this.height * this.width;
+            if (this.#closed) throw new ShadeError("render cannot be called after close");
             const [Kind, width] = this.#depth ? [Float32Array, 1] : this.#segmentation ? [Int32Array, 2] : [Uint8Array, 3];
             const to = out ?? new Kind(width * pixels);
             if (this.#live) {
                 this.take(read(this.#own[0]));
                 this.#live = true;
             }
-            if (!this.#taken) throw new ShadeError("render: call update_scene first");
             if (!(to instanceof Kind) || to.length !== width * pixels) {
                 throw new ShadeError(`out must be a ${Kind.name} of ${width * pixels}`);
             }
+            if (!this.#taken) return to.fill(this.#segmentation ? -1 : 0);    // an empty scene, as in MuJoCo
             const frame = { color: null, depth: null, ids: null, normals: null };
             frame[this.#depth ? "depth" : this.#segmentation ? "ids" : "color"] = to;
             this.#stage.draw(frame, this.#depth || this.#segmentation);
@@ -261,6 +268,7 @@ export function mujocoOf(Base) {
         disable_segmentation_rendering() { this.#segmentation = false; }
 
         close() {
+            this.#closed = true;
             this.#own.forEach((one) => one.delete());
             this.#own = [];
             this.#stage.free();

@@ -18,14 +18,18 @@ const HIDDEN = 1, TWO_SIDED = 2, NO_SHADOW = 4, LAMPS = 8;
 /** The rotation and the place of a matrix of 4 x 4 by columns. */
 function rigid(name, value) {
     const m = check.vector(name, value, 16);
+    const refused = () => new ShadeError(`${name} must be a rotation and a translation, without scale, by columns`);
     for (let i = 0; i < 3; i++) {
         for (let j = 0; j < 3; j++) {
             const dot = [0, 1, 2].reduce((sum, k) => sum + m[4 * i + k] * m[4 * j + k], 0);
             if (Math.abs(dot - (i === j ? 1 : 0)) > 1e-3) {
-                throw new ShadeError(`${name} must be a rotation and a translation, without scale`);
+                throw refused();
             }
         }
     }
+    if ([3, 7, 11].some((k) => Math.abs(m[k]) > 1e-3) || Math.abs(m[15] - 1) > 1e-3) throw refused();
+    const side = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
+    if (side[0] * m[8] + side[1] * m[9] + side[2] * m[10] < 0) throw refused();
     return { turn: [0, 4, 8, 1, 5, 9, 2, 6, 10].map((k) => m[k]), place: [12, 13, 14].map((k) => m[k]) };
 }
 
@@ -48,16 +52,22 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
     [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
-    const forgotten = new FinalizationRegistry(({ scene, scratch, held }) => {
-        library.renderer_close(scratch);
-        library.scene_close(scene);
-        Object.values(held).forEach(({ at }) => library.give(at));
-    });
+    const forgotten = new FinalizationRegistry((scene) => library.scene_close(scene));
+    // One picture is drawn at a time: its memory serves all renderers, so that one that is not freed
+    // keeps its meshes and textures alone.
+    const scratch = library.renderer_open(), held = {};    // name to { at, bytes }
+
+    /** Memory that is kept, at least so large */
+    function kept(name, bytes) {
+        if (held[name]?.bytes >= bytes) return held[name].at;
+        if (held[name]) library.give(held[name].at);
+        delete held[name];
+        held[name] = { at: take(bytes), bytes };
+        return held[name].at;
+    }
 
     return class Renderer {
-        #scene = library.scene_open();
-        #scratch = library.renderer_open();
-        #held = {};    // memory of the module that stays: name to { at, bytes }
+        #made = library.scene_open();
         #objects = new ArrayBuffer(0);
         #count = 0;
         #meshes = 0;
@@ -76,25 +86,22 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 throw new ShadeError("height and width times samples must be at most 16384, not " +
                                      `${Math.max(height, width) * this.samples}`);
             }
-            if (!this.#scene || !this.#scratch) throw new RangeError("memory is not enough for a scene");
-            forgotten.register(this, { scene: this.#scene, scratch: this.#scratch, held: this.#held }, this);
+            if (!this.#made || !scratch) throw new RangeError("memory is not enough for a scene");
+            forgotten.register(this, this.#made, this);
             this.light([{ position: [0.5, -1, 1.2, 0], diffuse: [0.75, 0.75, 0.75],
                           specular: [0.75, 0.75, 0.75] }], [0.25, 0.25, 0.25]);
         }
 
-        /** Memory that is kept, at least so large */
-        #room(name, bytes) {
-            const held = this.#held[name];
-            if (held && held.bytes >= bytes) return held.at;
-            if (held) library.give(held.at);
-            delete this.#held[name];
-            this.#held[name] = { at: take(bytes), bytes };
-            return this.#held[name].at;
+        /** Where the module keeps the scene */
+        get #scene() {
+            if (!this.#made) throw new ShadeError("renderer was freed");
+            return this.#made;
         }
 
         // ---- what is drawn
 
-        /** A mesh for add(): a Mesh, or its positions, indices, normals, uv and colors. */
+        /** A mesh for add(): a Mesh with its colour and its texture, or positions, indices, normals, uv and
+         *  colors. */
         mesh(source) {
             const made = prepared(source);
             if (!made.positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
@@ -102,7 +109,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (made !== source) made.free();
             if (number < 0) throw new RangeError("memory is not enough for the mesh");
             this.#meshes++;
-            return { mesh: number, triangles: made.indices.length / 3 };
+            const own = made === source, texture = own && made.map ? this.texture(made.map) : undefined;
+            return { mesh: number, triangles: made.indices.length / 3, texture, tint: own ? made.tint : null };
         }
 
         /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
@@ -197,10 +205,11 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 floats.set(size === undefined ? [1, 1, 1] : check.isArray(size) ? check.vector("size", size, 3)
                                                           : [size, size, size], 4);
             }
-            ints[2] = got.texture === undefined ? -1
-                : check.integer("texture", got.texture, 0, this.#cubes.length - 1);
+            const texture = got.texture ?? shape.texture;
+            ints[2] = texture === undefined ? -1 : check.integer("texture", texture, 0, this.#cubes.length - 1);
             ints[3] = (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
-            floats.set(this.#color("color", got.color ?? "white"), 19);
+            const light = (x) => (this.srgb || x <= 0.0031308 ? x * (this.srgb ? 1 : 12.92) : 1.055 * x ** (1 / 2.4) - 0.055);
+            floats.set(this.#color("color", got.color ?? "white").map((x, k) => x * light(shape.tint?.[k] ?? 1)), 19);
             floats[22] = check.number("alpha", got.alpha ?? 1, 0, 1);
             floats[23] = check.number("specular", got.specular ?? 0, 0, 1e6);
             floats[24] = check.number("shininess", got.shininess ?? 32, 0, 1e6);
@@ -317,7 +326,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         _draw(out, view, projection, { near, far, parallel }, solid, emptyDepth) {
-            const pixels = this.height * this.width, s = this.#state;
+            const pixels = this.height * this.width, s = this.#state, scene = this.#scene;
             const channels = out.color?.length === 4 * pixels ? 4 : 3;
             for (const [name, width] of [["color", channels], ["depth", 1], ["ids", 2], ["normals", 3]]) {
                 if (out[name] && out[name].length !== width * pixels) {
@@ -325,11 +334,11 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 }
             }
             const at = {}, sizes = { color: channels, depth: 4, ids: 8, normals: 12 };
-            for (const name of Object.keys(sizes)) at[name] = out[name] ? this.#room(name, sizes[name] * pixels) : 0;
+            for (const name of Object.keys(sizes)) at[name] = out[name] ? kept(name, sizes[name] * pixels) : 0;
             const objects = new Uint8Array(this.#objects, 0, 4 * OBJECT * this.#count);
-            at.objects = this.#room("objects", this.#objects.byteLength + 4);
-            at.lights = this.#room("lights", 4 * LIGHT * LAMPS);
-            const shot = this.#room("shot", 4 * SHOT);
+            at.objects = kept("objects", this.#objects.byteLength + 4);
+            at.lights = kept("lights", 4 * LIGHT * LAMPS);
+            const shot = kept("shot", 4 * SHOT);
             put(at.objects, objects);
             put(at.lights, s.lamps);
             const ints = new Int32Array(library.memory.buffer, shot, SHOT);
@@ -339,7 +348,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             floats.set([near, far, emptyDepth, this.tolerance, ...view, ...projection, ...s.background, ...s.low,
                         ...s.high, ...s.ambient], 12);
             ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);
-            succeed("camera", library.renderer_draw(this.#scratch, this.#scene, shot));
+            succeed("camera", library.renderer_draw(scratch, scene, shot));
             for (const [name, Kind, width] of [["color", Uint8Array, channels], ["depth", Float32Array, 1],
                                                ["ids", Int32Array, 2], ["normals", Float32Array, 3]]) {
                 if (out[name]) out[name].set(new Kind(library.memory.buffer, at[name], width * pixels));
@@ -349,10 +358,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         free() {
             forgotten.unregister(this);
-            library.renderer_close(this.#scratch);
-            library.scene_close(this.#scene);
-            Object.values(this.#held).forEach(({ at }) => library.give(at));
-            [this.#scratch, this.#scene, this.#held] = [0, 0, {}];
+            if (this.#made) library.scene_close(this.#made);
+            this.#made = 0;
         }
     };
 }

@@ -71,24 +71,44 @@ def answer(method, given):
         return {"tools": [{"name": name, "description": what, "inputSchema": {
             "type": "object", "properties": takes, "required": needs}}
             for name, (_, what, takes, needs) in TOOLS.items()]}
-    if method == "tools/call" and given.get("name") in TOOLS:
+    if method == "tools/call" and isinstance(given.get("name"), str) and given["name"] in TOOLS:
         try:
-            return call(given["name"], given.get("arguments", {}))
-        except (ValueError, TypeError, OSError) as why:    # the model reads it and tries again
+            return call(given["name"], given.get("arguments") or {})
+        except (ValueError, TypeError, OSError, MemoryError) as why:    # the model reads it and tries again
             return {"content": [{"type": "text", "text": str(why)}], "isError": True}
     return {} if method == "ping" else None
 
 
-for line in sys.stdin:
+def told(line):
+    """The answer to a line; None to a notification."""
+    number = None
     try:
         asked = json.loads(line)
         number, method, given = asked.get("id"), asked.get("method"), asked.get("params") or {}
-    except (ValueError, AttributeError):
-        number, method, given = None, None, {}
+    except (ValueError, AttributeError, RecursionError):
+        code, result, why = -32700, None, "no JSON of an object"
     else:
         if number is None:
-            continue    # a notification
-    result = answer(method, given)
-    told = {"result": result} if result is not None else \
-        {"error": {"code": -32601 if method else -32700, "message": f"unknown: {method}"}}
-    print(json.dumps({"jsonrpc": "2.0", "id": number, **told}), flush=True)
+            return None
+        if not isinstance(number, (int, float, str)):
+            number = None
+        code, result, why = -32601, None, f"unknown: {method}"
+        if not isinstance(method, str):
+            code, why = -32600, "method must be a string"
+        elif not isinstance(given, dict) or not isinstance(given.get("arguments") or {}, dict):
+            code, why = -32602, "params and their arguments must be objects"
+        else:
+            result = answer(method, given)
+    words = {"error": {"code": code, "message": why}} if result is None else {"result": result}
+    return {"jsonrpc": "2.0", "id": number, **words}
+
+
+def main():
+    for line in sys.stdin:
+        words = told(line)
+        if words is not None:
+            print(json.dumps(words), flush=True)
+
+
+if __name__ == "__main__":
+    main()

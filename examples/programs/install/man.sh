@@ -37,5 +37,12 @@ NR == 1 {
     next
 }
 /^    / { sub(/^ +/, ""); print roff($0); next }
+/^exit status: / {
+    sub(/^exit status: /, "")
+    print ".SH \"EXIT STATUS\"\n" roff($0)
+    told = 1
+    next
+}
 NF { print ".PP\n" toupper(substr($0, 1, 1)) roff(substr($0, 2)) }
+END { if (!told) print ".SH \"EXIT STATUS\"\n0: all was done.\n1: it was not, and a line on standard error tells why." }
 '

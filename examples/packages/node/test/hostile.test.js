@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { deflateRawSync } from "node:zlib";
-import { Mesh, PRESETS, ShadeError, read3mf, readGltf, render } from "shade-h";
+import { Mesh, PRESETS, Renderer, ShadeError, read3mf, readGltf, render } from "shade-h";
 
 const box = () => ({
     positions: [0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1],
@@ -442,4 +442,62 @@ test("mutants of a 3MF are read or refused", async () => {
         }
     } finally { console.warn = warn; }
     assert.ok(read > 20 && refusals > 20, `${read} read, ${refusals} refused`);
+});
+
+test("a renderer that was freed draws nothing, and one that was not keeps little", () => {
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const drawn = () => {
+        const made = new Renderer(240, 320);
+        made.add("sphere", 0.5, { color: "red" });
+        made.light([{ position: [0, 0, 1, 0] }], [0, 0, 0], 0);
+        return { made, first: made.render(camera) };
+    };
+    const { made, first } = drawn();
+    made.free();
+    made.free();
+    for (const call of [() => made.render(camera), () => made.mesh(box()), () => made.checker()]) {
+        assert.throws(call, (error) => error instanceof ShadeError && /was freed/.test(error.message));
+    }
+    drawn();
+    const before = process.memoryUsage().rss, alive = [];
+    for (let i = 0; i < 200; i++) {
+        const next = drawn();
+        assert.deepEqual(next.first.color, first.color);
+        alive.push(next.made);    // 200 of 2 MB of shapes and 8 MB of buffers before
+    }
+    assert.ok(process.memoryUsage().rss - before < 150e6, `${process.memoryUsage().rss - before} bytes`);
+});
+
+test("colours, directions and poses out of range are refused", () => {
+    refused(/^color must be from 0 to 1/, { ...box(), color: [255, 0, 0] });
+    refused(/position must not be zero/, box(), { ...small, light: { lights: [{ position: [0, 0, 0, 0] }] } });
+    const made = new Renderer(8, 8);
+    made.add("sphere", 1);
+    const row = [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1], mirror = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1];
+    for (const wrong of [row, mirror]) {
+        assert.throws(() => made.pose(0, wrong), /must be a rotation and a translation/);
+        assert.throws(() => made.poses([wrong]), /must be a rotation and a translation/);
+    }
+    made.free();
+});
+
+test("a Renderer draws the colour and the texture of a Mesh", () => {
+    const quad = { positions: [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], indices: [0, 1, 2, 0, 2, 3] };
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [3, 0, 0, 0, 0, 3, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const pixel = (mesh, options) => {
+        const made = new Renderer(8, 8, options);
+        made.light([], [1, 1, 1]);
+        made.add(made.mesh(new Mesh(mesh)));
+        const { color } = made.render(camera);
+        made.free();
+        return Array.from(color.slice(3 * 36, 3 * 37));
+    };
+    for (const options of [{}, { srgb: false }]) {
+        assert.deepEqual(pixel({ ...quad, color: "#ff8000" }, options), [255, 128, 0]);
+        assert.deepEqual(pixel({ ...quad, uv: new Float32Array(8), texture: { data: [9, 200, 77], width: 1, height: 1 } }, options),
+                         [9, 200, 77]);
+        assert.deepEqual(pixel(quad, options), [255, 255, 255]);
+    }
 });

@@ -84,7 +84,7 @@ test("the recorded state has the recorded pictures", () => {
     const take = renderer.take.bind(renderer);
     renderer.take = (taken) => { scene = taken; };
     renderer.update_scene(data, "eye");
-    assert.throws(() => renderer.render(), /update_scene/);
+    assert.ok(renderer.render().every((x) => x === 0), "black before a scene is taken, as in MuJoCo");
     const kept = process.env.UPDATE ? null : JSON.parse(readFileSync(process.env.RECORDING, "utf8"));
     delete renderer.take;
     take(kept?.scene ?? scene);
@@ -98,4 +98,6 @@ test("the recorded state has the recorded pictures", () => {
         writeFileSync(process.env.RECORDING, `${JSON.stringify({ model: fields, scene, hashes })}\n`);
     } else assert.deepEqual(hashes, kept.hashes);
     renderer.close();
+    assert.throws(() => renderer.render(), /after close/);
+    assert.throws(() => renderer.update_scene(data), /after close/);
 });

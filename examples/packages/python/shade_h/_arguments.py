@@ -3,6 +3,7 @@ name."""
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any, Sequence, Union
 
 import numpy as np
@@ -125,7 +126,8 @@ def faces(name: str, value: object, vertices: int) -> Indices:
 
 
 def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Floats:
-    """Linear light of an array of display colours, 0 .. 1 or bytes; alpha is left out."""
+    """Linear light of an array of display colours, 0 .. 1 or bytes; alpha is left out, with a
+    warning where it counts."""
     got = array(name, value, (None, None))
     if got.shape[1] not in columns:
         raise Error(f"{name} must have 3 or 4 columns, not {got.shape[1]}")
@@ -134,6 +136,8 @@ def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Float
         raise Error(f"{name} must be from 0 to {'255' if whole else '1 (or whole, to 255)'}, "
                     f"not {got.min():g} .. {got.max():g}")
     scale = 1 / 255 if whole else 1.0
+    if got.size and got.shape[1] == 4 and got[:, 3].min() < 1 / scale:
+        warnings.warn(f"{name}: its alpha is left out", stacklevel=4)
     rgb = np.ascontiguousarray(got[:, :3] * np.float32(scale), dtype=np.float32)
     library.python_linear(pointer(rgb), len(rgb))
     return rgb
@@ -157,14 +161,33 @@ def hexadecimal(name: str, text: str) -> list[float]:
     return [(value >> shift & 255) / 255 for shift in (16, 8, 0)]
 
 
+def displayed(name: str, value: object) -> Array:
+    """One display colour, 0 .. 1 or bytes, of three numbers or four."""
+    got = array(name, hexadecimal(name, value) if isinstance(value, str) else value, (None,))
+    # (1, 0, 0) is red, and np.array([1, 0, 0]) too: only bytes that say so are nearly black
+    ones = got.dtype.kind in "iu" and got.dtype != np.uint8 and got.size and got.max() <= 1
+    return np.asarray(got.astype(float) if ones and got.min() >= 0 else got)
+
+
 def color(name: str, value: object) -> tuple[float, float, float]:
     """One display colour in linear light."""
-    if isinstance(value, str):
-        value = hexadecimal(name, value)
-    if isinstance(value, (tuple, list)) and all(type(v) is int and 0 <= v <= 1 for v in value):
-        value = [float(v) for v in value]    # (1, 0, 0) is red: nobody writes nearly black so
-    rgb = linear(name, array(name, value, (None,))[None])[0]
+    rgb = linear(name, displayed(name, value)[None])[0]
     return float(rgb[0]), float(rgb[1]), float(rgb[2])
+
+
+def rigid(name: str, value: object, count: int | None = None) -> Doubles:
+    """A matrix of 4 x 4, or so many: rotations and translations, whose last row is 0, 0, 0, 1."""
+    single = count is None
+    got = doubles(name, value, (4, 4) if single else (count, 4, 4), finite=True)
+    all_of = got[None] if single else got
+    turns = all_of[:, :3, :3]
+    wrong = np.abs(turns @ turns.transpose(0, 2, 1) - np.eye(3)).max((1, 2)) > 1e-3
+    wrong |= np.abs(all_of[:, 3] - (0, 0, 0, 1)).max(1) > 1e-3
+    wrong |= np.linalg.det(turns) < 0
+    if wrong.any():
+        raise Error(f"{name}{'' if single else f'[{wrong.argmax()}]'} must be a rotation and a "
+                    "translation, without scale, with 0, 0, 0, 1 in the last row")
+    return got
 
 
 def matrix(name: str, value: object) -> Floats:

@@ -1,6 +1,7 @@
 """What is drawn over a finished picture: the colours of scalars with their bar, and text."""
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,7 +64,7 @@ class Bar:
     def place(self, values: Doubles) -> Doubles:
         """Where numbers lie between the ends, 0 .. 1; those beyond lie at the ends."""
         if self.high <= self.low:
-            return np.where(np.isnan(values), np.nan, 0.5)
+            return np.where(np.isinf(values), (values > 0) * 1.0, np.where(np.isnan(values), np.nan, 0.5))
         with np.errstate(invalid="ignore", over="ignore"):
             return np.clip((values - self.low) / (self.high - self.low), 0.0, 1.0)
 
@@ -132,6 +133,10 @@ def words_of(name: str, value: object) -> str:
         raise Error(f"{name} must be text, not {arguments.shown(value)}")
     if len(value) > MOST_TEXT:
         raise Error(f"{name} must have at most {MOST_TEXT} characters, not {len(value)}")
+    missing = sorted({c for c in value if not c.isspace() and c != "\0" and not library.python_has_letter(ord(c))})
+    if missing:
+        warnings.warn(f"{name}: the font has no {' '.join(missing)}: a question mark stands for it",
+                      stacklevel=4)
     return " ".join(value.split())
 
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Sequence, Union
 
 import numpy as np
@@ -37,6 +37,7 @@ class Camera:
     view: Matrix
     projection: Matrix
     _near: tuple[Matrix, Matrix] | None = field(default=None, repr=False)
+    _free: bool = field(default=False, repr=False)    # its aspect is that of the picture
 
     def __post_init__(self) -> None:
         """Refuses matrices of another shape, with NaN, or whose view is no rigid motion."""
@@ -62,11 +63,20 @@ class Camera:
         out[:3, 3] += out[:3, :3] @ origin
         return out
 
+    def sized(self, width: int, height: int) -> Camera:
+        """The camera for a picture of a size, which gives its aspect where none was said."""
+        if not self._free:
+            return self
+        projection = self.projection.copy()
+        projection[0, 0] = projection[1, 1] * height / width
+        return replace(self, projection=projection)
+
     @staticmethod
     def look_at(eye: Sequence[float], target: Sequence[float] = (0, 0, 0),
-                up: Sequence[float] = (0, 0, 1), fov: float = 45.0, aspect: float = 1.0,
+                up: Sequence[float] = (0, 0, 1), fov: float = 45.0, aspect: float | None = None,
                 near: float = 0.01, far: float = 1000.0) -> Camera:
-        """A camera at eye that looks at target; fov is the vertical angle in degrees."""
+        """A camera at eye that looks at target; fov is the vertical angle in degrees.  Without
+        aspect that of each picture is taken."""
         at = arguments.doubles("eye", eye, (3,), finite=True)
         back = at - arguments.doubles("target", target, (3,), finite=True)
         if not np.any(back):
@@ -74,7 +84,8 @@ class Camera:
         turn = _facing(back, arguments.floats("up", up, (3,), finite=True).astype(float))
         view = np.eye(4)
         view[:3, :3], view[:3, 3] = turn, -turn @ at
-        return Camera(view, perspective(fov, aspect, near, far))
+        made = perspective(fov, 1.0 if aspect is None else aspect, near, far)
+        return Camera(view, made, None, aspect is None)
 
     @staticmethod
     def opencv(K: object, extrinsics: object, size: object, near: float = 0.01,

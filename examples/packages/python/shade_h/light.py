@@ -58,6 +58,13 @@ def _vector(name: str, value: object, length: int = 3) -> tuple[float, ...]:
     return tuple(float(x) for x in arguments.floats(name, value, (length,), finite=True))
 
 
+def _way(name: str, value: object) -> tuple[float, ...]:
+    way = _vector(name, value)
+    if not any(way):
+        raise Error(f"{name} must not be zero: it is a direction")
+    return way
+
+
 @dataclass(frozen=True)
 class Material:
     """k_e, k_a, k_d, k_s and n of a surface."""
@@ -94,7 +101,7 @@ class Light:
     @staticmethod
     def directional(travel: Vector, color: Vector = WHITE) -> Light:
         """A distant lamp whose light travels that way."""
-        x, y, z = _vector("travel", travel)
+        x, y, z = _way("travel", travel)
         return Light((-x, -y, -z, 0.0), color, color)
 
     @staticmethod
@@ -110,11 +117,13 @@ class Light:
              color: Vector = WHITE) -> Light:
         """A lamp that points along aim; cutoff is in radians from the axis to the cone's edge."""
         cosine = math.cos(arguments.number("cutoff", cutoff, 0, math.pi))
-        return replace(Light.point(position, color), spot_direction=_vector("aim", aim),
+        return replace(Light.point(position, color), spot_direction=_way("aim", aim),
                        spot_exponent=exponent, spot_cos_cutoff=cosine)
 
     def native(self) -> NativeLight:
         """The struct of the library."""
+        if not any(_vector("position", self.position, 4)):
+            raise Error("position must not be zero: with w = 0 it is a direction")
         colors = (_vector(k, getattr(self, k)) for k in ("ambient", "diffuse", "specular"))
         numbers = (arguments.number(k, getattr(self, k), -3e38, 3e38)
                    for k in ("constant", "linear", "quadratic"))

@@ -124,6 +124,10 @@ def _aimed(one: Any, two: Any, aspect: float) -> tuple[Array, Array, float, floa
     return view, p, near, far, bool(one.orthographic)
 
 
+class _Kind(Error, TypeError):
+    """An array of another type, which MuJoCo's own bindings refuse with a TypeError."""
+
+
 class Renderer:
     """Renders MuJoCo scenes, as mujoco.Renderer does, without OpenGL."""
 
@@ -131,7 +135,14 @@ class Renderer:
                  font_scale: Any = None, depth_mapping: Any = None,
                  depth_precision: Any = None) -> None:
         """model is an MjModel.  The last three, which mujoco.Renderer has, are taken and not used."""
+        buffer = getattr(getattr(model, "vis", None), "global_", None)
+        for name, size, most in (("width", width, getattr(buffer, "offwidth", None)),
+                                 ("height", height, getattr(buffer, "offheight", None))):
+            if most is not None and size > most:
+                raise Error(f"Image {name} {size} > framebuffer {name} {most}: reduce it, or specify a "
+                            f"larger framebuffer in the model: <visual><global off{name}=\"{size}\"/>")
         self._base = _Base(height, width, srgb=False)
+        self._closed = False
         self._model, self._max_geom = model, max_geom
         self._meshes: dict[tuple[int, int], int] = {}
         self._textures: dict[int, int] = {}
@@ -243,6 +254,7 @@ class Renderer:
 
     def update_scene(self, data: Any, camera: Any = -1, scene_option: Any = None) -> None:
         """Takes the state of data as a camera sees it: a number (-1: free), a name or an MjvCamera."""
+        self._open("update_scene")
         scene, used = self.scene, camera
         mj = self._mujoco
         if mj is None:
@@ -269,12 +281,16 @@ class Renderer:
         """Colour, (height, width, 3) bytes; or depth, (height, width) float32 in metres; or
         segmentation, (height, width, 2) int32, pairs of object and type, (-1, -1) where there is
         nothing."""
-        if not self._filled:
-            raise Error("render: call update_scene first")
+        self._open("render")
         size = (self.height, self.width)
         shape, kind = (size, np.float32) if self._depth else \
             ((*size, 2), np.int32) if self._segmentation else ((*size, 3), np.uint8)
+        if isinstance(out, np.ndarray) and out.shape == shape and out.dtype != kind:
+            raise _Kind(f"out must be {np.dtype(kind)}, not {out.dtype}")
         to = arguments.into("out", out, shape, kind)
+        if not self._filled:    # an empty scene, as in MuJoCo
+            to[...] = -1 if self._segmentation else 0
+            return to
         self._read(self._scene)
         solid = self._depth or self._segmentation
         if solid:    # what has no number is in colour alone, as MuJoCo draws it
@@ -304,7 +320,13 @@ class Renderer:
         self._segmentation = False
 
     def close(self) -> None:
-        """There is no context to close."""
+        """From now on nothing is drawn, and the memory is given back."""
+        self._closed = True
+        self._base = _Base(1, 1, srgb=False)
+
+    def _open(self, name: str) -> None:
+        if self._closed:
+            raise RuntimeError(f"{name} cannot be called after close.")
 
     def __enter__(self) -> Renderer:
         """Itself."""

@@ -59,8 +59,18 @@ class Picture:
 
     @property
     def blank(self) -> bool:
-        """Is there no part in the picture?"""
-        return not bool((self.ids >= 0).any())
+        """Is there no part in the picture, or none that differs from what is behind?"""
+        return not bool((self.ids >= 0).any()) or self._hidden()
+
+    def _hidden(self) -> bool:
+        """Do all parts have the colour of what is behind them?"""
+        there = self.ids >= 0
+        if there.all():
+            return False
+        shown = np.where(self.rgba[..., 3:] > 0, self.rgba, 0).astype(np.int32)
+        behind = shown[~there]
+        return bool(np.ptp(shown[there], 0).max() <= 2 and
+                    np.abs(shown[there] - behind[0]).max() <= 2 and np.ptp(behind, 0).max() <= 2)
 
     def report(self) -> str:
         """What is in the picture, in words, for a program that cannot look: what is covered, the
@@ -70,6 +80,9 @@ class Picture:
         y, x = np.nonzero(self.ids >= 0)
         if not len(x):
             lines = [f"{width} x {height} pixels, blank: no part is in view."]
+        elif self._hidden():
+            lines = [f"{width} x {height} pixels, blank: all parts have the colour of what is behind "
+                     "them."]
         else:
             lines = [f"{width} x {height} pixels, {_percent(len(x) / self.ids.size)} covered, "
                      f"from column {x.min()} to {x.max()} and row {y.min()} to {y.max()}."]

@@ -11,6 +11,7 @@ import numpy as np
 from . import _arguments as arguments
 from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Integers, Light as NativeLight,
                       Mesh as NativeMesh, check, library, pointer)
+from .annotate import display
 from .camera import Camera
 from .light import Light
 from .mesh import Mesh
@@ -21,7 +22,6 @@ SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, 
 _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cylinder": 5, "box": 6}
 _HIDDEN, _TWO_SIDED, _NO_SHADOW = 1, 2, 4
 _LAMPS = 8
-_UNIT = np.eye(3)
 
 
 class Frame(NamedTuple):
@@ -64,9 +64,10 @@ class Frame(NamedTuple):
 class Shape:
     """A mesh of a renderer, of which any number of objects are instances."""
 
-    def __init__(self, number: int, count: int) -> None:
-        """Keeps its number; only a Renderer makes shapes."""
-        self.number, self.count = number, count
+    def __init__(self, number: int, count: int, texture: int = -1, alpha: float = 1.0) -> None:
+        """Keeps its number, and what its objects have without a texture and alpha of their own; only
+        a Renderer makes shapes."""
+        self.number, self.count, self.texture, self.alpha = number, count, texture, alpha
 
 
 class _Scene:
@@ -122,7 +123,7 @@ class Renderer:
         r = shade_h.Renderer(240, 320)
         r.add("plane", color="#808080")
         ball = r.add("sphere", 0.5, at=(0, 0, 0.5), color="red")
-        frame = r.render(shade_h.Camera.look_at((3, -3, 2), aspect=320 / 240))
+        frame = r.render(shade_h.Camera.look_at((3, -3, 2)))
 
     Threads may draw at the same time; objects, lights and shapes are changed between pictures.  A
     Renderer can be pickled, and lives on in a forked process.
@@ -157,17 +158,51 @@ class Renderer:
 
     def mesh(self, vertices: object, faces: object = None, *, normals: object = "auto",
              uv: object = None, colors: object = None) -> Shape:
-        """A mesh for add(): arrays as for shade_h.Mesh, or a Mesh; uv needs a texture in add()."""
+        """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
+        Mesh, as load() gives it, with its colours and its texture.  An object has one texture: of a
+        mesh with several, or with one on a part of it, each surface must be a mesh of its own."""
         if isinstance(vertices, Mesh):
             made = vertices
         else:
             texture = None if uv is None else np.full((1, 1, 3), 255, np.uint8)
             made = Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
+        pieces = [piece for piece in made.pieces if piece.count]
+        maps = [piece.texture for piece in pieces]
+        if len({None if m is None else (m.shape, m.tobytes()) for m in maps}) > 1:
+            raise Error(f"vertices: the mesh has {len(maps)} surfaces with textures of their own, and "
+                        "an object one texture: make a mesh of each")
         positions = np.ascontiguousarray(made.positions + made.origin.astype(np.float32))
         if not np.isfinite(positions).all():
             raise Error("vertices must hold finite numbers that fit float32")
         indices = np.ascontiguousarray(made.indices, np.uint32)
-        return self._keep_mesh(positions, made.normals, made.uv, made.colors, indices)
+        rows: list[Any] = [positions, made.normals, made.uv, made.colors]
+        tints = [piece.surface.material.diffuse if piece.surface.material is not None else made.color
+                 for piece in pieces]
+        if any(tint is not None for tint in tints):
+            rows, indices = self._tinted(rows, indices, pieces, tints)
+        if rows[3] is not None and not self.srgb:
+            rows[3] = display(rows[3])
+        shape = self._keep_mesh(rows[0], rows[1], rows[2], rows[3], indices)
+        if isinstance(vertices, Mesh) and pieces:
+            shape.texture = -1 if maps[0] is None else self.texture(maps[0])
+            shape.alpha = float(pieces[0].surface.opacity) if len(pieces) == 1 else 1.0
+        return shape
+
+    @staticmethod
+    def _tinted(rows: list[Any], indices: Any, pieces: list[Any], tints: list[Any]) -> tuple[Any, Any]:
+        """Vertices of each surface apart, with its colour."""
+        used, at, colors, first = [], [], [], 0
+        for piece, tint in zip(pieces, tints):
+            own, index = np.unique(indices[piece.first:piece.first + piece.count], return_inverse=True)
+            plain = np.array((1, 1, 1) if tint is None else tint, np.float32)
+            color = np.broadcast_to(plain, (len(own), 3))
+            used.append(own)
+            at.append(index.reshape(-1, 3) + first)
+            colors.append(color if rows[3] is None else color * rows[3][own])
+            first += len(own)
+        whole = np.concatenate(used)
+        out = [None if row is None else row[whole] for row in rows[:3]]
+        return [*out, np.concatenate(colors)], np.ascontiguousarray(np.concatenate(at), np.uint32)
 
     def _keep_mesh(self, positions: Any, normals: Any, uv: Any, colors: Any, indices: Any,
                    smooth: bool = False) -> Shape:
@@ -228,18 +263,16 @@ class Renderer:
         squares = np.zeros((64, 64, 3), np.uint8)
         odd = (np.arange(64)[:, None] < 32) ^ (np.arange(64)[None] < 32)
         for color, where in ((one, odd), (other, ~odd)):
-            squares[where] = np.round(255 * np.asarray(self._displayed("color", color)))
+            shown = arguments.displayed("color", color)[:3]
+            squares[where] = shown if shown.dtype.kind in "iu" else np.round(255 * shown)
         return self.texture(squares)
-
-    def _displayed(self, name: str, color: object) -> tuple[float, ...]:
-        if isinstance(color, str):
-            return tuple(arguments.hexadecimal(name, color))
-        return tuple(arguments.doubles(name, color, (3,)).tolist())
 
     def _color(self, name: str, value: object) -> list[float]:
         if self.srgb:
             return list(arguments.color(name, value))
-        return list(self._displayed(name, value))
+        rgb = arguments.displayed(name, value)
+        arguments.linear(name, rgb[None])    # refuses what is out of range
+        return [float(x) for x in rgb[:3] / (255 if rgb.dtype.kind in "iu" else 1)]
 
     def add(self, shape: str | Shape, size: object = None, at: Sequence[float] = (0, 0, 0),
             pose: object = None, *, color: object = "white", alpha: float = 1.0,
@@ -264,13 +297,13 @@ class Renderer:
         else:
             arguments.choice("shape", shape, list(SHAPES))
             o["kind"], o["size"] = _KINDS[shape], self._size(shape, size)
-        o["texture"] = -1
+        o["texture"] = shape.texture if isinstance(shape, Shape) else -1
         if texture is not None:
             o["texture"] = arguments.integer("texture", texture, 0, self._textures - 1)
         o["flags"] = (_TWO_SIDED if arguments.flag("two_sided", two_sided) else 0) | \
             (0 if arguments.flag("casts_shadow", casts_shadow) else _NO_SHADOW)
-        o["rgba"][:3] = self._color("color", color)
-        o["rgba"][3] = arguments.number("alpha", alpha, 0, 1)
+        own = shape.alpha if isinstance(shape, Shape) else 1.0
+        o["rgba"][:3], o["rgba"][3] = self._clear(color, arguments.number("alpha", alpha, 0, 1) * own)
         o["specular"] = arguments.number("specular", specular, 0, 1e6)
         o["shininess"] = arguments.number("shininess", shininess, 0, 1e6)
         o["emission"] = arguments.number("emission", emission, 0, 1e6)
@@ -281,6 +314,16 @@ class Renderer:
         self._objects[self._count] = o
         self._count += 1
         return self._count - 1
+
+    def _clear(self, color: object, alpha: float) -> tuple[list[float], float]:
+        """A colour, and alpha times its own."""
+        if isinstance(color, str):
+            return self._color("color", color), alpha
+        got = arguments.displayed("color", color)
+        own = float(got[3]) / (255 if got.dtype.kind in "iu" else 1) if len(got) == 4 else 1.0
+        if not 0 <= own <= 1:
+            raise Error(f"color must have an alpha from 0 to 1, or to 255 in whole numbers, not {own:g}")
+        return self._color("color", got[:3]), alpha * own
 
     @staticmethod
     def _size(shape: str, size: object) -> Floats:
@@ -299,10 +342,7 @@ class Renderer:
         if pose is None:
             o["place"], o["turn"] = arguments.floats(name, at, (3,), True), np.eye(3)
             return
-        m = arguments.doubles(name, pose, (4, 4), finite=True)
-        if not np.allclose(m[:3, :3] @ m[:3, :3].T, np.eye(3), atol=1e-3) or \
-                not np.allclose(m[3], (0, 0, 0, 1)):
-            raise Error(f"{name} must be a rotation and a translation, without scale")
+        m = arguments.rigid(name, pose)
         o["place"], o["turn"] = m[:3, 3], m[:3, :3]
 
     def pose(self, number: int, pose: object) -> None:
@@ -312,14 +352,8 @@ class Renderer:
 
     def poses(self, poses: object) -> None:
         """Moves all objects: (n, 4, 4), a row for each; nothing moves where one is refused."""
-        got = arguments.doubles("poses", poses, (self._count, 4, 4), finite=True)
-        turns = got[:, :3, :3]
-        error = np.abs(turns @ turns.transpose(0, 2, 1) - _UNIT)
-        if error.size and error.max() > 1e-3:
-            wrong = int((error.max((1, 2)) > 1e-3).argmax())
-            raise Error(f"poses[{wrong}] must be a rotation and a translation, "
-                        "without scale")
-        self._objects["turn"][:self._count] = turns
+        got = arguments.rigid("poses", poses, self._count)
+        self._objects["turn"][:self._count] = got[:, :3, :3]
         self._objects["place"][:self._count] = got[:, :3, 3]
 
     def show(self, number: int, visible: bool = True) -> None:
@@ -389,6 +423,7 @@ class Renderer:
         if not isinstance(camera, Camera):
             raise Error(f"camera must be a shade_h.Camera, not {arguments.shown(camera)}")
         frame = self.frame(normals=normals) if out is None else self._checked(out)
+        camera = camera.sized(self.width, self.height)
         near, far, parallel = _range_of(camera.projection)
         return self._draw(frame, camera.view, camera.projection, near, far, parallel, solid,
                           empty_depth)

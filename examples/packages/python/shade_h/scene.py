@@ -290,7 +290,7 @@ class Scene:
         if points is not None and not isinstance(camera, Camera):
             camera = self._fitted(points, camera, (width, height), up, ortho,
                                   room=1.5 if soft else 0.0, origin=origin)
-        camera = at(camera)
+        camera = at(camera).sized(width, height)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
         rgba = np.empty((height, width, 4), np.uint8)
@@ -357,6 +357,7 @@ class Scene:
         if any(np.may_share_memory(x, y) for x, y in ((colors, depths), (depths, numbers),
                                                       (colors, numbers)) if n):
             raise Error("rgb, depth and ids must not overlap")
+        seen = [camera.sized(width, height) for camera in seen]
         behind = _background(background)
         views = (View * max(n, 1))()
         for i, camera in enumerate(seen):
@@ -555,6 +556,11 @@ def _add_all(scene: Scene, sources: Any, section: object, view: Viewpoint, up: s
         upright = up if up is not None else known[0] if known else "z"
         ways = direction(view, upright)[0], direction("iso", upright)[0]
         plane = plane_of(section, boxes[:, 0].min(0), boxes[:, 1].max(0), ways)
+        corners = np.stack(np.meshgrid(*np.stack([boxes[:, 0].min(0), boxes[:, 1].max(0)], 1)), -1)
+        side = (corners - plane[0]) @ plane[1]
+        if side.min() > 0 or side.max() < 0:
+            raise Error("section does not cut the parts, which reach from "
+                        f"{boxes[:, 0].min(0).tolist()} to {boxes[:, 1].max(0).tolist()}")
         made = [cut(mesh, *plane) for mesh in made]
     for mesh in made:
         scene.add(mesh, None, material, edges=edges)

@@ -1,6 +1,7 @@
 """Meshes cut open by a plane, the cut filled and hatched."""
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -113,14 +114,18 @@ def _filled(cuts: Doubles) -> Doubles:
     way = np.where(rising, 1, -1)[which][order]
     winding = np.cumsum(way)
     total = np.add.reduceat(way, np.flatnonzero(np.r_[True, row[1:] != row[:-1]]))
-    if total.any():    # an open or ill-turned mesh: between each second pair of crossings
+    if total.any():
+        warnings.warn("section: the mesh is open where it is cut: the cut is filled between each second "
+                      "pair of its lines", stacklevel=6)
+        # an open or ill-turned mesh: between each second pair of crossings
         rank = np.arange(len(row)) - np.searchsorted(row, row)
         winding = (rank + 1) % 2
     fill = np.flatnonzero((winding[:-1] != 0) & (row[1:] == row[:-1]))
     y0, y1 = levels[row[fill]], levels[row[fill] + 1]
     # rows reach a little over each other, so that no pixel falls between them
     more = 2e-5 * (levels[-1] - levels[0])
-    return np.stack([np.stack([x0[fill], y0 - more], 1), np.stack([x0[fill + 1], y0 - more], 1),
+    y0 = np.maximum(y0 - more, levels[0])    # and not over the part
+    return np.stack([np.stack([x0[fill], y0], 1), np.stack([x0[fill + 1], y0], 1),
                      np.stack([x1[fill + 1], y1], 1), np.stack([x1[fill], y1], 1)], 1)
 
 

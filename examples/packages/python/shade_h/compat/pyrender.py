@@ -13,7 +13,7 @@ import functools
 import math
 import warnings
 from dataclasses import replace
-from typing import Any, Iterable, Sequence
+from typing import Any, Iterable, List, Sequence
 
 import numpy as np
 
@@ -128,6 +128,8 @@ class Primitive(_Bounded):
             arguments.floats("texcoord_0", np.asarray(texcoord_0)[:, :2], (count, 2))
         self.color_0 = None if color_0 is None else self._colors(color_0, count)
         self.material = material or MetallicRoughnessMaterial()
+        self.tangents, self.texcoord_1, self.targets = tangents, texcoord_1, targets
+        self.joints_0, self.weights_0 = joints_0, weights_0
         self.poses = None if poses is None else arguments.doubles("poses", poses, (None, 4, 4), True)
 
     @staticmethod
@@ -170,6 +172,7 @@ class Mesh(_Bounded):
                  weights: Any = None, is_visible: bool = True) -> None:
         """Keeps the primitives."""
         self.primitives, self.name, self.is_visible = list(primitives), name, bool(is_visible)
+        self.weights = weights
 
     @property
     def bounds(self) -> Array:
@@ -224,14 +227,41 @@ def _primitive(mesh: Any, material: Any, poses: Any, smooth: bool) -> Primitive:
                      material=material, poses=poses)
 
 
+class _Number:
+    """A number of an object within bounds, which may be attributes of it; those that are open do not
+    belong to the range.  As in pyrender None is a TypeError, a number out of range a ValueError."""
+
+    def __init__(self, low: float | str, high: float | str, open_low: bool = True, none: bool = False) -> None:
+        self.low, self.high, self.open_low, self.none = low, high, open_low, none
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, one: Any, kind: type | None = None) -> Any:
+        return one.__dict__[self.name]
+
+    def __set__(self, one: Any, value: Any) -> None:
+        if value is None and self.none:
+            one.__dict__[self.name] = None
+            return
+        if value is None:
+            raise TypeError(f"{self.name} must be a number, not None")
+        low, high = (one.__dict__.get(end, math.inf) if isinstance(end, str) else end
+                     for end in (self.low, self.high))
+        got = arguments.number(self.name, value, low, high)
+        if self.open_low and got <= low:
+            raise Error(f"{self.name} must be above {low:g}, not {got:g}")
+        one.__dict__[self.name] = got
+
+
 class Camera:
     """What the cameras have in common: znear, zfar and a matrix of OpenGL."""
 
+    znear, zfar = _Number(0, 1e9, open_low=False), _Number("znear", 1e12, none=True)
+
     def __init__(self, znear: float = 0.05, zfar: float | None = None, name: str | None = None) -> None:
         """zfar None: everything is seen, however far."""
-        self.znear = arguments.number("znear", znear, 1e-9, 1e9)
-        self.zfar = None if zfar is None else arguments.number("zfar", zfar, self.znear, 1e12)
-        self.name = name
+        self.znear, self.zfar, self.name = znear, zfar, name
 
     def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
         """The matrix for a picture of a size."""
@@ -248,11 +278,13 @@ class Camera:
 class PerspectiveCamera(Camera):
     """yfov is the vertical angle in radians; without aspectRatio that of the picture is taken."""
 
+    yfov, aspectRatio = _Number(0, 3.14), _Number(0, 1e6, none=True)
+
     def __init__(self, yfov: float, znear: float = 0.05, zfar: float | None = None,
                  aspectRatio: float | None = None, name: str | None = None) -> None:
         """A camera that looks down -z."""
         super().__init__(znear, zfar, name)
-        self.yfov, self.aspectRatio = arguments.number("yfov", yfov, 1e-4, 3.14), aspectRatio
+        self.yfov, self.aspectRatio = yfov, aspectRatio
 
     def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
         """The matrix for a picture of a size."""
@@ -268,6 +300,8 @@ class PerspectiveCamera(Camera):
 
 class IntrinsicsCamera(Camera):
     """fx, fy, cx and cy in pixels."""
+
+    fx, fy, cx, cy = _Number(0, 1e9), _Number(0, 1e9), _Number(-1e9, 1e9), _Number(-1e9, 1e9)
 
     def __init__(self, fx: float, fy: float, cx: float, cy: float, znear: float = 0.05,
                  zfar: float | None = 100.0, name: str | None = None) -> None:
@@ -288,15 +322,17 @@ class IntrinsicsCamera(Camera):
 class OrthographicCamera(Camera):
     """xmag and ymag are half the width and height of what is seen."""
 
+    xmag, ymag, zfar = _Number(0, 1e12), _Number(0, 1e12), _Number("znear", 1e12)
+
     def __init__(self, xmag: float, ymag: float, znear: float = 0.05, zfar: float = 100.0,
                  name: str | None = None) -> None:
         """A camera that looks down -z."""
         super().__init__(znear, zfar, name)
-        self.xmag, self.ymag = float(xmag), float(ymag)
+        self.xmag, self.ymag = xmag, ymag
 
     def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
         """The matrix for a picture of a size."""
-        n, f = self.znear, self.zfar or 100.0
+        n, f = self.znear, self.zfar
         p = np.diag([1 / self.xmag, 1 / self.ymag, 2 / (n - f), 1.0])
         p[2, 3] = (f + n) / (n - f)
         return p
@@ -305,11 +341,24 @@ class OrthographicCamera(Camera):
 class Light:
     """color, 0 .. 1, times intensity."""
 
+    intensity, range = _Number(0, 1e12, open_low=False), _Number(0, 1e12, none=True)
+
     def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
                  name: str | None = None) -> None:
         """range is taken and not used."""
-        self.color = _vector("color", 1.0 if color is None else color, 3)
-        self.intensity, self.range, self.name = float(intensity), range, name
+        self.color = 1.0 if color is None else color
+        self.intensity, self.range, self.name = intensity, range, name
+
+    @property
+    def color(self) -> Array:
+        """Three numbers."""
+        return self._color
+
+    @color.setter
+    def color(self, value: Any) -> None:
+        if value is None:
+            raise Error("color must be a colour, not None")
+        self._color = _vector("color", value, 3)
 
 
 class DirectionalLight(Light):
@@ -323,12 +372,15 @@ class PointLight(Light):
 class SpotLight(Light):
     """A lamp that points along -z of its node; angles in radians from the axis."""
 
+    innerConeAngle = _Number(0, "outerConeAngle", open_low=False)
+    outerConeAngle = _Number(0, math.pi / 2 + 1e-9, open_low=False)
+
     def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
                  innerConeAngle: float = 0.0, outerConeAngle: float = math.pi / 4,
                  name: str | None = None) -> None:
         """Light falls from innerConeAngle to nothing at outerConeAngle."""
         super().__init__(color, intensity, range, name)
-        self.innerConeAngle, self.outerConeAngle = float(innerConeAngle), float(outerConeAngle)
+        self.outerConeAngle, self.innerConeAngle = outerConeAngle, innerConeAngle
 
 
 @functools.lru_cache(maxsize=64)
@@ -342,8 +394,28 @@ def _falloff(inner: float, outer: float) -> float:
     return float(tried[error.argmin()])
 
 
+class _Slot:
+    """An object of one kind, or None."""
+
+    def __init__(self, kind: type) -> None:
+        self.kind = kind
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, one: Any, kind: type | None = None) -> Any:
+        return one.__dict__[self.name]
+
+    def __set__(self, one: Any, value: Any) -> None:
+        if value is not None and not isinstance(value, self.kind):
+            raise TypeError(f"{self.name} must be a {self.kind.__name__}, not {arguments.shown(value)}")
+        one.__dict__[self.name] = value
+
+
 class Node:
     """A mesh, a camera or a light in its place, and the nodes that move with it."""
+
+    camera, mesh, light = _Slot(Camera), _Slot(Mesh), _Slot(Light)
 
     def __init__(self, name: str | None = None, camera: Any = None, children: Any = None,
                  skin: Any = None, matrix: Any = None, mesh: Any = None, rotation: Any = None,
@@ -351,11 +423,8 @@ class Node:
                  light: Any = None) -> None:
         """matrix is 4 x 4, from the node to its parent; without it rotation, a unit quaternion
         x, y, z, w, scale and translation, three numbers each, make it."""
-        for slot, value, kind in (("camera", camera, Camera), ("mesh", mesh, Mesh),
-                                  ("light", light, Light)):
-            if value is not None and not isinstance(value, kind):
-                raise TypeError(f"{slot} must be a {kind.__name__}, not {arguments.shown(value)}")
         self.name, self.camera, self.mesh, self.light = name, camera, mesh, light
+        self.skin, self.weights = skin, weights
         self.children = list(children or ())
         self._rotation = np.array([0.0, 0.0, 0.0, 1.0])
         self._scale, self._translation = np.ones(3), np.zeros(3)
@@ -434,6 +503,15 @@ def _quaternion(turn: Array) -> Array:
     return np.asarray(row / max(float(np.linalg.norm(row)), 1e-30))
 
 
+class _Nodes(List[Node]):
+    """Nodes in the order in which they were added, equal to a set of them, as pyrender's are."""
+
+    def __eq__(self, other: object) -> bool:
+        return set(self) == other if isinstance(other, (set, frozenset)) else super().__eq__(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
 class Scene(_Bounded):
     """Nodes, a background and ambient light."""
 
@@ -482,7 +560,7 @@ class Scene(_Bounded):
         cameras = self.camera_nodes
         if self._main is not None and self._main in cameras:
             return self._main
-        return cameras[0] if cameras else None
+        return next(iter(cameras), None)
 
     @main_camera_node.setter
     def main_camera_node(self, value: Node) -> None:
@@ -520,32 +598,39 @@ class Scene(_Bounded):
 
     def _walk(self) -> list[tuple[Node, Array]]:
         out, left = [], [(n, np.eye(4)) for n in reversed(self._roots)]
+        seen: set[int] = set()
         while left:
             node, parent = left.pop()
+            if id(node) in seen:
+                raise ValueError(f"node {node.name or ''} is in the scene twice: a node has one parent, "
+                                 "and is not below itself")
+            seen.add(id(node))
             pose = parent @ node.matrix
             out.append((node, pose))
             left += [(child, pose) for child in reversed(node.children)]
         return out
 
     @property
-    def nodes(self) -> list[Node]:
-        """All nodes, in the order in which they were added."""
-        return [node for node, _ in self._walk()]
+    def nodes(self) -> _Nodes:
+        """All nodes."""
+        return _Nodes(node for node, _ in self._walk())
 
-    @property
-    def mesh_nodes(self) -> list[Node]:
-        """Those with a mesh."""
-        return [n for n in self.nodes if n.mesh is not None]
+    def _with(self, slot: str, kind: type = object) -> _Nodes:
+        """The nodes with an object of a kind."""
+        return _Nodes(n for n in self.nodes if getattr(n, slot) is not None
+                      and isinstance(getattr(n, slot), kind))
 
-    @property
-    def camera_nodes(self) -> list[Node]:
-        """Those with a camera."""
-        return [n for n in self.nodes if n.camera is not None]
-
-    @property
-    def light_nodes(self) -> list[Node]:
-        """Those with a light."""
-        return [n for n in self.nodes if n.light is not None]
+    mesh_nodes = property(lambda self: self._with("mesh"), doc="Those with a mesh.")
+    camera_nodes = property(lambda self: self._with("camera"), doc="Those with a camera.")
+    light_nodes = property(lambda self: self._with("light"), doc="Those with a light.")
+    point_light_nodes = property(lambda self: self._with("light", PointLight), doc="With a PointLight.")
+    spot_light_nodes = property(lambda self: self._with("light", SpotLight), doc="With a SpotLight.")
+    directional_light_nodes = property(lambda self: self._with("light", DirectionalLight),
+                                       doc="With a DirectionalLight.")
+    point_lights = property(lambda self: {n.light for n in self.point_light_nodes}, doc="All of them.")
+    spot_lights = property(lambda self: {n.light for n in self.spot_light_nodes}, doc="All of them.")
+    directional_lights = property(lambda self: {n.light for n in self.directional_light_nodes},
+                                  doc="All of them.")
 
     def add(self, obj: Any, name: str | None = None, pose: Any = None, parent_node: Node | None = None,
             parent_name: str | None = None) -> Node:
@@ -621,8 +706,12 @@ class OffscreenRenderer:
     def render(self, scene: Scene, flags: int = 0, seg_node_map: Any = None) -> Any:
         """color, (h, w, 3) bytes (4 with RGBA), and depth, (h, w) float32, 0 where there is nothing;
         depth alone with DEPTH_ONLY.  With SEG color has the colours of seg_node_map."""
-        base, lamps, cameras = self._made(), [], []
+        lamps, cameras = [], []
         used: list[Node] = []
+        drawn = [p for n in scene.mesh_nodes if n.mesh.is_visible for p in n.mesh.primitives]
+        if len(self._shapes) > 2 * len({id(p) for p in drawn}) + 8:    # most are of scenes that are gone
+            self._base = None
+        base = self._made()
         base._count = 0
         for node, pose in scene._walk():
             if node.camera is not None:
@@ -649,7 +738,7 @@ class OffscreenRenderer:
         depth = np.empty((h, w), np.float32)
         camera = main[0][0].camera
         far = 3e30 if camera.zfar is None else camera.zfar
-        base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]), p, camera.znear, far,
+        base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]), p, max(camera.znear, 1e-6), far,
                    bool(p[3, 3]), seg, 0.0)
         if flags & RenderFlags.DEPTH_ONLY:
             return depth
@@ -748,7 +837,8 @@ class OffscreenRenderer:
                             float(scene.bg_color[3]) if len(scene.bg_color) > 3 else 1.0)
 
     def delete(self) -> None:
-        """There is no context to delete."""
+        """Gives the memory back."""
+        self._base, self._shapes = None, {}
 
 
 class Viewer:

@@ -1,0 +1,206 @@
+"""Statements of pyrender's own public tests, from memory of its interface: each line of STATEMENTS is one,
+which runs after those before it; what stands behind a raises is the error that it must raise."""
+import numpy as np
+import pytest
+
+import shade_h.compat.pyrender as pyrender
+
+STATEMENTS = {
+    "PerspectiveCamera": """
+        TypeError: PerspectiveCamera()
+        p = PerspectiveCamera(yfov=np.pi / 3)
+        assert p.yfov == np.pi / 3
+        assert p.znear == 0.05
+        assert p.zfar is None
+        assert p.aspectRatio is None
+        p.name = "asdf"
+        p.name = None
+        ValueError: p.yfov = 0.0
+        ValueError: p.yfov = -1.0
+        ValueError: p.znear = -1.0
+        p.znear = 0.0
+        p.znear = 0.05
+        p.zfar = 100.0
+        ValueError: p.zfar = 0.03
+        ValueError: p.zfar = 0.05
+        p.aspectRatio = 10.0
+        ValueError: p.aspectRatio = 0.0
+        ValueError: p.aspectRatio = -1.0
+        p.aspectRatio = None
+        ValueError: p.get_projection_matrix()
+        t = np.tan(np.pi / 6)
+        m = np.array([[1 / (2 * t), 0, 0, 0], [0, 1 / t, 0, 0], [0, 0, -100.05 / 99.95, -10 / 99.95], [0, 0, -1, 0]])
+        assert np.allclose(p.get_projection_matrix(1000, 500), m)
+        p.aspectRatio = 640 / 480
+        m[0, 0] = 1 / (640 / 480 * t)
+        assert np.allclose(p.get_projection_matrix(1000, 500), m)
+        assert np.allclose(p.get_projection_matrix(), m)
+        p.zfar = None
+        m[2, 2:] = -1, -0.1
+        assert np.allclose(p.get_projection_matrix(), m)
+        p.aspectRatio = None
+        m[0, 0] = 1 / (2 * t)
+        assert np.allclose(p.get_projection_matrix(1000, 500), m)
+    """,
+    "OrthographicCamera": """
+        TypeError: OrthographicCamera()
+        c = OrthographicCamera(xmag=1.0, ymag=2.0)
+        assert c.xmag == 1.0
+        assert c.ymag == 2.0
+        assert c.znear == 0.05
+        assert c.zfar == 100.0
+        assert c.name is None
+        TypeError: c.ymag = None
+        ValueError: c.ymag = 0.0
+        ValueError: c.ymag = -1.0
+        TypeError: c.xmag = None
+        ValueError: c.xmag = 0.0
+        ValueError: c.xmag = -1.0
+        TypeError: c.znear = None
+        ValueError: c.znear = -1.0
+        c.znear = 0.0
+        TypeError: c.zfar = None
+        ValueError: c.zfar = 0.0
+        c.znear = 0.05
+        ValueError: c.zfar = 0.01
+        m = np.array([[1, 0, 0, 0], [0, 0.5, 0, 0], [0, 0, 2 / -99.95, -100.05 / 99.95], [0, 0, 0, 1]])
+        assert np.allclose(c.get_projection_matrix(), m)
+    """,
+    "lights": """
+        d = DirectionalLight()
+        assert d.name is None
+        assert np.all(d.color == 1.0)
+        assert d.intensity == 1.0
+        d.name = "direc"
+        ValueError: d.color = None
+        TypeError: d.intensity = None
+        d = DirectionalLight(color=[0.0, 0.0, 0.0])
+        assert np.all(d.color == 0.0)
+        s = SpotLight()
+        assert s.name is None
+        assert np.all(s.color == 1.0)
+        assert s.intensity == 1.0
+        assert s.innerConeAngle == 0.0
+        assert s.outerConeAngle == np.pi / 4.0
+        assert s.range is None
+        ValueError: s.range = -1.0
+        ValueError: s.range = 0.0
+        ValueError: s.innerConeAngle = -1.0
+        ValueError: s.innerConeAngle = np.pi / 3.0
+        ValueError: s.outerConeAngle = -1.0
+        ValueError: s.outerConeAngle = np.pi
+        s.range = 5.0
+        s.outerConeAngle = np.pi / 2 - 0.05
+        s.innerConeAngle = np.pi / 3
+        s.innerConeAngle = 0.0
+        s.outerConeAngle = np.pi / 4.0
+        p = PointLight()
+        assert p.name is None
+        assert np.all(p.color == 1.0)
+        assert p.intensity == 1.0
+        assert p.range is None
+        ValueError: p.range = -1.0
+        ValueError: p.range = 0.0
+        p.range = 5.0
+    """,
+    "meshes": """
+        TypeError: Mesh()
+        TypeError: Primitive()
+        ValueError: Primitive([], mode=10)
+        x = Mesh([])
+        assert x.name is None
+        assert x.is_visible
+        assert x.weights is None
+        x.name = "str"
+    """,
+    "nodes": """
+        x = Node()
+        assert x.name is None
+        assert x.camera is None
+        assert x.children == []
+        assert x.skin is None
+        assert np.allclose(x.matrix, np.eye(4))
+        assert x.mesh is None
+        assert np.allclose(x.rotation, [0, 0, 0, 1])
+        assert np.allclose(x.scale, np.ones(3))
+        assert np.allclose(x.translation, np.zeros(3))
+        assert x.weights is None
+        assert x.light is None
+        x.name = "node"
+        c, m, d = PerspectiveCamera(yfov=2.0), Mesh([]), DirectionalLight()
+        x.camera = c
+        assert x.camera == c
+        TypeError: x.camera = m
+        TypeError: x.camera = d
+        x.camera = None
+        assert x.camera is None
+        x.mesh = m
+        assert x.mesh == m
+        TypeError: x.mesh = c
+        TypeError: x.mesh = d
+        x.light = d
+        assert x.light == d
+        TypeError: x.light = m
+        TypeError: x.light = c
+    """,
+    "scenes": """
+        s = Scene()
+        assert np.allclose(s.bg_color, np.ones(4))
+        assert np.allclose(s.ambient_light, np.zeros(3))
+        assert len(s.nodes) == 0
+        assert s.name is None
+        s.name = "asdf"
+        s.bg_color = None
+        s.ambient_light = None
+        assert np.allclose(s.bg_color, np.ones(4))
+        assert np.allclose(s.ambient_light, np.zeros(3))
+        assert s.nodes == set()
+        assert s.cameras == set()
+        assert s.lights == set()
+        assert s.point_lights == set()
+        assert s.spot_lights == set()
+        assert s.directional_lights == set()
+        assert s.meshes == set()
+        assert s.camera_nodes == set()
+        assert s.light_nodes == set()
+        assert s.point_light_nodes == set()
+        assert s.spot_light_nodes == set()
+        assert s.directional_light_nodes == set()
+        assert s.mesh_nodes == set()
+        assert s.main_camera_node is None
+        assert np.all(s.bounds == 0)
+        assert np.all(s.centroid == 0)
+        assert np.all(s.extents == 0)
+        assert np.all(s.scale == 0)
+        n = s.add(SpotLight(), name="spot")
+        assert s.spot_light_nodes == {n}
+        assert s.spot_lights == {n.light}
+        assert s.point_lights == set()
+        assert s.get_nodes(name="spot") == {n}
+        assert s.has_node(n)
+        s.remove_node(n)
+        assert not s.has_node(n)
+        ValueError: s.remove_node(n)
+        TypeError: s.add(None)
+    """,
+}
+LINES = [(part, line.strip()) for part, text in STATEMENTS.items() for line in text.splitlines() if line.strip()]
+
+
+@pytest.mark.parametrize("part", STATEMENTS)
+def test_statements_of_pyrender(part):
+    names = {**{name: getattr(pyrender, name) for name in pyrender.__all__}, "np": np}
+    for _, line in (row for row in LINES if row[0] == part):
+        error, _, code = line.partition(": ") if line.startswith(("TypeError: ", "ValueError: ")) else ("", "", line)
+        if not error:
+            exec(code, names)
+            continue
+        try:
+            exec(code, names)
+        except {"TypeError": TypeError, "ValueError": ValueError}[error]:
+            continue
+        raise AssertionError(f"no {error}: {code}")
+
+
+def test_how_many_statements():
+    assert len(LINES) == 165
