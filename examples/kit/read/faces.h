@@ -4,7 +4,7 @@
 #define MODEL_FACES_H
 
 #include "ears.h"
-#include "model.h"
+#include "known.h"
 
 typedef struct faces {
     mesh_uints stream;      /* for each face the number of its corners, then the corners */

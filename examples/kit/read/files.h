@@ -84,6 +84,23 @@ static inline int mesh_is_threemf(const char *name, const unsigned char *bytes, 
     return !kind.text[0] && size >= 4 && !memcmp(bytes, "PK\3\4", 4);
 }
 
+/* All names that are known; kind tells apart the lists of a format. */
+static const struct {
+    const char *format, *kind;
+    const known_name *names;
+} model_known[] = { { "obj", "statement", obj_known },
+                    { "mtl", "statement", mtl_known },
+                    { "stl", "word", stl_known },
+                    { "off", "header", off_known },
+                    { "ply", "element", ply_elements },
+                    { "ply", "vertex", ply_of_vertex },
+                    { "ply", "face", ply_of_face },
+                    { "gltf", "extension", gltf_known },
+                    { "gltf", "attribute", gltf_attributes },
+                    { "3mf", "extension", threemf_extensions },
+                    { "3mf", "element", threemf_elements },
+                    { "3mf", "attribute", threemf_attributes } };
+
 static inline int model_read_stl(mesh_reader *r, model *m)
 {
     if (stl_read(r, m)) return 1;
@@ -130,6 +147,7 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     else
         failed = obj_read(&r, m);
     if (failed) model_free(m);
+    if (!failed) known_tell(m, name);
     return failed;
 }
 
@@ -290,6 +308,7 @@ static inline void model_read_libraries(const char *path, model *m)
                 model_warn(m, path, error);
         }
     }
+    known_tell(m, path);
     for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
         const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;
         if (!move || (move[0] == 0 && move[1] == 0 && move[2] == 1 && move[3] == 1)) continue;

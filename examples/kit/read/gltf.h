@@ -31,33 +31,40 @@ static const char *const gltf_lists[GLTF_LISTS] = { "accessors", "bufferViews", 
                                                     "nodes",     "samplers",    "scenes",
                                                     "skins",     "textures" };
 
-/* 1: drawn; 0: nothing of it shows in a picture of shade.h.  Others are in no list. */
-typedef struct gltf_extension {
-    const char *name;
-    int drawn;
-} gltf_extension;
-static const gltf_extension gltf_known[] = { { "KHR_mesh_quantization", 1 },
-                                             { "KHR_texture_transform", 1 },
-                                             { "KHR_materials_unlit", 1 },
-                                             { "KHR_materials_emissive_strength", 1 },
-                                             { "KHR_materials_pbrSpecularGlossiness", 1 },
-                                             { "EXT_mesh_gpu_instancing", 1 },
-                                             { "KHR_materials_specular", 0 },
-                                             { "KHR_materials_ior", 0 },
-                                             { "KHR_materials_clearcoat", 0 },
-                                             { "KHR_materials_sheen", 0 },
-                                             { "KHR_materials_transmission", 0 },
-                                             { "KHR_materials_volume", 0 },
-                                             { "KHR_materials_iridescence", 0 },
-                                             { "KHR_materials_anisotropy", 0 },
-                                             { "KHR_materials_dispersion", 0 },
-                                             { "KHR_materials_variants", 0 },
-                                             { "KHR_lights_punctual", 0 },
-                                             { "KHR_animation_pointer", 0 },
-                                             { "KHR_xmp_json_ld", 0 },
-                                             { "FB_ngon_encoding", 0 },
-                                             { "VRM", 0 },
-                                             { NULL, 0 } };
+/* Those of pictures and of Draco are told and refused where they are used without another way. */
+static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN },
+                                         { "KHR_texture_transform", KNOWN_DRAWN },
+                                         { "KHR_materials_unlit", KNOWN_DRAWN },
+                                         { "KHR_materials_emissive_strength", KNOWN_DRAWN },
+                                         { "KHR_materials_pbrSpecularGlossiness", KNOWN_DRAWN },
+                                         { "EXT_mesh_gpu_instancing", KNOWN_DRAWN },
+                                         { "KHR_materials_specular", KNOWN_SILENT },
+                                         { "KHR_materials_ior", KNOWN_SILENT },
+                                         { "KHR_materials_clearcoat", KNOWN_SILENT },
+                                         { "KHR_materials_sheen", KNOWN_SILENT },
+                                         { "KHR_materials_transmission", KNOWN_SILENT },
+                                         { "KHR_materials_volume", KNOWN_SILENT },
+                                         { "KHR_materials_iridescence", KNOWN_SILENT },
+                                         { "KHR_materials_anisotropy", KNOWN_SILENT },
+                                         { "KHR_materials_dispersion", KNOWN_SILENT },
+                                         { "KHR_materials_variants", KNOWN_SILENT },
+                                         { "KHR_lights_punctual", KNOWN_SILENT },
+                                         { "KHR_animation_pointer", KNOWN_SILENT },
+                                         { "KHR_xmp_json_ld", KNOWN_SILENT },
+                                         { "FB_ngon_encoding", KNOWN_SILENT },
+                                         { "VRM", KNOWN_SILENT },
+                                         { "EXT_meshopt_compression", KNOWN_TOLD },
+                                         { "EXT_texture_webp", KNOWN_TOLD },
+                                         { "KHR_texture_basisu", KNOWN_TOLD },
+                                         { "KHR_draco_mesh_compression", KNOWN_REFUSED },
+                                         { NULL, KNOWN_TOLD } };
+
+/* Attributes of vertices, without the number behind the last _; those that begin with _ are silent */
+static const known_name gltf_attributes[] = {
+    { "POSITION", KNOWN_DRAWN }, { "NORMAL", KNOWN_DRAWN }, { "TEXCOORD", KNOWN_DRAWN },
+    { "COLOR", KNOWN_DRAWN },    { "JOINTS", KNOWN_DRAWN }, { "WEIGHTS", KNOWN_DRAWN },
+    { "TANGENT", KNOWN_SILENT }, { NULL, KNOWN_TOLD }
+};
 
 typedef struct gltf_bytes {
     const unsigned char *at;
@@ -741,12 +748,28 @@ static inline int gltf_morph(gltf *g, uint32_t primitive, uint32_t mesh, uint32_
     return 0;
 }
 
+/* Tells of attributes that are not drawn. */
+static inline int gltf_tell(gltf *g, uint32_t attributes)
+{
+    uint32_t at = attributes + 1;
+    for (uint32_t i = 0; i < g->j.value[attributes].count; i += 2, at = g->j.value[at + 1].end) {
+        const unsigned char *name = g->j.text + g->j.value[at].from;
+        size_t n = g->j.value[at].size, stem = n;
+        if (!n || *name == '_') continue;
+        while (stem && name[stem - 1] >= '0' && name[stem - 1] <= '9') stem--;
+        stem = stem > 1 && stem < n && name[stem - 1] == '_' ? stem - 1 : n;
+        if (known_take(g->r, g->m, known_find(gltf_attributes, name, stem), 0, name, n)) return 1;
+    }
+    return 0;
+}
+
 static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_vertices *v)
 {
     const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
     const uint32_t index = json_member(&g->j, primitive, "indices");
     char uv[24];
     size_t n;
+    if (gltf_tell(g, attributes)) return 1;
     if (gltf_read_values(g, json_member(&g->j, attributes, "POSITION"), 3, 3, &v->position))
         return 1;
     n = v->position.count;
@@ -1037,27 +1060,20 @@ static inline int gltf_chunks(gltf *g)
     return 0;
 }
 
-static inline const gltf_extension *gltf_find(const json_doc *j, uint32_t name)
-{
-    const gltf_extension *known = gltf_known;
-    while (known->name && !json_is(j, name, known->name)) known++;
-    return known->name ? known : NULL;
-}
-
-/* Refuses a required extension that is not known, and tells of one that is used. */
+/* Refuses a required extension that is not read, and tells of one that is used. */
 static inline int gltf_extensions(gltf *g, const char *list, int required)
 {
     const uint32_t names = json_of(&g->j, JSON_ROOT, list, JSON_ARRAY);
     uint32_t at = names + 1;
     for (uint32_t i = 0; names && i < g->j.value[names].count; i++, at = g->j.value[at].end) {
-        char *name = gltf_find(&g->j, at) ? NULL : json_copy(&g->j, at), text[120];
-        if (!name) continue;
-        for (char *c = name; *c; c++) *c = *c < ' ' || *c == 127 ? '?' : *c;
-        snprintf(text, sizeof text, "it %s %s, which is not read", required ? "needs" : "has",
-                 name);
+        char *name = json_copy(&g->j, at);
+        known_what what = name ? known_find(gltf_known, name, strlen(name)) : KNOWN_SILENT;
+        int failed = 0;
+        if (!required && name && (strstr(name, "_texture_") || what == KNOWN_REFUSED))
+            what = KNOWN_SILENT;
+        if (name) failed = known_take(g->r, g->m, what, required, name, strlen(name));
         free(name);
-        if (required) return mesh_fail(g->r, "%s", text);
-        if (!strstr(text, "texture") && !strstr(text, "draco")) model_warn(g->m, g->r->name, text);
+        if (failed) return 1;
     }
     return 0;
 }

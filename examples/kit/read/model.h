@@ -77,6 +77,7 @@ typedef struct model {
     zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */
     int movable;          /* the file has more digits than floats: read again, about another
                                   origin, the positions are more exact */
+    char unread[200];     /* names of what is left out, with commas between (known.h) */
     char warning[400];    /* what the picture lacks; "": nothing */
     char note[200];       /* what it shows otherwise than the file has it; "": nothing */
 } model;

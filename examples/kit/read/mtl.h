@@ -1,12 +1,31 @@
 /* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd,
    map_Ke, map_d, and map_Bump, bump and norm with their -bm; -o and -s of map_Kd.  Other statements
-   are skipped, as are surfaces that the model does not use.  The alpha of map_Kd counts only where
+   are told as mtl_known says; surfaces that the model does not use are skipped.  The alpha of map_Kd counts only where
    map_d or d < 1 asks for it, because exporters often keep other masks there.  Colours are sRGB
    values.  Ka is ignored, because files hold anything there: k_a = k_d, as daylight wants it. */
 #ifndef MODEL_MTL_H
 #define MODEL_MTL_H
 
-#include "model.h"
+#include "known.h"
+
+/* Of surfaces whose physics are no Phong's the nearest Phong is drawn. */
+static const known_name mtl_known[] = {
+    { "newmtl", KNOWN_DRAWN },  { "kd", KNOWN_DRAWN },         { "ks", KNOWN_DRAWN },
+    { "ke", KNOWN_DRAWN },      { "ns", KNOWN_DRAWN },         { "d", KNOWN_DRAWN },
+    { "tr", KNOWN_DRAWN },      { "map_kd", KNOWN_DRAWN },     { "map_ke", KNOWN_DRAWN },
+    { "map_d", KNOWN_DRAWN },   { "map_bump", KNOWN_DRAWN },   { "bump", KNOWN_DRAWN },
+    { "norm", KNOWN_DRAWN },    { "map_kn", KNOWN_DRAWN },     { "ka", KNOWN_SILENT },
+    { "map_ka", KNOWN_SILENT }, { "ni", KNOWN_SILENT },        { "illum", KNOWN_SILENT },
+    { "tf", KNOWN_SILENT },     { "sharpness", KNOWN_SILENT }, { "map_aat", KNOWN_SILENT },
+    { "pr", KNOWN_SILENT },     { "pm", KNOWN_SILENT },        { "ps", KNOWN_SILENT },
+    { "pc", KNOWN_SILENT },     { "pcr", KNOWN_SILENT },       { "aniso", KNOWN_SILENT },
+    { "anisor", KNOWN_SILENT }, { "map_pr", KNOWN_SILENT },    { "map_pm", KNOWN_SILENT },
+    { "map_ps", KNOWN_SILENT }, { "map_pc", KNOWN_SILENT },    { "map_pcr", KNOWN_SILENT },
+    { "map_ks", KNOWN_TOLD },   { "map_ns", KNOWN_TOLD },      { "map_tr", KNOWN_TOLD },
+    { "map_refl", KNOWN_TOLD }, { "refl", KNOWN_TOLD },        { "disp", KNOWN_TOLD },
+    { "map_disp", KNOWN_TOLD }, { "decal", KNOWN_TOLD },       { "map_decal", KNOWN_TOLD },
+    { NULL, KNOWN_TOLD }
+};
 
 /* A colour: three numbers, or one number for all three */
 static inline int mtl_color(mesh_reader *r, shade_vec3 *out)
@@ -88,7 +107,7 @@ static inline int mtl_map_of_d(mesh_reader *r, mtl_clear *c)
 }
 
 /* One statement about a surface.  Programs disagree about Tr: d is believed where both stand. */
-static inline int mtl_statement(mesh_reader *r, model_surface *s, mtl_clear *c)
+static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_clear *c)
 {
     shade_material *k = &s->material;
     float number;
@@ -103,7 +122,7 @@ static inline int mtl_statement(mesh_reader *r, model_surface *s, mtl_clear *c)
         mesh_take_word(r, "map_kn"))
         return mtl_map(r, &s->relief.map, &s->relief.strength, NULL);
     if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, c->has_d ? &number : &s->transparency);
-    if (!mesh_take_word(r, "d")) return 0;
+    if (!mesh_take_word(r, "d")) return known_word(r, m, mtl_known);
     if (mtl_number(r, 0, 1, &number)) return 1;
     s->transparency = 1 - number;
     c->has_d = 1;
@@ -137,7 +156,7 @@ static inline int mtl_read(mesh_reader *r, model *m)
             s = number < 0 ? NULL : &m->surface[number];
             if (s) s->set = 1;
         } else if (s && r->at < r->end && *r->at != '#')
-            failed = mtl_statement(r, s, &clear);
+            failed = mtl_statement(r, m, s, &clear);
         mesh_next_line(r, 1);
     }
     mtl_finish(m, s, &clear);

@@ -1,12 +1,30 @@
 /* obj.h - reads OBJ: v (with optional w or red green blue), vt, vn and f, every form of index (v,
    v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any shape, usemtl,
-   mtllib, o and g, continued lines, comments, any line ends.  All other statements are skipped.
+   mtllib, o and g, continued lines, comments, any line ends.  obj_known has the other statements.
    One vertex is made for each different v/vt/vn. */
 #ifndef MODEL_OBJ_H
 #define MODEL_OBJ_H
 
 #include "faces.h"
 #include "points.h"
+
+/* Statements.  Those about curves change nothing but curves, which are told. */
+static const known_name obj_known[] = {
+    { "v", KNOWN_DRAWN },          { "vt", KNOWN_DRAWN },      { "vn", KNOWN_DRAWN },
+    { "f", KNOWN_DRAWN },          { "o", KNOWN_DRAWN },       { "g", KNOWN_DRAWN },
+    { "usemtl", KNOWN_DRAWN },     { "mtllib", KNOWN_DRAWN },  { "s", KNOWN_SILENT },
+    { "vp", KNOWN_SILENT },        { "mg", KNOWN_SILENT },     { "deg", KNOWN_SILENT },
+    { "bmat", KNOWN_SILENT },      { "step", KNOWN_SILENT },   { "cstype", KNOWN_SILENT },
+    { "parm", KNOWN_SILENT },      { "trim", KNOWN_SILENT },   { "hole", KNOWN_SILENT },
+    { "scrv", KNOWN_SILENT },      { "sp", KNOWN_SILENT },     { "end", KNOWN_SILENT },
+    { "con", KNOWN_SILENT },       { "bevel", KNOWN_SILENT },  { "c_interp", KNOWN_SILENT },
+    { "d_interp", KNOWN_SILENT },  { "lod", KNOWN_SILENT },    { "ctech", KNOWN_SILENT },
+    { "stech", KNOWN_SILENT },     { "maplib", KNOWN_SILENT }, { "shadow_obj", KNOWN_SILENT },
+    { "trace_obj", KNOWN_SILENT }, { "usemap", KNOWN_TOLD },   { "p", KNOWN_TOLD },
+    { "l", KNOWN_TOLD },           { "curv", KNOWN_TOLD },     { "curv2", KNOWN_TOLD },
+    { "surf", KNOWN_TOLD },        { "call", KNOWN_TOLD },     { "csh", KNOWN_TOLD },
+    { NULL, KNOWN_TOLD }
+};
 
 enum { OBJ_V, OBJ_VT, OBJ_VN };
 static const char *const obj_names[3] = { "v", "vt", "vn" };
@@ -164,7 +182,7 @@ static inline int obj_statement(mesh_reader *r, obj_data *o, model *m)
     if (mesh_take_word(r, "mtllib")) return obj_library(r, m);
     if (mesh_take_word(r, "o")) return obj_object(r, o, m, 1);
     if (mesh_take_word(r, "g")) return obj_object(r, o, m, 0);
-    return 0;
+    return known_word(r, m, obj_known);
 }
 
 static inline int obj_no_faces(mesh_reader *r, const obj_data *o)
@@ -179,6 +197,7 @@ static inline int obj_points(mesh_reader *r, const obj_data *o, model *out)
 {
     const size_t n = o->list[OBJ_V].count / 3;
     owned_mesh *m = &out->mesh;
+    if (!strcmp(out->unread, "p")) out->unread[0] = 0; /* the points are drawn */
     r->line = 0;
     m->positions = (float *)malloc(3 * sizeof(float) * n);
     if (o->color.count) m->colors = (float *)malloc(3 * sizeof(float) * n);

@@ -7,6 +7,12 @@
 
 #include "faces.h"
 
+/* What a file may begin with.  Normals are made anew. */
+static const known_name off_known[] = { { "OFF", KNOWN_DRAWN },          { "COFF", KNOWN_DRAWN },
+                                        { "NOFF", KNOWN_DRAWN },         { "CNOFF", KNOWN_DRAWN },
+                                        { "STOFF", KNOWN_TOLD },         { "4OFF", KNOWN_REFUSED },
+                                        { "OFF BINARY", KNOWN_REFUSED }, { NULL, KNOWN_REFUSED } };
+
 typedef struct off_data {
     mesh_floats position, color; /* color: of vertices, three each; of those before, where there */
     mesh_uints tint;             /* of each face: 1 + its red, green and blue, or 0 */
@@ -112,11 +118,14 @@ static inline int off_face(mesh_reader *r, off_data *o, double vertices)
     return mesh_check_triangles(r, o->faces.triangles);
 }
 
-static inline int off_header(mesh_reader *r, off_data *o, double *vertices, double *count)
+static inline int off_header(mesh_reader *r, off_data *o, model *m, double *vertices, double *count)
 {
     mesh_skip_lines(r);
     while (r->at < r->end && *r->at == '#') off_line(r);
-    if (r->end - r->at > 2 && r->at[0] == 'S' && r->at[1] == 'T') r->at += 2;
+    if (r->end - r->at > 2 && r->at[0] == 'S' && r->at[1] == 'T') {
+        known_take(r, m, KNOWN_TOLD, 0, r->at, 2);
+        r->at += 2;
+    }
     o->has_color = r->at < r->end && *r->at == 'C';
     r->at += o->has_color;
     o->has_normal = r->at < r->end && *r->at == 'N';
@@ -186,7 +195,7 @@ static inline int off_read(mesh_reader *r, model *m)
     double vertices = 0, count = 0;
     int failed;
     model_place(m, &o.origin);
-    failed = off_header(r, &o, &vertices, &count);
+    failed = off_header(r, &o, m, &vertices, &count);
     for (double i = 0; i < vertices + count && !failed; i++) {
         if (off_line(r))
             failed = mesh_fail(r, "ends after %lu of %lu vertices and %lu faces", (unsigned long)i,

@@ -61,6 +61,59 @@ typedef struct ply_data {
     size_t begin;            /* the first corner of that face */
 } ply_data;
 
+static const known_name ply_elements[] = { { "vertex", KNOWN_DRAWN },
+                                           { "face", KNOWN_DRAWN },
+                                           { "tristrips", KNOWN_DRAWN },
+                                           { "camera", KNOWN_SILENT },
+                                           { NULL, KNOWN_TOLD } };
+
+/* Of vertices.  Alpha is 255 in most files, and colours of vertices are opaque here. */
+static const known_name ply_of_vertex[] = { { "x", KNOWN_DRAWN },
+                                            { "y", KNOWN_DRAWN },
+                                            { "z", KNOWN_DRAWN },
+                                            { "nx", KNOWN_DRAWN },
+                                            { "ny", KNOWN_DRAWN },
+                                            { "nz", KNOWN_DRAWN },
+                                            { "red", KNOWN_DRAWN },
+                                            { "green", KNOWN_DRAWN },
+                                            { "blue", KNOWN_DRAWN },
+                                            { "r", KNOWN_DRAWN },
+                                            { "g", KNOWN_DRAWN },
+                                            { "b", KNOWN_DRAWN },
+                                            { "diffuse_red", KNOWN_DRAWN },
+                                            { "diffuse_green", KNOWN_DRAWN },
+                                            { "diffuse_blue", KNOWN_DRAWN },
+                                            { "u", KNOWN_DRAWN },
+                                            { "v", KNOWN_DRAWN },
+                                            { "s", KNOWN_DRAWN },
+                                            { "t", KNOWN_DRAWN },
+                                            { "texture_u", KNOWN_DRAWN },
+                                            { "texture_v", KNOWN_DRAWN },
+                                            { "alpha", KNOWN_SILENT },
+                                            { "a", KNOWN_SILENT },
+                                            { "quality", KNOWN_SILENT },
+                                            { "confidence", KNOWN_SILENT },
+                                            { "intensity", KNOWN_SILENT },
+                                            { "value", KNOWN_SILENT },
+                                            { "flags", KNOWN_SILENT },
+                                            { "radius", KNOWN_SILENT },
+                                            { "curvature", KNOWN_SILENT },
+                                            { NULL, KNOWN_TOLD } };
+static const known_name ply_of_face[] = { { "vertex_indices", KNOWN_DRAWN },
+                                          { "vertex_index", KNOWN_DRAWN },
+                                          { "texcoord", KNOWN_DRAWN },
+                                          { "flags", KNOWN_SILENT },
+                                          { "quality", KNOWN_SILENT },
+                                          { "alpha", KNOWN_SILENT },
+                                          { "nx", KNOWN_SILENT },
+                                          { "ny", KNOWN_SILENT },
+                                          { "nz", KNOWN_SILENT },
+                                          { "red", KNOWN_TOLD },
+                                          { "green", KNOWN_TOLD },
+                                          { "blue", KNOWN_TOLD },
+                                          { "texnumber", KNOWN_TOLD },
+                                          { NULL, KNOWN_TOLD } };
+
 /* ---- the header ----------------------------------------------------------------------------- */
 
 static inline int ply_take_type(mesh_reader *r, ply_type *out)
@@ -99,7 +152,7 @@ static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
     return PLY_UNUSED;
 }
 
-static inline int ply_take_property(mesh_reader *r, ply_data *p)
+static inline int ply_take_property(mesh_reader *r, ply_data *p, model *m)
 {
     ply_property *at = &p->property[p->properties];
     ply_element *e;
@@ -114,13 +167,16 @@ static inline int ply_take_property(mesh_reader *r, ply_data *p)
     if (ply_take_type(r, &at->type)) return 1;
     mesh_skip_blanks(r, 0);
     at->meaning = ply_meaning(r, e->kind, at->is_list);
+    if (at->meaning == PLY_UNUSED && e->kind != PLY_OTHER &&
+        known_word(r, m, e->kind == PLY_VERTEX ? ply_of_vertex : ply_of_face))
+        return 1;
     if (at->meaning < PLY_VALUES) p->has[at->meaning] = 1;
     p->properties++;
     e->properties++;
     return 0;
 }
 
-static inline int ply_take_element(mesh_reader *r, ply_data *p)
+static inline int ply_take_element(mesh_reader *r, ply_data *p, model *m)
 {
     ply_element *e = &p->element[p->elements];
     if (p->elements == PLY_MOST) return mesh_fail(r, "more than %d elements", PLY_MOST);
@@ -129,6 +185,7 @@ static inline int ply_take_element(mesh_reader *r, ply_data *p)
               : mesh_take_word(r, "face")      ? PLY_FACE
               : mesh_take_word(r, "tristrips") ? PLY_STRIP
                                                : PLY_OTHER;
+    if (e->kind == PLY_OTHER && known_word(r, m, ply_elements)) return 1;
     while (!mesh_at_word_end(r)) r->at++;
     mesh_skip_blanks(r, 0);
     if (mesh_take_double(r, &e->count)) return 1;
@@ -179,9 +236,9 @@ static inline int ply_read_header(mesh_reader *r, ply_data *p, model *m)
         if (mesh_take_word(r, "format"))
             failed = ply_take_format(r, p);
         else if (mesh_take_word(r, "element"))
-            failed = ply_take_element(r, p);
+            failed = ply_take_element(r, p, m);
         else if (mesh_take_word(r, "property"))
-            failed = ply_take_property(r, p);
+            failed = ply_take_property(r, p, m);
         else if (mesh_take_word(r, "comment"))
             failed = ply_take_comment(r, m);
         if (failed) return 1;

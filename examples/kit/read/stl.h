@@ -4,7 +4,14 @@
 #ifndef MODEL_STL_H
 #define MODEL_STL_H
 
-#include "model.h"
+#include "known.h"
+
+/* Words of text; what is none of them is refused where it stands. */
+static const known_name stl_known[] = { { "solid", KNOWN_DRAWN },    { "facet", KNOWN_DRAWN },
+                                        { "normal", KNOWN_SILENT },  { "outer", KNOWN_DRAWN },
+                                        { "loop", KNOWN_DRAWN },     { "vertex", KNOWN_DRAWN },
+                                        { "endloop", KNOWN_DRAWN },  { "endfacet", KNOWN_DRAWN },
+                                        { "endsolid", KNOWN_DRAWN }, { NULL, KNOWN_REFUSED } };
 
 typedef struct stl_data {
     mesh_set places;

@@ -304,7 +304,7 @@ static inline int threemf_tell(threemf *t, xml *x)
     const xml_text uri = xml_uri(x, x->prefix), name = x->space == XML_OTHER ? uri : x->name;
     const known_what what = known_find(
         x->space == XML_OTHER ? threemf_extensions : threemf_elements, name.at, name.size);
-    if (what == KNOWN_DRAWN || x->space == THREEMF_PRODUCTION) return 0;
+    if (x->space == THREEMF_PRODUCTION) return 0;
     return known_take(t->r, t->m, what, 0, name.at, name.size);
 }
 

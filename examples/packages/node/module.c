@@ -525,9 +525,12 @@ model *module_model_open(const void *bytes, size_t size, int is_threemf, char *e
     const unsigned char *begin = model_text_of((const unsigned char *)bytes, &size);
     mesh_reader r = { begin, begin, begin + size, "model", 1, error, room, NULL, NULL, 0 };
     if (m) m->inflate = module_inflate;
-    if (m && !(is_threemf ? threemf_read(&r, m) : gltf_read(&r, m))) return m;
-    python_unload(m);
-    return NULL;
+    if (!m || (is_threemf ? threemf_read(&r, m) : gltf_read(&r, m))) {
+        python_unload(m);
+        return NULL;
+    }
+    known_tell(m, r.name);
+    return m;
 }
 
 EXPORT(model_close) void module_model_close(model *m);
