@@ -10,7 +10,7 @@
 # make mutation      small changes of shade.h, one at a time, that the tests must notice
 # make static        clang-tidy and cppcheck
 # make prove         no overflow, no access outside an array, over whole ranges of values
-# make fuzz          fuzzes drawing, textures, light, helpers and readers for FUZZ_SECONDS
+# make fuzz          fuzzes calls, sequences of calls and readers for FUZZ_SECONDS
 # make gallery       the PNGs of the README
 # make playground    the equation and four courses as web pages, build/playground/index.html
 # make course        pages and slides of the courses alone, and their slides with answers as PDF

@@ -222,9 +222,7 @@ static shade_result draw_pipeline(fuzz_input *in, shade_pipeline *p, shade_textu
     if (kind == 255) p->varyings = fuzz_int(in, -2, SHADE_MAX_VARYINGS + 2);
     else if (kind > 240) p->varyings = SHADE_MAX_VARYINGS;
     p->interpolation = (shade_interpolation)fuzz_enum(in, 3, &bad);
-    p->raster.cull = (shade_cull)fuzz_enum(in, 3, &bad);
-    p->raster.depth_test = (shade_compare)fuzz_enum(in, 6, &bad);
-    p->raster.blend = (shade_blend)fuzz_enum(in, 3, &bad);
+    fuzz_raster(in, &p->raster, &bad);
     p->raster.depth_read_only = kind & 1;
     p->raster.depth_zero_to_one = kind >> 1 & 1;
     p->may_discard = kind >> 2 & 1;

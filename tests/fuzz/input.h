@@ -78,6 +78,14 @@ static inline int fuzz_enum(fuzz_input *in, int count, int *bad)
     return value;
 }
 
+/* Its enumerators */
+static inline void fuzz_raster(fuzz_input *in, shade_raster *r, int *bad)
+{
+    r->cull = (shade_cull)fuzz_enum(in, 3, bad);
+    r->depth_test = (shade_compare)fuzz_enum(in, 6, bad);
+    r->blend = (shade_blend)fuzz_enum(in, 3, bad);
+}
+
 static inline float fuzz_float_of(uint32_t bits)
 {
     float f;
@@ -253,8 +261,14 @@ static int guard_count;
 
 static inline uint64_t guard_hash(const uint8_t *p, size_t size)
 {
-    uint64_t h = 14695981039346656037u;
-    for (size_t i = 0; i < size; i++) h = (h ^ p[i]) * 1099511628211u;
+    uint64_t h = 14695981039346656037u, word;
+    size_t i = 0;
+    for (; i + 8 <= size; i += 8) {
+        memcpy(&word, p + i, 8);
+        h = (h ^ word) * 1099511628211u;
+        h ^= h >> 32;
+    }
+    for (; i < size; i++) h = (h ^ p[i]) * 1099511628211u;
     return h | 1;
 }
 

@@ -198,6 +198,27 @@ static inline void picture_open(fuzz_input *in, picture *p, int most)
     picture_memory(in, p);
 }
 
+/* A picture factor times as large as another one, in a format and rows of its own. */
+static inline void picture_times(fuzz_input *in, const picture *out, picture *big, int factor)
+{
+    memset(big, 0, sizeof *big);
+    big->target = out->target;
+    big->target.clip_x = big->target.clip_y = 0;
+    big->target.clip_width = big->target.clip_height = 0;
+    if (out->want == SHADE_OK && out->target.width <= 40 && out->target.height <= 40) {
+        big->target.width *= factor;
+        big->target.height *= factor;
+        big->target.stride = 0;
+        big->target.row_count *= factor;
+        big->target.row_offset *= factor;
+        big->target.format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS);
+        big->target.srgb = fuzz_byte(in) & 1;
+        if (fuzz_one_in(in, 4)) big->target.stride = big->target.width + fuzz_int(in, 0, 5);
+    }
+    if (fuzz_one_in(in, 16)) picture_spoil(in, &big->target);
+    picture_memory(in, big);
+}
+
 static inline void picture_close(picture *p) { free(p->before); }
 
 static inline void picture_keep(picture *p)    /* to after */
@@ -272,9 +293,9 @@ typedef shade_result picture_draw(void *user, const shade_target *target, shade_
 static inline void picture_stats(const shade_stats *s, long long triangles)
 {
     HOLDS(s->triangles == triangles);
-    HOLDS(s->culled >= 0 && s->clipped >= 0 && s->rejected >= 0 && s->drawn >= 0);
-    HOLDS(s->culled + s->clipped + s->rejected + s->drawn == triangles);
-    HOLDS(s->fragments >= 0);
+    HOLDS(s->skipped >= 0 && s->culled >= 0 && s->clipped >= 0 && s->rejected >= 0);
+    HOLDS(s->drawn >= 0 && s->fragments >= 0);
+    HOLDS(s->skipped + s->culled + s->clipped + s->rejected + s->drawn == triangles);
 }
 
 /* The clip rectangle in two parts, the later first, gives what the whole gave. */
@@ -322,6 +343,7 @@ static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, p
         return;
     }
     picture_stats(&stats, triangles);
+    HOLDS(!stats.skipped);
     picture_check(p);
     if (read_only && p->depth)
         HOLDS(!memcmp(p->depth, p->before + p->color_bytes, p->depth_bytes));

@@ -403,21 +403,7 @@ static void shape_resolve(fuzz_input *in)
     int factor = fuzz_int(in, 1, 9);
     shade_result want;
     picture_open(in, &out, 9);
-    memset(&big, 0, sizeof big);
-    big.target = out.target;
-    big.target.clip_x = big.target.clip_y = big.target.clip_width = big.target.clip_height = 0;
-    if (out.want == SHADE_OK && out.target.width <= 40 && out.target.height <= 40) {
-        big.target.width *= factor;
-        big.target.height *= factor;
-        big.target.stride = 0;
-        big.target.row_count *= factor;
-        big.target.row_offset *= factor;
-        big.target.format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS);
-        big.target.srgb = fuzz_byte(in) & 1;
-        if (fuzz_one_in(in, 4)) big.target.stride = big.target.width + fuzz_int(in, 0, 5);
-    }
-    if (fuzz_one_in(in, 16)) picture_spoil(in, &big.target);
-    picture_memory(in, &big);
+    picture_times(in, &out, &big, factor);
     want = out.want != SHADE_OK ? out.want : big.want;
     if (want == SHADE_OK && (!out.color || !big.color)) want = SHADE_ERROR_TARGET;
     if (want == SHADE_OK &&
