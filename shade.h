@@ -845,14 +845,14 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
    recognises every refusal by its field, matrices that are transposed, swapped or in degrees,
    meshes out of view, culling, depth that was not cleared, and light that does not arrive or clips.
-   It writes nothing: it draws the mesh again, up to some 25 times, with one thing changed after
-   the other, and counts pixels.  What it says is missing, no pixel of the picture shows.  It takes
-   the time of so many frames and 8 kB more stack than shade_draw_mesh: call it when a picture
-   is wrong, not in every frame. */
+   It writes nothing: it draws the mesh again and again, with one thing changed after the other, and
+   counts pixels.  What it says is missing, no pixel of the picture shows.  It takes the time of
+   many frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
+   picture is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
 /* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
-   or NULL.  It runs the draw again without a picture, up to 8 times, and counts what the shaders
+   or NULL.  It runs the draw again without a picture, several times, and counts what the shaders
    give: positions that are NaN or out of view, discarded, black or transparent pixels, what
    raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -6830,7 +6830,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     return shade__run_draw(target, p, !scene->state->fragment, scene->eye, &supply, stats);
 }
 
-/* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader. */
+/* Draws a checked scene, with the vertex shader of meshes and this fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target,
                                       const shade__scene *scene,
                                       shade_fragment_shader *fragment,
@@ -9419,7 +9419,7 @@ static const char *shade__why_black(const shade__survey *seen)
     return why && shade__helps(seen, why) ? why : shade__multiply;
 }
 
-/* Is all dark that the mesh may show, or in the caller's picture?  A channel of least is not dark. */
+/* Is all dark that the mesh may show, or the caller's picture?  A channel of least is not dark. */
 static int shade__is_dark(const shade__survey *seen, float least)
 {
     shade__survey q = *seen;

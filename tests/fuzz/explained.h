@@ -779,17 +779,17 @@ CURE(all)
         if (*one != cure_normals && *one != cure_shader && *one != cure_matte) (*one)(s);
     cure_any_light(s);
 }
-/* What is not mended where the second one is the advice, since it would do the same. */
+/* What is not mended where the second one is the advice, since it would do the same, or take other
+   normals. */
 static cure *const ex_alike[][2] = {
-    { cure_depth, cure_clear }, { cure_clear, cure_depth }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
-    { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
-    { cure_mesh, cure_winding }, { cure_opaque, cure_over },
-    { cure_material, cure_shininess }, { cure_matte, cure_material }, { cure_projection, cure_by_rows },
-    { cure_projection, cure_aspect }, { cure_camera, cure_by_rows },
-    { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
-    { cure_no_lamp, cure_any_light }, { cure_lamps, cure_at_eye },
-    { cure_numbers, cure_at_eye },
+    { cure_depth, cure_clear }, { cure_clear, cure_depth }, { cure_normals, cure_sides },
+    { cure_sides, cure_turned }, { cure_shading, cure_sides }, { cure_normals, cure_turned },
+    { cure_cull, cure_winding }, { cure_sides, cure_winding }, { cure_mesh, cure_winding },
+    { cure_opaque, cure_over }, { cure_material, cure_shininess }, { cure_matte, cure_material },
+    { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
+    { cure_camera, cure_by_rows }, { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect },
+    { cure_mesh, cure_chunks }, { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
+    { cure_no_lamp, cure_any_light }, { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
