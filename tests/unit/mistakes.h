@@ -343,7 +343,8 @@ MISTAKE(positions_of_integers)
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) {
         const shade_vec3 q = s->position[i];
-        const int32_t p[3] = { stage_hundredths(q.x), stage_hundredths(q.y), stage_hundredths(q.z) };
+        const int32_t p[3] = { stage_hundredths(q.x), stage_hundredths(q.y),
+                               stage_hundredths(q.z) };
         memcpy(s->position + i, p, sizeof p);
     }
 }
