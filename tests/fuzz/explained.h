@@ -627,6 +627,7 @@ CURE(near)
 {
     shade_mat4 *p = &s->state.projection;
     const int greater = ex_is_greater(&s->state);
+    *p = ex_or_identity(*p);
     for (int k = 0; k < 4; k++) p->col[k].z = greater ? 0 : p->col[k].w;
     p->col[3].z += greater ? 0.1f : -0.2f;
 }
