@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8077  why nothing is seen   >>replay    9248  of lines, pipelines
-       >>image     9575  mipmaps, PPM           >>presets   9887  classic materials
+       >>explain   8104  why nothing is seen   >>replay    9295  of lines, pipelines
+       >>image     9622  mipmaps, PPM           >>presets   9934  classic materials
      Sources
-       >>refs      9963                        >>history   9993
-       >>license   9999
+       >>refs     10010                        >>history  10040
+       >>license  10046
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -691,14 +691,14 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
    and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
    recognises every refusal by its field, matrices that are transposed, swapped or in degrees,
    meshes out of view, culling, depth that was not cleared, and light that does not arrive or clips.
-   It writes nothing: it draws the mesh again, up to some 25 times, with one thing changed after
-   the other, and counts pixels.  What it says is missing, no pixel of the picture shows.  It takes
-   the time of so many frames and 8 kB more stack than shade_draw_mesh: call it when a picture
-   is wrong, not in every frame. */
+   It writes nothing: it draws the mesh again and again, with one thing changed after the other, and
+   counts pixels.  When it says that something is missing, no pixel shows it.  It takes the time of
+   many frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
+   picture is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
 /* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
-   or NULL.  It runs the draw again without a picture, up to 8 times, and counts what the shaders
+   or NULL.  It runs the draw again without a picture, several times, and counts what the shaders
    give: positions that are NaN or out of view, discarded, black or transparent pixels, what
    raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -6652,7 +6652,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     return shade__run_draw(target, p, !scene->state->fragment, scene->eye, &supply, stats);
 }
 
-/* Draws a checked scene with the vertex shader of meshes and this fragment shader. */
+/* Draws a checked scene, with the vertex shader of meshes and this fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
                                       shade_fragment_shader *fragment,
                                       int may_discard, shade_stats *stats)
@@ -7751,15 +7751,20 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
     at->any_front |= in->front[i];
 }
 
-/* Has a channel of the caller's picture a bit there?
+/* Is the caller's picture brighter than 8 of 255 there, or has it any light in floats?
    pre: the pixel is in the clip rectangle, and there is a picture */
 static int shade__is_stored(const shade_target *t, int x, int y)
 {
-    const size_t bytes = (size_t)shade__layouts[t->format].bytes;
-    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * bytes;
+    const shade__layout *l = &shade__layouts[t->format];
+    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
+    const uint32_t packed = shade__load_packed(p, l->bytes, l->swapped);
     int any = 0;
-    for (size_t k = 0; k < bytes - (bytes > 2 ? bytes / 4 : 0); k++) any |= p[k];    /* no alpha */
-    return any != 0;
+    for (int k = 0; k < 3; k++) {
+        float light = shade__channel(packed, l, k) * 255 - 8 * (float)l->full[k];
+        if (l->bytes == 16) SHADE_MEMCPY(&light, p + 4 * k, 4);
+        any |= light > 0;
+    }
+    return any;
 }
 
 /* The fragment shader of experiments: it discards what does not count. */
@@ -7818,11 +7823,20 @@ static long long shade__count(const shade__survey *s, float least)
 static long long shade__covered(const shade__survey *s) { return shade__count(s, 0); }
 
 /* Is a pixel of the mesh brighter than 8 of 255?  Highlights may lie between pixels. */
-static int shade__shows(const shade__survey *s)
+static int shade__shows(shade__survey *s)
 {
     shade__survey wide = *s;
     wide.material.shininess = shade__minf(wide.material.shininess, 4);
     return shade__count(&wide, s->dim) > 0;
+}
+
+/* Do two surveys differ in the number of pixels, or of those beyond some brightness? */
+static int shade__differ(const shade__survey *a, const shade__survey *b)
+{
+    if (shade__covered(a) != shade__covered(b)) return 1;
+    for (float least = 0.5f; least > 0.03f && a->target->color; least *= 0.7f)
+        if (shade__count(a, least) != shade__count(b, least)) return 1;
+    return 0;
 }
 
 /* Is there light that a surface of its square root would still show? */
@@ -7885,7 +7899,8 @@ static void shade__look_at_seen(shade__survey *q)
     shade__look_through(q, r->depth_read_only ? r->depth_test : SHADE_COMPARE_EQUAL);
     if (q->whole && q->target->depth &&
         (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(q))
-        q->exact = !r->depth_read_only;
+        q->exact = !r->depth_read_only &&    /* faces may coincide */
+                   (!q->given_stats || shade__covered(q) <= q->given_stats->fragments);
     else shade__look_at_all(q);
 }
 
@@ -7895,17 +7910,19 @@ static int shade__few(const shade__survey *s, long long n, long long all)
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Is a pixel that the picture shows brighter than 8 of 255?  Where what is drawn hides other
-   fragments, and stored depth does not tell which, all of them must be. */
+/* Is a pixel that the picture shows brighter than 12 of 255, which is more than 8 in each format?
+   Where what is drawn hides other fragments, and stored depth does not tell which, all of them must
+   be. */
 static int shade__lights_up(const shade__survey *s)
 {
     const shade_raster *r = &s->given_state->raster;
+    const float least = 1.5f * s->dim;
     shade__survey q = *s;
     if (!s->exact && s->target->depth && !r->depth_read_only && r->depth_bias == 0)
         shade__look_through(&q, SHADE_COMPARE_EQUAL);
     else if (!s->exact)
-        return shade__covered(s) && shade__count(s, s->dim) == shade__covered(s);
-    return shade__count(&q, s->dim) > 0;
+        return shade__covered(s) && shade__count(s, least) == shade__covered(s);
+    return shade__count(&q, least) > 0;
 }
 
 /* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
@@ -7950,16 +7967,26 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
 
 /* ---- other surfaces and lamps */
 
-/* The surface reflects all light, with wide highlights.  The map keeps its holes, and a material
-   that is NULL has no highlights. */
-static void shade__whiten(shade__survey *q)
+/* The mesh and its map are white; the map keeps its holes. */
+static void shade__drop_colors(shade__survey *q)
 {
-    const shade_vec3 one = shade_v3(1, 1, 1);
     q->mesh.colors = NULL;
     q->white_map = 1;
+}
+
+/* The material reflects all light, with wide highlights; one that is NULL has none. */
+static void shade__polish(shade__survey *q)
+{
+    const shade_vec3 one = shade_v3(1, 1, 1);
     q->material.diffuse = q->material.ambient = one;
     if (q->given_state->material) q->material.specular = one;
     q->material.shininess = shade__minf(q->material.shininess, 4);
+}
+
+static void shade__whiten(shade__survey *q)
+{
+    shade__drop_colors(q);
+    shade__polish(q);
 }
 
 /* One white lamp, and no other light. */
@@ -8438,6 +8465,16 @@ static long long shade__passed(const shade__survey *s)
     return shade__covered(&q);
 }
 
+/* Has the draw given pixels?  Without stats: does one pass the depth test, or hold the depth of the
+   mesh? */
+static int shade__is_drawn(const shade__survey *s)
+{
+    shade__survey q = *s;
+    if (s->given_stats) return s->given_stats->fragments > 0;
+    shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    return shade__passed(s) || shade__covered(&q);
+}
+
 /* Has the mesh pixels in the clip rectangle, of which none passes the depth test? */
 static int shade__is_hidden(const shade__survey *s)
 {
@@ -8465,9 +8502,9 @@ static int shade__is_far(const shade__survey *s)
 /* Without stats the mesh itself may be stored. */
 static int shade__depth_uncleared(shade__survey *q)
 {
-    if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL) return 0;
-    shade__look_through(q, SHADE_COMPARE_EQUAL);
-    if (!q->given_stats && shade__covered(q)) return 0;
+    if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL ||
+        shade__is_drawn(q))
+        return 0;
     shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
     q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
     if (shade__covered(q)) return 0;
@@ -8498,7 +8535,7 @@ static int shade__depth_is_far(shade__survey *q)
 
 static int shade__depth_hides(shade__survey *q)
 {
-    const int hidden = q->given_stats || shade__is_far(q);    /* with the given bias */
+    const int hidden = !shade__is_drawn(q) || shade__is_far(q);    /* with the given bias */
     if (!hidden || !shade__all_hidden(q)) return 0;
     q->apart = 1e-6f;    /* floats are too coarse to tell what is nearer */
     return shade__covered(q) > 0;
@@ -8657,8 +8694,7 @@ static int shade__colors_are_black(shade__survey *q)
     evenly.state.lighting.terms = SHADE_TERM_AMBIENT;
     if (shade__bright(&evenly)) return 0;
 
-    q->mesh.colors = NULL;
-    q->white_map = 1;
+    shade__drop_colors(q);
     return shade__lights_up(q);
 }
 
@@ -8668,8 +8704,6 @@ static int shade__material_is_black(shade__survey *q)
     shade__whiten(q);
     return !shows && shade__bright(q) && shade__lights_up(q);
 }
-
-static int shade__has_light(shade__survey *q) { return shade__shows(q); }
 
 static const char shade__transparent[] =
     "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
@@ -8709,12 +8743,12 @@ static const char shade__multiply[] =
 /* Changes are kept. */
 static const shade__rung shade__black[] = { { shade__alpha_is_zero, shade__transparent },
     { shade__shading_is_coarse, shade__coarse },
-    { shade__has_light, shade__multiply },
+    { shade__shows, shade__multiply },
     { shade__faces_are_lit, shade__multiply },
     { shade__terms_are_few, shade__no_terms },
-    { shade__has_light, shade__multiply },
+    { shade__shows, shade__multiply },
     { shade__colors_are_black, shade__black_colors },
-    { shade__has_light, shade__multiply },
+    { shade__shows, shade__multiply },
     { shade__material_is_black, shade__black_material },
                                             { NULL, NULL } };
 
@@ -8832,7 +8866,7 @@ static const shade__rung shade__unlit[] = {
 
 static int shade__is_clipped(shade__survey *q)
 {
-    const long long lit = shade__count(q, q->dim);
+    const long long lit = q->exact ? shade__count(q, q->dim) : shade__covered(q);
     long long clipped;
     q->material.emission = shade_v3(0, 0, 0);
     clipped = shade__count(q, 2);
@@ -8844,7 +8878,9 @@ static int shade__is_clipped(shade__survey *q)
 /* Does the light of lamps hit colours of 0, so that only highlights show? */
 static int shade__colors_are_zero(shade__survey *q)
 {
-    q->state.lighting.terms = SHADE_TERM_DIFFUSE;
+    unsigned *terms = &q->state.lighting.terms;
+    if (*terms && !(*terms & SHADE_TERM_DIFFUSE)) return 0;
+    *terms = SHADE_TERM_DIFFUSE;
     return q->state.lighting.model <= SHADE_MODEL_LAMBERT && !shade__count(q, FLT_MIN) &&
            q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
 }
@@ -8901,7 +8937,8 @@ static int shade__alpha_is_stored(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
     return d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
-           d->raster.blend == SHADE_BLEND_REPLACE && shade__count(q, 0.1f) > 0;
+           d->raster.blend == SHADE_BLEND_REPLACE &&
+           shade__count(q, 0.1f) > shade__count(q, 1 / (1 - d->transparency));    /* stays white */
 }
 
 /* Do highlights cover more than they would of a surface that is polished? */
@@ -8939,9 +8976,7 @@ static int shade__eye_is_astray(shade__survey *q)
     q->state.view = shade__mat4_product(&q->state.view, &frame);
     q->state.projection = shade__mat4_product(&q->state.projection, &q->state.view);
     q->state.view = shade_mat4_inverse(frame);
-    for (float least = 0.5f; least > 0.03f; least *= 0.7f)
-        if (shade__count(q, least) != shade__count(&given, least)) return 1;
-    return 0;
+    return shade__differ(q, &given);
 }
 
 static const shade__rung shade__wrong_light[] = {
@@ -9045,7 +9080,10 @@ static int shade__u_reaches(const shade_mesh *m, int width)
 static const char *shade__doubt_of_map(const shade__survey *s)
 {
     const shade_texture *map = shade__map_of(s);
+    const char *why;
     if (!map) return NULL;
+    why = shade__texture_fault(map);
+    if (why) return why;
     if (!s->mesh.texcoords)
         return "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn.";
     if (shade_mipmap_count(map->width, map->height) &&
@@ -9060,12 +9098,13 @@ static const char *shade__doubt_of_map(const shade__survey *s)
 }
 
 /* Is the aspect of the projection, which is that of its rows x and y at right angles to the sight,
-   not the picture's?  The cells of a terminal are twice as high as wide. */
+   not the picture's, in a way that shows?  The cells of a terminal are twice as high as wide. */
 static int shade__aspect_is_wrong(const shade__survey *s)
 {
     const shade_mat4 none = shade_mat4_identity();
     const double w = s->target->width, h = s->target->height;
     double x[3], y[3], wide, high;
+    shade__survey mended = *s;
     shade__camera c;
     shade__camera_of(&s->state.projection, &none, &c);
     shade__cross3(c.row[0], c.sight, x);
@@ -9076,7 +9115,10 @@ static int shade__aspect_is_wrong(const shade__survey *s)
         shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
         (h < 128 && shade__size(wide - 4 * high) < 0.24 * high))
         return 0;
-    return shade__size(wide - high) > 0.06 * wide;
+    if (shade__size(wide - high) <= 0.06 * wide) return 0;
+    for (int k = 0; k < 4; k++)
+        mended.state.projection.col[k].x *= shade__sqrt((float)(high / wide));
+    return shade__differ(s, &mended);
 }
 
 static const char *shade__doubt_of_view(const shade__survey *s)
@@ -9088,7 +9130,8 @@ static const char *shade__doubt_of_view(const shade__survey *s)
     if (shade__aspect_is_wrong(s))
         return "The aspect of state.projection is not that of the picture: pass width / height of "
                "the target as floats to shade_mat4_perspective.";
-    if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && shade__eye_inside(s))
+    if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && p->col[3].x == 0 &&
+        p->col[3].y == 0 && shade__eye_inside(s))
         return "state.view is unset, so that the eye is at the origin, inside of the mesh's box; "
                "make it with shade_mat4_look_at.";
     return NULL;
@@ -9097,13 +9140,10 @@ static const char *shade__doubt_of_view(const shade__survey *s)
 static const char *shade__doubt_of_surface(const shade__survey *s)
 {
     const shade_draw_state *d = s->given_state;
-    const shade_lighting *l = &d->lighting;
-    const shade_material *m = &s->material;
-    const shade_vec3 e = m->emission;
-    if (!s->target->color || d->fragment) return NULL;
-    if (l->light_count <= 0 || l->terms) return NULL;
-    if (e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
-        l->model < SHADE_MODEL_EMISSIVE && !shade__is_zero(m->diffuse))
+    const shade_vec3 e = s->material.emission;
+    if (s->target->color && !d->fragment && d->lighting.light_count > 0 && !d->lighting.terms &&
+        e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
+        d->lighting.model < SHADE_MODEL_EMISSIVE && !shade__is_zero(s->material.diffuse))
         return "state.material.emission alone makes all white, whatever light arrives: it is what "
                "the surface sends out, and 0 for most.";
     return NULL;
@@ -9113,7 +9153,7 @@ static const char *shade__doubt(const shade__survey *s)
 {
     const shade_target *t = s->target;
     const shade_raster *r = &s->given_state->raster;
-    const char *why = NULL;
+    const char *why;
     if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
     if (shade__boxes_are_small(s->given_mesh)) return shade__wrong_box;
     if ((t->clip_x > 0 && t->clip_width > shade__max(t->width / 2, t->width - t->clip_x)) ||
@@ -9130,27 +9170,30 @@ static const char *shade__doubt(const shade__survey *s)
 
 /* ---- the way through the ladders */
 
-/* Does the advice help by itself, with all else as it is given?  That on lamps behind the surface
-   and on normals of 0 has been proven. */
+/* Does the advice help by itself, with all else as it is given? */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
+    shade_lighting *l = &q.state.lighting;
     if (why == shade__transparent) q.state.raster.blend = SHADE_BLEND_REPLACE;
     else if (why == shade__coarse) shade__light_fragments(&q);
     else if (why == shade__no_terms) return shade__terms_are_few(&q);
-    else if (why == shade__black_colors) {
-        q.mesh.colors = NULL;
-        q.white_map = 1;
-    } else if (why == shade__black_material) {
-        shade__whiten(&q);
-        q.mesh.colors = seen->mesh.colors;
-        q.white_map = seen->white_map;
-    } else if (why == shade__fall_off) shade__light_everywhere(&q);
-    else if (why == shade__no_color) shade__light_from_eye(&q);
+    else if (why == shade__black_colors) shade__drop_colors(&q);
+    else if (why == shade__black_material) shade__polish(&q);
+    else if (why == shade__fall_off) shade__light_everywhere(&q);
     else if (why == shade__no_cone) {
         shade__own_lamps(&q);
         shade__open_cones(&q);
-    } else return 1;
+    } else {
+        if (l->model > SHADE_MODEL_LAMBERT) return 0;
+        if (why != shade__no_color) shade__whiten(&q);    /* the surface may be black as well */
+        if (why == shade__no_normals) q.mesh.normals = NULL;
+        else if (why == shade__behind) l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
+        else shade__light_from_eye(&q);
+        if (seen->state.lighting.light_count <= 0) l->ambient = shade_v3(1, 1, 1);
+        l->terms = seen->state.lighting.terms;
+        l->model = seen->state.lighting.model;
+    }
     return shade__lights_up(&q);
 }
 
@@ -9162,16 +9205,14 @@ static const char *shade__why_black(const shade__survey *seen)
     why = shade__climb_on(&q, shade__black);
     if (!why) why = shade__climb_on(&q, shade__no_lamps);
     if (!why) why = shade__climb_on(&q, shade__unlit);
-    return shade__helps(seen, why) ? why : shade__multiply;
+    return why && shade__helps(seen, why) ? why : shade__multiply;
 }
 
-/* Is all dark that the mesh may show, or black in the caller's picture?  A channel of least is not
-   dark. */
+/* Is all dark that the mesh may show, or the caller's picture?  A channel of least is not dark. */
 static int shade__is_dark(const shade__survey *seen, float least)
 {
     shade__survey q = *seen;
     if ((!q.whole && shade__is_band(q.target)) || shade__black_is_meant(&q)) return 0;
-    if (!q.exact && !q.given_stats && !shade__passed(seen)) return 0;
     if (!q.exact) shade__look_in_clip(&q);
     q.stored = 1;
     return !shade__count(&q, least);
@@ -9181,24 +9222,30 @@ static int shade__is_dark(const shade__survey *seen, float least)
 static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
+    const int opaque = s->state.raster.blend == SHADE_BLEND_REPLACE;
     const char *why = shade__climb(s, shade__picture);
     shade__look_at_seen(&seen);
     if (why || !s->target->color || !shade__covered(&seen)) return why;
     if (s->given_state->fragment) {
-        return s->given_state->raster.blend != SHADE_BLEND_OVER && shade__is_dark(&seen, 0)
+        if (s->given_state->raster.cull == SHADE_CULL_FRONT || !shade__is_dark(&seen, 0))
+            return NULL;
+        return s->state.transparency < 1 || opaque
                    ? "state.fragment leaves all pixels of the mesh black: does it write color for "
                      "each lane, or discard them?"
-                   : NULL;
+                   : shade__transparent;
     }
-    if (!shade__shows(&seen)) return shade__why_black(&seen);
+    q = seen;
+    if (!opaque) q.dim /= 8;    /* layers add up */
+    if (!shade__shows(&q) || (!shade__shows(&seen) && shade__is_dark(&seen, 0)))
+        return shade__why_black(&seen);
     why = shade__climb(&seen, shade__wrong_light);
     if (why) return why;
 
     q = seen;
     why = shade__climb_on(&q, shade__flat);
-    if (!why && shade__is_dark(&seen, seen.dim)) return shade__multiply;
+    if (!why && shade__is_dark(&seen, opaque ? seen.dim : 0)) return shade__multiply;
     shade__lamps_alone(&seen);
-    return shade__helps(&seen, why) ? why : NULL;
+    return why && shade__helps(&seen, why) ? why : NULL;
 }
 
 static const char *shade__why(const shade__survey *s)
@@ -9211,7 +9258,7 @@ static const char *shade__why(const shade__survey *s)
 
     why = shade__climb(s, shade__test);
     if (!why && !sure) why = shade__climb(s, shade__unseen);
-    if (why || (s->given_stats && !sure)) return why;
+    if (why || !shade__is_drawn(s)) return why;
 
     why = shade__why_wrong(s);
     return why ? why : shade__doubt(s);
@@ -9235,7 +9282,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
 {
     shade__survey s;
     const char *why;
-    (void)shade__mesh_refusal(target, mesh, state, &why);
+    shade__mesh_refusal(target, mesh, state, &why);
     if (!why) why = shade__no_mesh(mesh);
     if (!why) why = shade__clip_fault(target);
     if (why) return why;
@@ -9537,7 +9584,7 @@ SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
     const shade__indices list = { indices, NULL };
     const char *why;
     shade__replay r;
-    (void)shade__draw_refusal(target, pipeline, list, index_count, vertex_count, &why);
+    shade__draw_refusal(target, pipeline, list, index_count, vertex_count, &why);
     if (!why && !index_count)
         why = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
     if (why) return why;
@@ -9559,7 +9606,7 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
     const char *why;
     shade__stroke stroke;
     shade__replay r;
-    (void)shade__lines_refusal(target, points, point_count, state, &why);
+    shade__lines_refusal(target, points, point_count, state, &why);
     if (!why && !point_count) why = "There is no line to draw: point_count is 0.";
     if (why) return why;
 

@@ -27,9 +27,26 @@ static int explained_pick(int n)
 #include "explained.h"
 
 #ifdef EXPLAIN_STATES
+/* Is every triangle dark in the whole picture, drawn alone? */
+static int ex_is_each_dark(const explained *e, const stage *whole)
+{
+    static picture drawn;
+    static stage one;
+    ex_copy(whole, &one);
+    cure_chunks(&one);
+    cure_indices(&one);
+    one.mesh.index_count = 3;
+    for (int i = 0; i + 2 < ex_corners(&whole->mesh); i += 3) {
+        for (int k = 0; k < 3; k++) one.index[k] = ex_vertex(&whole->mesh, i + k);
+        ex_draw(e, &one, &drawn);
+        if (drawn.bright) return 0;
+    }
+    return 1;
+}
 /* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, or
    another one hide it; black surfaces are outlines where fronts are culled, and shadows where they
-   are blended over a ground. */
+   are blended over a ground.  A band does not tell which triangles others show, nor what a shader
+   would leave there, which is not called: all triangles must be dark. */
 static int ex_is_black(explained *e, shade_stats *stats)
 {
     static picture drawn;
@@ -43,10 +60,13 @@ static int ex_is_black(explained *e, shade_stats *stats)
     if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
         ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
         return 0;
+    if (d->fragment && d->raster.cull == SHADE_CULL_FRONT) return 0;
     ex_copy(&e->s, &whole);
     cure_clip(&whole);
     if (!drawn.stats.fragments &&
         (e->s.target.clip_width || e->s.target.row_count || e->other.col[3].w != 0)) return 0;
+    if (e->s.target.clip_width || e->s.target.row_count)
+        return !d->fragment && ex_is_each_dark(e, &whole);
     ex_draw(e, &whole, &drawn);
     return !drawn.bright;
 }

@@ -156,9 +156,12 @@ static shade_mat4 ex_camera(const stage *s)
 }
 static shade_vec3 ex_eye(const stage *s, int greater)
 {
-    const shade_mat4 m = ex_camera(s);
     const float toward = greater ? 1.0f : -1.0f;
-    const shade_vec4 at = shade_mat4_transform(shade_mat4_inverse(m), shade_v4(0, 0, toward, 0));
+    shade_mat4 m = ex_camera(s);
+    shade_vec4 at;
+    if (shade_mat4_determinant(m) == 0)    /* depth is the same everywhere: any other will do */
+        for (int k = 0; k < 4; k++) m.col[k].z = k == 3;
+    at = shade_mat4_transform(shade_mat4_inverse(m), shade_v4(0, 0, toward, 0));
     const float scale = at.w == 0 ? 1e6f : 1 / at.w;
     return shade_v3(at.x * scale, at.y * scale, at.z * scale);
 }
@@ -171,6 +174,7 @@ static int ex_tenths(const judged *j, const geometry *g, of_pixel *holds)
     return g->count ? n * 10 / g->count : 10;
 }
 
+static shade_vec3 ex_xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
 /* The cosine between a direction and that to a lamp. */
 static float ex_toward(const shade_light *l, shade_vec3 point, shade_vec3 direction)
 {
@@ -202,7 +206,10 @@ static int ex_is_back(const judged *j, const shown *at)
 static int ex_unlit_side(const judged *j, const shown *at)
 {
     const shade_lighting *l = &j->e->s.state.lighting;
-    const shade_vec3 to_eye = shade_sub(j->eye, at->point);
+    const shade_mat4 view = shade_mat4_inverse(ex_or_identity(j->e->s.state.view));
+    const shade_vec3 to_eye = l->flags & SHADE_FLAG_INFINITE_VIEWER    /* as light takes it */
+                                  ? ex_xyz(view.col[2])
+                                  : shade_sub(ex_xyz(view.col[3]), at->point);
     const int flip = l->flags & SHADE_FLAG_TWO_SIDED && shade_dot(to_eye, at->normal) < 0;
     if (l->flags & SHADE_FLAG_TWO_SIDED_ABS) return ex_no_normal(j, at);
     for (int k = 0; k < l->light_count; k++)
@@ -245,7 +252,6 @@ static int ex_before_w(const double c[4])
 }
 static int ex_behind_eye(const double c[4]) { return ex_is_bad(c) || c[3] < 1e-4; }
 
-static shade_vec3 ex_xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
 static int ex_is_affine(shade_mat4 m)
 {
     return m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == 0 && m.col[3].w == 1;
@@ -263,6 +269,10 @@ static int ex_is_by_rows(shade_mat4 m)
 {
     m = ex_or_identity(m);
     return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
+}
+static int ex_is_perspective_by_rows(shade_mat4 m)
+{
+    return m.col[3].x == 0 && m.col[3].y == 0 && fabsf(m.col[3].z) == 1 && m.col[3].w == 0;
 }
 /* One-point perspective, w = 1 - z/k, of which the transposed one moves by -1/k. */
 static int ex_is_from_point(shade_mat4 p)
@@ -345,8 +355,8 @@ SO(far_wins, TARGET->depth && ex_is_greater(STATE) != j->nearer_is_greater)
 SO(order, !TARGET->depth || RASTER->depth_test == SHADE_COMPARE_ALWAYS || RASTER->depth_read_only)
 SO(bias, fabsf(RASTER->depth_bias) >= 1)
 SO(no_view, STATE->view.col[3].w == 0 && ex_eye_in_box(j))
-SO(view_by_rows, ex_is_by_rows(STATE->view))
-SO(model_by_rows, ex_is_by_rows(STATE->model))
+SO(view_by_rows, ex_is_by_rows(STATE->view) || ex_is_perspective_by_rows(STATE->view))
+SO(model_by_rows, ex_is_by_rows(STATE->model) || ex_is_perspective_by_rows(STATE->model))
 SO(by_rows, !ex_is_from_point(STATE->projection))
 SO(last_row, STATE->model.col[3].w != 1 || STATE->view.col[3].w != 1)
 SO(not_rigid, !ex_is_rigid(ex_or_identity(STATE->view)))
@@ -460,12 +470,18 @@ CURE(count)
     if (s->state.raster.cull == SHADE_CULL_FRONT) cure_sides(s);    /* of inner walls */
 }
 CURE(at_eye) { cure_count(s); }
+/* A lamp, or ambient light. */
+CURE(any_light)
+{
+    cure_count(s);
+    s->state.lighting.ambient = WHITE;
+}
 CURE(no_lamp)
 {
     if (s->state.lighting.light_count <= 0) cure_count(s);
 }
 CURE_LAMPS(distance, l->constant = l->linear = l->quadratic = l->spot_exponent = 0;)
-CURE_LAMPS(cone, l->spot_cos_cutoff = -1;)
+CURE_LAMPS(cone, l->spot_direction = BLACK;)
 CURE_LAMPS(colors_of_lamps, l->diffuse = l->specular = WHITE;)
 CURE_LAMPS(ambient, l->ambient = BLACK;)    /* no cure, but it hides that there is one */
 /* A lamp that is nowhere is put at the eye. */
@@ -506,6 +522,13 @@ CURE(material)
     if (!s->state.material) s->material.emission = BLACK;
     s->state.material = &s->material;
 }
+/* Without wide highlights. */
+CURE(matte)
+{
+    s->material.ambient = s->material.diffuse = WHITE;
+    if (!s->state.material) s->material.specular = s->material.emission = BLACK;
+    s->state.material = &s->material;
+}
 CURE(turned)
 {
     for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i] = shade_neg(s->normal[i]);
@@ -542,13 +565,18 @@ CURE(chunks)
     s->mesh.chunks = NULL;
     s->mesh.chunk_count = 0;
 }
-CURE(winding)
+/* A mesh without indices gets some, in order. */
+CURE(indices)
 {
     if (!s->mesh.indices) {
         for (int i = 0; i < s->mesh.vertex_count; i++) s->index[i] = (uint32_t)i;
         s->mesh.index_count = s->mesh.vertex_count;
     }
     s->mesh.indices = s->index;
+}
+CURE(winding)
+{
+    cure_indices(s);
     stage_turn(s, 0);
 }
 CURE(clip)
@@ -593,6 +621,15 @@ CURE(projection)
     s->state.raster.depth_zero_to_one = 0;
     s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
     s->clear = 1;
+}
+/* The same picture, with near at .1 and far at infinity. */
+CURE(near)
+{
+    shade_mat4 *p = &s->state.projection;
+    const int greater = ex_is_greater(&s->state);
+    *p = ex_or_identity(*p);
+    for (int k = 0; k < 4; k++) p->col[k].z = greater ? 0 : p->col[k].w;
+    p->col[3].z += greater ? 0.1f : -0.2f;
 }
 /* A camera that sees all of the mesh. */
 CURE(camera)
@@ -687,7 +724,7 @@ static const claim claims[] = {
     { "state.fragment discards", so_shader, cure_shader, SHOWS },
     { "is SHADE_COMPARE_EQUAL", so_equal, cure_depth, SHOWS },
     { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
-    { "Depth is that of the far plane", NULL, cure_projection, SHOWS },
+    { "Depth is that of the far plane", NULL, cure_near, SHOWS },
     { "What target.depth holds", so_not_equal, cure_clear, SHOWS },
     /* wrong pixels */
     { "inside out", so_inside_out, cure_winding, CHANGES },
@@ -702,8 +739,8 @@ static const claim claims[] = {
     { "mesh.colors, or the texels", so_map_or_colors, cure_colors, COLORS_LIGHT },
     { "state.material reflects", NULL, cure_material, LIGHTS_UP },
     { "black or almost: state.material", NULL, cure_all, LIGHTS_UP },
-    { "There is no light", so_no_lamp, cure_count, LIGHTS_UP },
-    { "and lighting.ambient is dark", so_no_lamp, cure_count, LIGHTS_UP },
+    { "There is no light", so_no_lamp, cure_any_light, LIGHTS_UP },
+    { "and lighting.ambient is dark", so_no_lamp, cure_any_light, LIGHTS_UP },
     { "arrives: lighting.light_count is 0", so_no_lamp, cure_count, LAMPS_LIGHT },
     { "which shows no form", so_no_lamp, cure_count, LAMPS_LIGHT },
     { "mesh.normals are zero or NaN", so_no_normal, cure_normals, LAMPS_LIGHT },
@@ -730,27 +767,30 @@ enum { EX_CLAIMS = sizeof claims / sizeof *claims };
 
 /* What may keep a mesh from being seen, and from being lit. */
 static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_clip, cure_depth,
-                                    cure_shader, cure_mesh, cure_model, cure_projection,
-                                    cure_camera, NULL };
+                                    cure_clear, cure_shader, cure_near, cure_mesh, cure_model,
+                                    cure_projection, cure_camera, NULL };
 static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading,
-                                     cure_terms, cure_colors, cure_material, cure_sides,
+                                     cure_terms, cure_colors, cure_material, cure_matte, cure_sides,
                                      cure_normals, cure_distance, cure_cone, cure_lamps,
-                                     cure_numbers, cure_emission, NULL };
+                                     cure_numbers, cure_emission, cure_shader, NULL };
+/* All factors of light at their best, and light from everywhere. */
 CURE(all)
 {
     for (cure *const *one = ex_of_light; *one; one++)
-        if (*one != cure_normals) (*one)(s);
+        if (*one != cure_normals && *one != cure_shader && *one != cure_matte) (*one)(s);
+    cure_any_light(s);
 }
-/* What is not mended where the second one is the advice, since it would do the same. */
+/* What is not mended where the second one is the advice, since it would do the same, or take other
+   normals. */
 static cure *const ex_alike[][2] = {
-    { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
-    { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
-    { cure_mesh, cure_winding }, { cure_opaque, cure_over },
-    { cure_material, cure_shininess }, { cure_projection, cure_by_rows },
-    { cure_projection, cure_aspect }, { cure_camera, cure_by_rows },
-    { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count }, { cure_lamps, cure_at_eye },
-    { cure_numbers, cure_at_eye },
+    { cure_depth, cure_clear }, { cure_clear, cure_depth }, { cure_normals, cure_sides },
+    { cure_sides, cure_turned }, { cure_shading, cure_sides }, { cure_normals, cure_turned },
+    { cure_cull, cure_winding }, { cure_sides, cure_winding }, { cure_mesh, cure_winding },
+    { cure_opaque, cure_over }, { cure_material, cure_shininess }, { cure_matte, cure_material },
+    { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
+    { cure_camera, cure_by_rows }, { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect },
+    { cure_mesh, cure_chunks }, { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
+    { cure_no_lamp, cure_any_light }, { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
@@ -802,7 +842,8 @@ static void ex_mend(const judged *j, const claim *c, cure *const *all, int from_
     for (int k = 0; k < n; k++) {
         cure *one = all[from_last ? n - 1 - k : k];
         const int moves = one == cure_mesh || one == cure_model || one == cure_camera ||
-                          (one == cure_projection && c->advice != cure_clear);
+                          one == cure_projection ||
+                          (one == cure_near && c->advice != cure_clear);
         const int always = c->effect == CHANGES || c->effect == DARKENS;
         if ((moves && c->effect != CHANGES) || (one == cure_cull && ex_is_lit(c)) ||
             !ex_is_apart(one, c->advice))
@@ -832,12 +873,11 @@ static int ex_is_better(const trial *a, const trial *b, enum effect effect)
 }
 /* Does the advice alone change the picture as it promises, or where it does not, that of all rows
    and columns, or after other mistakes are mended, which alone would not do? */
-static int ex_holds(const judged *j, const claim *c)
+static int ex_works(const judged *j, const claim *c)
 {
     static trial before, after;
     static stage s;
     const int seen = c->effect == SHOWS || c->effect == INTO_VIEW;
-    if (c->so && !c->so(j)) return 0;
     for (int k = 0; k < 4; k++) {
         ex_copy(&j->e->s, &s);
         if (k && !seen && (c->effect == CHANGES || !j->shown.count)) cure_clip(&s);
@@ -851,6 +891,15 @@ static int ex_holds(const judged *j, const claim *c)
         if (ex_is_better(&before, &after, c->effect)) return 1;
     }
     return 0;
+}
+/* Is the sentence so, and does its advice help?  That on lamps may light up the whole picture as
+   well: distance and cones may dim ambient light. */
+static int ex_holds(const judged *j, const claim *c)
+{
+    claim all = *c;
+    all.effect = LIGHTS_UP;
+    if (c->so && !c->so(j)) return 0;
+    return ex_works(j, c) || (c->effect == LAMPS_LIGHT && ex_works(j, &all));
 }
 
 static void ex_judge(const explained *e, const picture *drawn, judged *j)
@@ -879,6 +928,10 @@ static int ex_explain(explained *e, int with_stats, const char **said)
     if (s->other_stats) drawn.stats.triangles += 12;
     *said = shade_explain(s->no_target ? NULL : &s->target, s->no_mesh ? NULL : &s->mesh,
                           s->no_state ? NULL : &s->state, with_stats ? &drawn.stats : NULL);
+    if (!with_stats && s->draws > 1) {    /* what the first one drew is shown */
+        s->draws = 1;
+        ex_draw(e, s, &drawn);
+    }
     if (drawn.result) return **said ? EX_REFUSED : EX_CLAIMS + EX_FALSE;
     if (!**said) return EX_NOTHING;
     for (int k = 0; k < EX_CLAIMS; k++) {

@@ -268,10 +268,43 @@ TEST(explain_more, aspect_and_depth_are_those_of_the_camera)
     free(s);
 }
 
+/* A pixel is lit if one channel of it is: 2 is 0x40000000 as a float, a byte of 0x40 alone. */
+static void shader_of_a_channel(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                shade_colors *SHADE_RESTRICT out)
+{
+    const float *color = (const float *)uniforms;
+    (void)in;
+    for (int k = 0; k < 4; k++) SHADE_EACH_LANE(i) { out->color[k][i] = color[k]; }
+}
+TEST(explain_more, a_shader_that_lights_one_channel_leaves_no_black)
+{
+    static const struct { shade_format format; float light; int lit; } row[] = {
+        { SHADE_FORMAT_RGBA32F, 2, 1 },         { SHADE_FORMAT_RGBA32F, 0, 0 },
+        { SHADE_FORMAT_RGBA8, 64 / 255.0f, 1 }, { SHADE_FORMAT_RGBA8, 9 / 255.0f, 1 },
+        { SHADE_FORMAT_RGBA8, 8 / 255.0f, 0 },  { SHADE_FORMAT_RGB565, 4 / 63.0f, 1 },
+        { SHADE_FORMAT_BGRA8, 64 / 255.0f, 1 }, { SHADE_FORMAT_RGB565_SWAPPED, 4 / 63.0f, 1 }
+    };
+    stage *s = stage_open();
+    for (int k = 0; k < TEST_COUNT(row) * 3; k++) {
+        float color[4] = { 0, 0, 0, 1 };
+        const char *said;
+        stage_of_ball(s);
+        color[k % 3] = row[k / 3].light;
+        s->target.format = row[k / 3].format;
+        s->state.fragment = shader_of_a_channel;
+        s->state.uniforms = color;
+        said = stage_explain(s, 1);
+        CHECK_SAY(row[k / 3].lit ? !*said : strstr(said, "leaves all pixels") != NULL,
+                  "row %d: \"%s\"", k, said);
+    }
+    free(s);
+}
+
 static const test_case explain_more_cases[] = {
     CASE(explain_more, each_sentence_has_its_limit),
     CASE(explain_more, of_more_than_sixteen_lamps_none_is_said_to_be_behind),
     CASE(explain_more, aspect_and_depth_are_those_of_the_camera),
+    CASE(explain_more, a_shader_that_lights_one_channel_leaves_no_black),
 };
 
 SECTION(explain_more);
