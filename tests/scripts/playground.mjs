@@ -765,7 +765,7 @@ check('iteration three reads the same on every screen', read.size === 1 &&
     await page.evaluate(() => { S.p1 = [3, 2, 3], changed(); });
     check('and it follows what changes', await soon(() => page.evaluate(() => !document.querySelector('#lines summary'))));
     check('each term that is 0 says why', await page.evaluate(() => {
-        Object.assign(S, { ks: [0, 0, 0] }), refresh();
+        Object.assign(S, { ks: [0, 0, 0] }), refresh(), frame(performance.now());
         return explanation().lines.filter(({ c, why }) => /^specular_1/.test(c) && /k_s = 0/.test(why)).length === 1;
     }));
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
