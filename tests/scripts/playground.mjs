@@ -643,7 +643,7 @@ check('iteration three reads the same on every screen', read.size === 1 &&
         return { fates, wrong };
     });
     check('what the next step does', !told.wrong.length && told.fates.every(n => n > 5), JSON.stringify(told));
-    await go(page, SCENE);
+    await go(page, SCENE + '&step=1');
     await page.keyboard.press('3');
     check('a wrong prediction is told', await soon(async () => /^(Right|No): triangle 1 at/.test(
         await page.locator('#foretold').textContent())));
@@ -652,7 +652,7 @@ check('iteration three reads the same on every screen', read.size === 1 &&
         return new Set(new Uint32Array(wasm.memory.buffer, wasm.page_raster_pixels(), 192)).size;
     });
     check('colours are interpolated', blend > 30, blend);
-    await go(page, SCENE);
+    await go(page, SCENE + '&step=2');
     await page.keyboard.press('Enter');
     check('it plays', await soon(() => page.evaluate(() => S.step > 3)));
     await page.keyboard.press('Enter');
@@ -750,7 +750,7 @@ check('iteration three reads the same on every screen', read.size === 1 &&
     check('it is shown as MathML', await page.evaluate(() => $('#explanation').open &&
         document.querySelectorAll('#lines math').length > 20 && !/undefined|NaN|\\\\/.test($('#lines').textContent)));
     // beside the picture, with the result in sight; lamps that bring nothing are one line, which says why
-    for (const hash of ['turn=0', RICH + '&shading=1', 'turn=0&p1=-3,1,-3&on2=0']) {
+    for (const hash of ['turn=0&n=80', RICH + '&shading=1', 'turn=0&p1=-3,1,-3&on2=0']) {
         await go(page, hash);
         await page.evaluate(() => $('#explanation').open || explain());
         await page.waitForFunction(() => $('#lines .result'));
@@ -765,7 +765,7 @@ check('iteration three reads the same on every screen', read.size === 1 &&
     await page.evaluate(() => { S.p1 = [3, 2, 3], changed(); });
     check('and it follows what changes', await soon(() => page.evaluate(() => !document.querySelector('#lines summary'))));
     check('each term that is 0 says why', await page.evaluate(() => {
-        Object.assign(S, { ks: [0, 0, 0] }), refresh();
+        Object.assign(S, { ks: [0, 0, 0] }), refresh(), frame(performance.now());
         return explanation().lines.filter(({ c, why }) => /^specular_1/.test(c) && /k_s = 0/.test(why)).length === 1;
     }));
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);

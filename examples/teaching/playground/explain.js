@@ -266,14 +266,14 @@ function writeLines(found) {
     result.className = 'result';
     $('#lines').replaceChildren(...nodes, result);
 }
+// While it is open it follows the point and the controls.
+function showExplanation() {
+    const found = $('#explanation').open && explanation();
+    if (found) writeLines(found);
+}
 function buildExplain() {
     $('#models').append(make('button', { type: 'button', id: 'explain', 'data-name': 'explain',
         title: 'Every line of the equation with its numbers: E', onclick: explain }, 'Explain this pixel'));
-    // while it is open it follows the point and the controls
-    shown.push(() => requestAnimationFrame(() => {
-        const found = $('#explanation').open && explanation();
-        if (found) writeLines(found);
-    }));
     addEventListener('keydown', event => {
         if (event.key === 'Escape' && $('#explanation').open) { $('#explanation').close(); return; }
         if (modified(event) || event.key !== 'e' || S.raster || S.lecture || document.querySelector('dialog[open]')) return;

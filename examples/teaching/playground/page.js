@@ -495,6 +495,7 @@ function showAnswer(answer) {
     showMaps(answer, model === 1 ? 'R' : 'H');
     showLobe(answer);
     showCurve(answer);
+    showExplanation();
 }
 // An arrow's head at (X, Y), which is (dx, dy) from where it begins; a diamond for H, so that H and N
 // differ by more than colour
