@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture, of shade_mesh and of shade_light
-const OBJECT = 28, SHOT = 67, MESH = 14, LIGHT = 21;
+const OBJECT = 30, SHOT = 67, MESH = 14, LIGHT = 21;
 const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
