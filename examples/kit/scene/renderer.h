@@ -1049,8 +1049,8 @@ static inline void renderer_face_normals(const renderer_batch *b, const shade_fr
 }
 
 /* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta off the
-   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit, by what makes up for
-   it, and for the chords of round shapes, which differ from map to picture. */
+   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit,
+   by what makes up for it, and for the chords of round shapes, which differ from map to picture. */
 static inline void renderer_shadow(const renderer_batch *b, const renderer_surface *s,
                                    const float (*P)[SHADE_LANES], const float (*N)[SHADE_LANES],
                                    float *visible)
@@ -1455,8 +1455,9 @@ static inline float renderer_aim_spot(const shade_light *lamp, shade_vec3 at, sh
     return 1.02f * sine / renderer_sine(sine);
 }
 
-/* How far along the way of a lamp the finite planes reach, which its map shows and the sphere around
-   what casts shadows does not: cut off at the far plane, they would be dark along that line. */
+/* How far along the way of a lamp the finite planes reach, which its map shows and the sphere
+   around what casts shadows does not: cut off at the far plane, they would be dark along that
+   line. */
 static inline float renderer_floors(const renderer_picture *p, const renderer_scene *s,
                                     shade_vec3 at, shade_vec3 aim, float most)
 {
