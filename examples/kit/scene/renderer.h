@@ -45,7 +45,8 @@ typedef struct renderer_object {
     float place[3];
     float rgba[4]; /* linear where the picture is sRGB; alpha below 1: blended */
     float specular, shininess, emission; /* emission multiplies the colour */
-    float repeat[2]; /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
+    float repeat[2];   /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
+    float metal, tint; /* k_d is 1 - metal times the colour, k_s specular + tint times the colour */
 } renderer_object;
 
 enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 11 };
@@ -758,8 +759,8 @@ typedef struct renderer_batch {
     int several;                    /* more than one object */
     int uv, colors;                 /* the varyings that they are; 0: there are none */
     int notes, blended, two_sided;
-    int meshes;        /* whether any of its objects is one */
-    int glossy, glows; /* whether any of its objects is so */
+    int meshes;                /* whether any of its objects is one */
+    int glossy, glows, metals; /* whether any of its objects is so */
 } renderer_batch;
 
 /* How u and v follow from coordinates or texcoords */
@@ -867,7 +868,7 @@ static inline void renderer_shade_vertices(const void *uniforms,
 typedef struct renderer_surface {
     float albedo[3][SHADE_LANES], alpha[SHADE_LANES];
     float specular[3][SHADE_LANES], shininess[SHADE_LANES], emission[SHADE_LANES];
-    float sag[SHADE_LANES];
+    float sag[SHADE_LANES], metal[SHADE_LANES], tint[SHADE_LANES];
     int glossy, glows, alike; /* alike: one shininess for all lanes */
 } renderer_surface;
 
@@ -898,7 +899,7 @@ static inline void renderer_surface_of(const renderer_batch *b, const renderer_e
                                        renderer_surface *s, int first, int last)
 {
     const renderer_object *o = &b->v->p->objects[e->object];
-    s->glossy |= o->specular > 0;
+    s->glossy |= o->specular > 0 || o->tint > 0;
     s->glows |= o->emission > 0;
     for (int k = 0; k < 3; k++) renderer_fill(s->albedo[k], o->rgba[k], first, last);
     if (b->blended) renderer_fill(s->alpha, o->rgba[3], first, last);
@@ -911,6 +912,9 @@ static inline void renderer_surface_of(const renderer_batch *b, const renderer_e
     if (!b->glossy) return;
     renderer_fill(s->shininess, o->shininess, first, last);
     renderer_fill(s->specular[0], o->specular, first, last);
+    if (!b->metals) return;
+    renderer_fill(s->metal, o->metal, first, last);
+    renderer_fill(s->tint, o->tint, first, last);
 }
 
 /* Neighbouring lanes mostly belong to one object. */
@@ -1045,8 +1049,8 @@ static inline void renderer_face_normals(const renderer_batch *b, const shade_fr
 }
 
 /* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta off the
-   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit, by what makes up for
-   it, and for the chords of round shapes, which differ from map to picture. */
+   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit,
+   by what makes up for it, and for the chords of round shapes, which differ from map to picture. */
 static inline void renderer_shadow(const renderer_batch *b, const renderer_surface *s,
                                    const float (*P)[SHADE_LANES], const float (*N)[SHADE_LANES],
                                    float *visible)
@@ -1156,6 +1160,13 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
             s.albedo[k][i] *= in->varying[b->colors + k][i];
         }
     if (b->texture) renderer_paint_map(b, in, &s);
+    for (int k = 0; k < 3 && b->metals; k++) {
+        if (s.glossy) SHADE_EACH_LANE(i)
+            {
+                s.specular[k][i] += s.tint[i] * s.albedo[k][i];
+            }
+        SHADE_EACH_LANE(i) { s.albedo[k][i] *= 1 - s.metal[i]; }
+    }
     rows.albedo = s.albedo[0];
     if (s.glossy) rows.specular = s.specular[0];
     if (lamp >= 0) {
@@ -1294,10 +1305,11 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     b->colors = b->lighting && (key & RENDERER_KEY_COLORS) ? (b->texture ? 9 : 6) : 0;
     b->several = count > 1;
     b->two_sided = (key & RENDERER_KEY_TWO_SIDED) != 0;
-    b->glossy = b->glows = b->meshes = 0;
+    b->glossy = b->glows = b->metals = b->meshes = 0;
     for (int k = 0; k < count; k++) {
         const renderer_object *o = &b->v->p->objects[e[k].object];
-        b->glossy |= o->specular > 0;
+        b->metals |= o->metal > 0 || o->tint > 0;
+        b->glossy |= o->specular > 0 || o->metal > 0 || o->tint > 0;
         b->glows |= o->emission > 0;
         b->meshes |= o->kind == RENDERER_MESH;
     }
@@ -1443,8 +1455,9 @@ static inline float renderer_aim_spot(const shade_light *lamp, shade_vec3 at, sh
     return 1.02f * sine / renderer_sine(sine);
 }
 
-/* How far along the way of a lamp the finite planes reach, which its map shows and the sphere around
-   what casts shadows does not: cut off at the far plane, they would be dark along that line. */
+/* How far along the way of a lamp the finite planes reach, which its map shows and the sphere
+   around what casts shadows does not: cut off at the far plane, they would be dark along that
+   line. */
 static inline float renderer_floors(const renderer_picture *p, const renderer_scene *s,
                                     shade_vec3 at, shade_vec3 aim, float most)
 {

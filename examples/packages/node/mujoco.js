@@ -102,7 +102,7 @@ class Stage {
     /** 28 words of a geom; null for what is no surface here. */
     #words(g) {
         if (!(g.type >= 0 && g.type < KINDS.length - 1)) return null;
-        const floats = new Float32Array(28), ints = new Int32Array(floats.buffer);
+        const floats = new Float32Array(30), ints = new Int32Array(floats.buffer);
         const shape = g.type === MESH || g.type === HEIGHT_FIELD;
         const mapped = shape && g.type === MESH && g.texcoord;
         ints[0] = KINDS[g.type];

@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 28, SHOT = 67, LIGHT = 21;
+const OBJECT = 30, SHOT = 67, LIGHT = 21;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];

@@ -5,10 +5,10 @@
    ./compare --limit 2 golden.ppm part.stl
 
    It is made for tests that draw a picture and compare it with one that is kept.  In place of a
-   picture may stand a model, which is drawn as thumbnail draws it.  PPM and PGM are read row by row,
-   so that a poster takes no more memory than an icon.  With -DMODEL_STB and stb installed, it also
-   reads PNG, with alpha and 16 bits, and the other formats of stb, with -DMODEL_ASSIMP and -lassimp
-   the models of assimp. */
+   picture may stand a model, which is drawn as thumbnail draws it.  PPM and PGM are read row by
+   row, so that a poster takes no more memory than an icon.  With -DMODEL_STB and stb installed, it
+   also reads PNG, with alpha and 16 bits, and the other formats of stb, with -DMODEL_ASSIMP and
+   -lassimp the models of assimp. */
 #define _DEFAULT_SOURCE /* NOLINT: the system's own name, for POSIX with -std=c99 */
 #define SHADE_IMPLEMENTATION
 #define STBI_FAILURE_USERMSG

@@ -1,8 +1,8 @@
 # SHA512 0 makes vcpkg print the sum of what it fetched; it belongs here once it has been checked
 # against SHA256SUMS of the release.
 vcpkg_download_distfile(archive
-    URLS "https://example.org/shade/releases/shade-h-${VERSION}.tar.gz"
-    FILENAME "shade-h-${VERSION}.tar.gz"
+    URLS "https://example.org/shade/releases/shade-${VERSION}.tar.gz"
+    FILENAME "shade-${VERSION}.tar.gz"
     SHA512 0)
 vcpkg_extract_source_archive(SOURCE_PATH ARCHIVE "${archive}")
 

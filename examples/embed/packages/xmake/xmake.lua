@@ -6,7 +6,7 @@ package("shade-h")
     set_description("Phong and Blinn-Phong light and an exact z-buffer rasterizer, one header")
     set_license("MIT OR Unlicense")
 
-    add_urls("https://example.org/shade/releases/shade-h-$(version).tar.gz")
+    add_urls("https://example.org/shade/releases/shade-$(version).tar.gz")
     add_versions("1.3.0", "0000000000000000000000000000000000000000000000000000000000000000")
 
     if is_plat("linux", "bsd") then

@@ -112,7 +112,8 @@ SHOT = struct.Struct("@12i4f32f13f6P")
 SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
                   ("flags", np.int32), ("size", np.float32, 3), ("turn", np.float32, (3, 3)),
                   ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32),
-                  ("shininess", np.float32), ("emission", np.float32), ("repeat", np.float32, 2)])
+                  ("shininess", np.float32), ("emission", np.float32), ("repeat", np.float32, 2),
+                  ("metal", np.float32), ("tint", np.float32)])
 
 
 class Chunk(Structure):

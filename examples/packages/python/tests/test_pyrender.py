@@ -260,3 +260,40 @@ def test_shadows_and_refusals():
         pyrender.PerspectiveCamera(yfov=60)
     with pytest.raises(shade.Error, match="indices"):
         pyrender.Primitive([[0, 0, 0]], indices=[[0, 1, 2]])
+
+
+@pytest.mark.parametrize("rough", [0.4, 0.6, 0.8])
+@pytest.mark.parametrize("metal", [0.0, 0.5, 1.0])
+def test_metals_are_near_the_law_of_pyrenders_shader(metal, rough):
+    """Its microfacets in double: GGX, Smith's masking, Schlick's Fresnel term, Lambert below."""
+    base, n, w = np.array([0.9, 0.6, 0.2]), 48, 97
+    theta, phi = np.meshgrid(np.linspace(0, np.pi, n + 1), np.linspace(0, 2 * np.pi, w), indexing="ij")
+    ball = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1).reshape(-1, 3)
+    k = (np.arange(n)[:, None] * w + np.arange(w - 1)).ravel()
+    faces = np.concatenate([np.stack([k, k + w, k + w + 1], 1), np.stack([k, k + w + 1, k + 1], 1)])
+    made = pyrender.Scene(bg_color=[0, 0, 0], ambient_light=[0, 0, 0])
+    made.add(pyrender.Mesh([pyrender.Primitive(ball, ball, indices=faces, material=pyrender.MetallicRoughnessMaterial(
+        baseColorFactor=[*base, 1.0], metallicFactor=metal, roughnessFactor=rough))]))
+    eye, lamp = np.eye(4), np.eye(4)
+    eye[2, 3] = 3
+    toward = np.array([0.5, 0.6, 0.8]) / np.sqrt(1.25)
+    x = np.cross([0, 1, 0], toward) / np.linalg.norm(np.cross([0, 1, 0], toward))
+    lamp[:3, :3] = np.stack([x, np.cross(toward, x), toward], 1)
+    made.add(pyrender.PerspectiveCamera(np.pi / 4), pose=eye)
+    made.add(pyrender.DirectionalLight(intensity=3.0), pose=lamp)
+    color, depth = pyrender.OffscreenRenderer(64, 64).render(made)
+    across = ((2 * np.arange(64) + 1) / 64 - 1) * np.tan(np.pi / 8)
+    way = np.stack(np.broadcast_arrays(across[None], -across[:, None], -1.0), -1)
+    N = (way * depth[..., None] + [0, 0, 3])[depth > 0]
+    N, V = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (N, np.array([0, 0, 3]) - N))
+    H = (toward + V) / np.linalg.norm(toward + V, axis=-1, keepdims=True)
+    nl, nv, nh, vh = (np.clip((a * b).sum(-1), 1e-3, 1) for a, b in ((N, toward), (N, V), (N, H), (V, H)))
+    f0, a2 = 0.04 * (1 - metal) + metal * base, rough ** 4
+    fresnel = f0 + (1 - f0) * ((1 - vh) ** 5)[:, None]
+    masked = 4 * nl * nv / ((nl + np.sqrt(a2 + (1 - a2) * nl**2)) * (nv + np.sqrt(a2 + (1 - a2) * nv**2)))
+    lobe = masked * a2 / (np.pi * (nh**2 * (a2 - 1) + 1) ** 2) / (4 * nl * nv)
+    light = 3 * nl[:, None] * ((1 - fresnel) * base * 0.96 * (1 - metal) / np.pi + fresnel * lobe[:, None])
+    light *= ((N @ toward) > 0)[:, None]
+    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
+    apart = np.abs(255 * np.clip(shown, 0, 1) - color[depth > 0])
+    assert apart.mean() < {0.0: 6, 0.5: 16, 1.0: 41}[metal], apart.mean()

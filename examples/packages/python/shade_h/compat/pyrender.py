@@ -775,11 +775,16 @@ class OffscreenRenderer:
             o["flags"] = 2 if two_sided else 0
             o["rgba"] = m.baseColorFactor
             o["rgba"][3] = m.baseColorFactor[3] if m.alphaMode == "BLEND" else 1
-            o["specular"] = 0.04 + 0.4 * m.metallicFactor * (1 - m.roughnessFactor)
-            o["shininess"] = 2 / max(m.roughnessFactor, 0.05) ** 4
+            # pyrender's microfacets seen from the front: D of GGX is 1 / (pi alpha^2) at its peak, of
+            # which a quarter is reflected, 4 % or the metal's colour; Blinn's lobe is as wide
+            alpha = max(m.roughnessFactor, 0.05) ** 2
+            o["shininess"] = 2 / alpha ** 2 - 2
+            o["specular"] = 0.04 * (1 - m.metallicFactor) / (4 * alpha ** 2)
+            o["tint"] = m.metallicFactor / (4 * alpha ** 2)
+            o["metal"] = m.metallicFactor
             o["repeat"] = 1
             if flags & RenderFlags.FLAT:
-                o["emission"], o["specular"] = 1, 0
+                o["emission"], o["specular"], o["tint"], o["metal"] = 1, 0, 0, 0
             base._count += 1
 
     @staticmethod
