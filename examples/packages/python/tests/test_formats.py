@@ -428,6 +428,13 @@ def test_units_of_parts_in_other_files():
     assert got.min(0) == pytest.approx([5, 0, 0]) and got.max(0) == pytest.approx([30.4, 25.4, 25.4])
 
 
+def test_two_meshes_of_one_object_count_their_own_vertices():
+    """As assimp writes them."""
+    both = mesh_xml(np.eye(3), np.array([[0, 1, 2]])) + mesh_xml(np.eye(3) + 5, np.array([[2, 1, 0]]))
+    got = shade.load(io.BytesIO(threemf(f'<object id="1">{both}</object>', '<item objectid="1"/>')))
+    assert np.array_equal(got.vertices[got.faces], [np.eye(3), np.eye(3)[::-1] + 5])
+
+
 @pytest.mark.parametrize("change, words", [
     (lambda t: t.replace(b"</mesh>", b"</mash>"), "its XML is wrong"),
     (lambda t: t.replace(b'unit="millimeter"', b'unit="ell"'), "unit of model is none of 3MF"),
