@@ -749,6 +749,10 @@ model *python_read(const void *bytes, size_t size, const char *name, const char 
     return NULL;
 }
 
+/* 1: the name is that of a file in the model's folder or below. */
+SHADEDEF int python_beside(const char *name);
+int python_beside(const char *name) { return model_is_beside(name); }
+
 SHADEDEF void python_unload(model *m);
 void python_unload(model *m)
 {

@@ -59,7 +59,8 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_draco_mesh_compression", KNOWN_REFUSED },
                                          { NULL, KNOWN_TOLD } };
 
-/* Attributes of vertices, without the number behind the last _; those that begin with _ are silent */
+/* Attributes of vertices, without the number behind the last _.  Those that begin with _ belong to
+   programs, and are silent. */
 static const known_name gltf_attributes[] = {
     { "POSITION", KNOWN_DRAWN }, { "NORMAL", KNOWN_DRAWN }, { "TEXCOORD", KNOWN_DRAWN },
     { "COLOR", KNOWN_DRAWN },    { "JOINTS", KNOWN_DRAWN }, { "WEIGHTS", KNOWN_DRAWN },

@@ -1,8 +1,9 @@
 /* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd,
    map_Ke, map_d, and map_Bump, bump and norm with their -bm; -o and -s of map_Kd.  Other statements
-   are told as mtl_known says; surfaces that the model does not use are skipped.  The alpha of map_Kd counts only where
-   map_d or d < 1 asks for it, because exporters often keep other masks there.  Colours are sRGB
-   values.  Ka is ignored, because files hold anything there: k_a = k_d, as daylight wants it. */
+   are told as mtl_known says; surfaces that the model does not use are skipped.  The alpha of
+   map_Kd counts only where map_d or d < 1 asks for it, because exporters often keep other masks
+   there.  Colours are sRGB values.  Ka is ignored, because files hold anything there: k_a = k_d, as
+   daylight wants it. */
 #ifndef MODEL_MTL_H
 #define MODEL_MTL_H
 

@@ -441,9 +441,25 @@ static inline int threemf_read_face(threemf *t, xml *x, const threemf_object *ob
     return !out;
 }
 
+/* The triangles of a mesh count its own vertices: some writers put several into one object. */
+static inline int threemf_number(threemf *t, xml *x, const threemf_object *object, size_t vertex,
+                                 size_t face)
+{
+    const size_t vertices = t->vertices.count - vertex;
+    for (size_t i = 3 * face; i < 3 * t->faces.count; i++) {
+        uint32_t *v = &threemf_face_at(t, i / 3)->v[i % 3];
+        if (*v >= vertices)
+            return mesh_fail(x->r, "a triangle has a vertex that is not there: there are %lu",
+                             (unsigned long)vertices);
+        *v += (uint32_t)(vertex - object->vertex);
+    }
+    return 0;
+}
+
 /* vertices and triangles; components */
 static inline int threemf_read_part(threemf *t, xml *x, const threemf_object *object)
 {
+    const size_t vertex = t->vertices.count, face = t->faces.count;
     const int depth = x->depth;
     int list, failed = 0;
     while (!failed && xml_inside(x, depth)) {
@@ -462,7 +478,7 @@ static inline int threemf_read_part(threemf *t, xml *x, const threemf_object *ob
             failed = threemf_tell(t, x);
         }
     }
-    return failed || x->failed;
+    return failed || x->failed || threemf_number(t, x, object, vertex, face);
 }
 
 static inline int threemf_read_object(threemf *t, xml *x)
@@ -491,10 +507,6 @@ static inline int threemf_read_object(threemf *t, xml *x)
     object.faces = t->faces.count - object.face;
     object.uses = t->uses.count - object.use;
     *threemf_object_at(t, t->objects.count - 1) = object;
-    for (size_t i = 0; i < 3 * object.faces; i++)
-        if (threemf_face_at(t, object.face + i / 3)->v[i % 3] >= object.vertices)
-            return mesh_fail(x->r, "a triangle has a vertex that is not there: there are %lu",
-                             (unsigned long)object.vertices);
     return 0;
 }
 

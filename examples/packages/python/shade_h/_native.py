@@ -164,6 +164,7 @@ def _open() -> Any:
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_read", POINTER(OwnedMesh),
              [c_char_p, c_size_t, c_char_p, c_char_p, INFLATE, c_char_p, c_size_t]),
+            ("python_beside", c_int, [c_char_p]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
             ("python_origin", POINTER(c_double), [POINTER(OwnedMesh)]),
             ("python_normals", c_int, [POINTER(OwnedMesh)]),

@@ -52,11 +52,14 @@ def decoded(data: bytes, name: str) -> Bytes:
         raise Error(f"{name} cannot be read: {type(why).__name__}") from None
 
 
-def _image(model: str, name: str) -> Bytes | None:
-    """The pixels of a picture beside the model; None, with a warning, where it cannot be read."""
+def _image(model: str, name: str, outside: bool) -> Bytes | None:
+    """The pixels of a picture beside the model; None, with a warning, where it cannot be read.  A
+    name that leaves the model's folder counts only where the caller wants that."""
     folder, words = os.path.dirname(model), name.replace("\\", "/")
-    why = f"{words} is missing"
-    for path in (os.path.join(folder, words), os.path.join(folder, os.path.basename(words))):
+    near = outside or library.python_beside(os.fsencode(name))
+    why = f"{words} is missing" if near else f"{words} lies outside of the model's folder"
+    for path in ([os.path.join(folder, words)] if near else []) + \
+            [os.path.join(folder, os.path.basename(words))]:
         try:
             return decoded(read_file(path, PICTURE_BYTES), words)
         except FileNotFoundError:
@@ -81,7 +84,7 @@ def _runs(owned: Any) -> list[Any]:
     return runs
 
 
-def _texture(run: Any, model: str, images: dict[Any, Any]) -> Any:
+def _texture(run: Any, model: str, images: dict[Any, Any], outside: bool) -> Any:
     """The pixels of a run's picture, inside the file or beside it; None where there is none."""
     if run.map is not None and run.map not in images and len(images) < 256:
         if run.bytes:
@@ -90,7 +93,7 @@ def _texture(run: Any, model: str, images: dict[Any, Any]) -> Any:
             except Error as why:
                 _warn(f"{model}: {why}; its faces are drawn without it")
         elif not run.physical:
-            images[run.map] = _image(model, os.fsdecode(run.map))
+            images[run.map] = _image(model, os.fsdecode(run.map), outside)
     return images.get(run.map)
 
 
@@ -108,7 +111,7 @@ def _look(run: Any, image: Any) -> Surface:
                    (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
 
 
-def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:
+def _surfaces(owned: Any, model: str, faces: int, uv: Any, outside: bool) -> dict[str, Any]:
     """What the file says of its surfaces, as options of Mesh."""
     runs = _runs(owned)
     tints = np.zeros((faces, 3), np.float32)
@@ -118,7 +121,7 @@ def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:
     for run in runs:
         where = slice(run.first // 3, (run.first + run.count) // 3)
         tints[where] = run.color[:]
-        image = _texture(run, model, images) if uv is not None else None
+        image = _texture(run, model, images, outside) if uv is not None else None
         key = run.surface if run.physical else \
             (run.map if image is not None else None, run.transparency, bool(run.opaque))
         if not run.physical and image is None and not run.transparency:
@@ -149,7 +152,8 @@ def _inflate(packed: int, packed_size: int, out: int, size: int) -> int:
     return int(len(made) != size)
 
 
-def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, Any]]:
+def _read(data: bytes, name: str, path: bytes | None, outside: bool = False) -> \
+        tuple[Any, dict[str, Any]]:
     """Vertices and faces, and options of Mesh."""
     words = ctypes.create_string_buffer(400)
     title = os.fsencode(name)
@@ -165,7 +169,7 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
             vertices = vertices + origin
         colors = _copied(own.colors, view.vertex_count, 3, ctypes.c_float)
         uv = _copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
-        found = {"up": None} if faces is None else _surfaces(owned, name, len(faces), uv)
+        found = {"up": None} if faces is None else _surfaces(owned, name, len(faces), uv, outside)
         if library.python_normals(owned):
             found["normals"] = _copied(own.normals, view.vertex_count, 3, ctypes.c_float)
         if faces is not None:
@@ -186,9 +190,10 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
 
 # ---- all -----------------------------------------------------------------------------------------
 
-def load(path: Any, **options: Any) -> Mesh:
+def load(path: Any, *, outside: bool = False, **options: Any) -> Mesh:
     """Reads an STL (binary or text), OBJ, PLY, OFF, GLB, glTF or 3MF file: a path, or a file open
-    for bytes.  options are those of Mesh.  All that a file shows is one mesh.
+    for bytes.  options are those of Mesh.  All that a file shows is one mesh.  Pictures outside of
+    its folder are read where outside is set: a model of strangers names whatever it likes.
 
     Without a color or texture of their own meshes have those of the file: colours by vertex or
     face, the diffuse colours, pictures and transparency of OBJ's MTL, the materials of glTF as
@@ -204,7 +209,7 @@ def load(path: Any, **options: Any) -> Mesh:
     else:
         data = read_file(path, MODEL_BYTES)
         name, beside = os.fsdecode(path), os.fsencode(path)
-    (vertices, faces), found = _read(data, name, beside)
+    (vertices, faces), found = _read(data, name, beside, outside)
     plain = any(options.get(k) is not None for k in ("color", "texture", "surfaces"))
     if plain:
         found = {"up": found["up"]}

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 import zlib
 
 import numpy as np
@@ -61,6 +62,18 @@ def with_picture(folder, name):
     (folder / "m.obj").write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1"
                                   "\nusemtl a\nf 1/1 2/2 3/3\n", "utf-8")
     return folder / "m.obj"
+
+
+def test_pictures_outside_of_the_folder_are_read_only_where_wanted(tmp_path):
+    shade.Picture(np.full((1, 1, 4), 200, np.uint8)).save(tmp_path / "secret.png")
+    (tmp_path / "in").mkdir()
+    for name in ("../secret.png", "..\\secret.png", str(tmp_path / "secret.png")):
+        model = with_picture(tmp_path / "in", name)
+        with pytest.warns(UserWarning, match="secret.png lies outside of the model's folder"):
+            assert shade.load(model).texture is None
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            shade.load(model, outside=True)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes")

@@ -1,9 +1,11 @@
 """GLB and 3MF: what they show, and that damaged ones are drawn or refused."""
 import io
 import json
+import re
 import struct
 import subprocess
 import sys
+import warnings
 import zipfile
 from types import SimpleNamespace
 
@@ -12,6 +14,7 @@ import pytest
 from shapes import box
 
 import shade_h as shade
+from shade_h import files
 
 FLAT = {"view": "front", "ortho": True, "size": (64, 48), "samples": 1}
 
@@ -329,6 +332,120 @@ def test_models_of_3mf_in_several_files():
                    'objectid="7"/></components></object>', '<item objectid="1"/>',
                    more={"3D/Objects/a.model": other})
     assert len(shade.load(io.BytesIO(data)).faces) == 12
+
+
+def corners_of(resources, mark, more=None, items='<item objectid="1"/>'):
+    """Colours of the corners of a triangle that has a mark, and what is said of it."""
+    mesh = mesh_xml(np.eye(3), np.array([[0, 1, 2]]), [mark])
+    data = threemf(f'{resources}<object id="1">{mesh}</object>', items, more=more)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        (vertices, faces), found = files._read(data, "a.3mf", None)
+    assert np.array_equal(vertices[faces[0]], np.eye(3))
+    return found, [str(w.message) for w in said], faces[0]
+
+
+COLORS = '<basematerials id="1"><base name="a" displaycolor="#FF0000"/><base name="b" ' \
+    'displaycolor="#0000FF"/></basematerials><m:colorgroup id="2"><m:color color="#00FF00"/>' \
+    '<m:color color="#FFFFFF80"/><m:color color="#808080"/></m:colorgroup>'
+
+
+def light(display):
+    """Linear light of one value of a display."""
+    return display / 12.92 if display <= 0.04045 else ((display + 0.055) / 1.055) ** 2.4
+
+
+def shown(linear):
+    """The opposite."""
+    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+
+
+@pytest.mark.parametrize("more, mark, wanted", [
+    ("", 'pid="1" p1="1"', [(0, 0, 1)] * 3),
+    ("", 'pid="2" p1="0" p2="2" p3="0"', [(0, 1, 0), (128 / 255,) * 3, (0, 1, 0)]),
+    ('<m:compositematerials id="3" matid="1" matindices="0 1"><m:composite values="3 1"/>'
+     "</m:compositematerials>", 'pid="3" p1="0"', [(shown(0.75), 0, shown(0.25))] * 3),
+    ('<m:multiproperties id="4" pids="1 2"><m:multi pindices="0 1"/></m:multiproperties>',
+     'pid="4" p1="0"', [(1, shown(128 / 255), shown(128 / 255))] * 3),
+    ('<m:multiproperties id="4" pids="1 2" blendmethods="multiply"><m:multi pindices="0 2"/>'
+     "</m:multiproperties>", 'pid="4" p1="0"', [(128 / 255, 0, 0)] * 3)])
+def test_properties_of_3mf(more, mark, wanted):
+    found, said, face = corners_of(COLORS + more, mark)
+    assert not said
+    assert np.asarray(found["color"])[face] == pytest.approx(np.array(wanted), abs=2e-6)
+    assert light(128 / 255) == pytest.approx(0.21586, abs=1e-5)
+
+
+def test_a_texture_of_3mf_lies_with_v_upward():
+    red = np.array([[[255, 0, 0, 255]], [[0, 0, 255, 255]]], np.uint8)    # above blue
+    texture = '<m:texture2d id="5" path="/3D/a.png" contenttype="image/png" tilestyleu="clamp"/>' \
+        '<m:texture2dgroup id="6" texid="5"><m:tex2coord u="0.5" v="0.75"/></m:texture2dgroup>'
+    found, said, face = corners_of(texture, 'pid="6" p1="0"', {"3D/a.png": shade.Picture(red).png()})
+    numbers, looks = found["surfaces"]
+    assert not said and np.array_equal(looks[numbers[0]].texture, red)
+    assert looks[numbers[0]].wrap == ("clamp", "repeat")
+    assert np.asarray(found["uv"])[face] == pytest.approx(np.array([[0.5, 0.75]] * 3))
+    found, said, face = corners_of(texture, 'pid="6" p1="0"')
+    assert "3D/a.png: it is not in the archive" in said[0] and "surfaces" not in found
+
+
+def test_what_3mf_has_beyond_is_told_or_refused_by_name():
+    assert "it has paint_color, which is not read" in corners_of("", 'paint_color="4"')[1][0]
+    assert "colours by numbers that it does not have" in corners_of(COLORS, 'pid="9" p1="1"')[1][0]
+    mesh = mesh_xml(*plate())
+    lattice = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"
+    for change, words in (
+            ("requiredextensions", f"it needs {lattice}, which is not read"),
+            ("recommendedextensions", None)):
+        text = threemf(f'<object id="1">{mesh}</object>', '<item objectid="1"/>',
+                       method=zipfile.ZIP_STORED, head="")
+        named = f'xmlns:b="{lattice}" {change}="b"'
+        data = rezipped(text, lambda t, named=named: t.replace(b"<model ", b"<model " + named.encode() + b" "))
+        if words:
+            with pytest.raises(shade.Error, match=re.escape(words)):
+                shade.load(io.BytesIO(data))
+        else:
+            assert len(shade.load(io.BytesIO(data)).faces) == 12
+
+
+def rezipped(data, change):
+    """An archive whose models are changed."""
+    memory = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(memory, "w") as new:
+        for name in old.namelist():
+            text = old.read(name)
+            new.writestr(name, change(text) if name.endswith(".model") else text)
+    return memory.getvalue()
+
+
+def test_units_of_parts_in_other_files():
+    vertices, faces = plate()
+    other = f'<model xmlns="{CORE}" unit="inch"><resources><object id="7">' \
+        f"{mesh_xml(vertices, faces)}</object></resources></model>"
+    data = threemf("", '<item p:path="/3D/a.model" objectid="7" transform="1 0 0 0 1 0 0 0 1 5 0 0"/>',
+                   more={"3D/a.model": other})
+    got = shade.load(io.BytesIO(data)).vertices
+    assert got.min(0) == pytest.approx([5, 0, 0]) and got.max(0) == pytest.approx([30.4, 25.4, 25.4])
+
+
+def test_two_meshes_of_one_object_count_their_own_vertices():
+    """As assimp writes them."""
+    both = mesh_xml(np.eye(3), np.array([[0, 1, 2]])) + mesh_xml(np.eye(3) + 5, np.array([[2, 1, 0]]))
+    got = shade.load(io.BytesIO(threemf(f'<object id="1">{both}</object>', '<item objectid="1"/>')))
+    assert np.array_equal(got.vertices[got.faces], [np.eye(3), np.eye(3)[::-1] + 5])
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda t: t.replace(b"</mesh>", b"</mash>"), "its XML is wrong"),
+    (lambda t: t.replace(b'unit="millimeter"', b'unit="ell"'), "unit of model is none of 3MF"),
+    (lambda t: t.replace(b'v1="0"', b'v1="99"'), "a vertex that is not there"),
+    (lambda t: t.replace(b'objectid="1"', b'objectid="2"'), "there is no object 2"),
+    (lambda t: t.decode().encode("utf-16"), "UTF-16, which is not read"),
+    (lambda t: t + b"<model/>", "its XML is wrong")])
+def test_damaged_3mf_is_refused(change, words):
+    data = threemf(f'<object id="1">{mesh_xml(*plate())}</object>', '<item objectid="1"/>')
+    with pytest.raises(shade.Error, match=words):
+        shade.load(io.BytesIO(rezipped(data, change)))
 
 
 # ---- bombs, and anything -------------------------------------------------------------------------
