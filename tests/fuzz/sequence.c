@@ -505,12 +505,17 @@ static void do_target(fuzz_input *in, outcome *o)
         t->format = (shade_format)((int)t->format ^ 1);
 }
 
+static uint64_t hash_of_memory(void)
+{
+    return guard_hash((const uint8_t *)hashes, (size_t)guard_count * sizeof *hashes);
+}
+
 static void do_keep(fuzz_input *in, outcome *o)
 {
     (void)in;
     o->changes = w.kept = 1;
     keep(kept_by_user, 0);
-    hash_by_user = guard_hash((const uint8_t *)hashes, (size_t)guard_count * sizeof *hashes);
+    hash_by_user = hash_of_memory();
 }
 
 static void do_go_back(fuzz_input *in, outcome *o)
@@ -519,7 +524,7 @@ static void do_go_back(fuzz_input *in, outcome *o)
     o->changes = 2;                      /* everything */
     if (!w.kept) return;
     keep(kept_by_user, 1);
-    HOLDS(hash_by_user == guard_hash((const uint8_t *)hashes, (size_t)guard_count * sizeof *hashes));
+    HOLDS(hash_by_user == hash_of_memory());
 }
 
 /* Those that only read stand last. */

@@ -1,6 +1,7 @@
 #!/bin/sh
-# mutation.sh [mutants [seed [commit]]] - small changes of shade.h, one at a time: do the tests
-# notice?  With a commit only the functions are changed that have changed since then.
+# mutation.sh [mutants [seed [commit | >>section ...]]] - small changes of shade.h, one at a time: do
+# the tests notice?  With a commit only the functions are changed that have changed since then, with
+# words like ">>camera shade__reduce" those of the sections, or the functions, of these names.
 # Not counted: what does not compile, what compiles to the same code (gcc -O2 -S), and what
 # tests/scripts/mutation.txt shows to be equivalent.  Needs gcc and python3.
 cd "$(dirname "$0")/../.." || exit 1
@@ -13,7 +14,13 @@ for tool in gcc python3; do
 done
 echo "seed $seed"
 python3 tests/scripts/mutate.py --check shade.h tests/scripts/mutation.txt || exit 1
-if [ -n "$since" ]; then
+if [ -n "$since" ] && ! git rev-parse -q --verify "$since^{commit}" >/dev/null; then
+    awk -v words=" $since " '
+        match($0, />>[a-z]+$/) && /^\/\*--/ { section = substr($0, RSTART) }
+        /^[A-Za-z]/ { name = $0; sub(/\(.*/, "", name); sub(/.*[ *]/, "", name) }
+        index(words, " " section " ") || index(words, " " name " ") { print NR, 1 }' shade.h >"$T/lines"
+    [ -s "$T/lines" ] || { echo "shade.h has no section or function $since"; exit 1; }
+elif [ -n "$since" ]; then
     git diff -U0 "$since" -- shade.h |
         sed -nE 's/^@@ [^+]*\+([0-9]+)(,([0-9]+))? @@.*/\1 \3/p' |
         awk '{ print $1, (NF > 1 ? $2 : 1) }' >"$T/lines"
@@ -46,8 +53,9 @@ first() {                       # sections of the tests that know a section of s
     tiles) echo work cover ;; cover) echo work cover blocks fragment ;; fragments) echo packets fragment store ;;
     texture) echo texture ;; check) echo check ;; drive) echo drive resolve ;;
     mesh) echo mesh texture own ;; lines) echo lines ;; shape) echo shape ;;
-    chunks) echo chunks ;; rays) echo ray ;; survey | explain) echo explain ;;
-    image) echo drive store ;;
+    camera) echo camera ray ;; chunks) echo chunks ;; rays) echo ray camera ;;
+    survey | explain) echo explain ;; replay) echo explain_pipelines ;;
+    image) echo resolve texture drive store ;;
     esac
 }
 

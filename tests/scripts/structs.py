@@ -1,4 +1,4 @@
-"""structs.py [cc] - the public structs of shade.h: a line for each field, "struct field offset size",
+"""structs.py [cc] - the public structs of shade.h: a line a field, "struct field offset size",
 as the compiler has them.  The packages' twins of these structs are held to it, name by name."""
 import os
 import re
