@@ -3236,7 +3236,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 /*------------------------------------------------------------------------------------------ >>state
    The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB
    at the defaults, the queue 12.4 and the batch 8.8 of these.  bench/stack.c measures whole calls:
-   a lit mesh with a map takes 44.9 kB where triangles are clipped, 47.4 kB with clang.
+   a lit mesh with a map takes up to 45.8 kB where triangles are clipped, 47.4 kB with clang.
 
      plan      >>drive       fixed before the first triangle, read by all stages
      supply    >>drive       the triangles that are still to come
@@ -5902,7 +5902,7 @@ static shade__mesh_rows shade__rows_of_mesh(const shade_draw_state *state, int m
     const int by_pixel = state->shading == SHADE_SHADING_PER_FRAGMENT && !pn_unread;
     const int by_vertex = state->shading != SHADE_SHADING_PER_FRAGMENT && !pn_unread;
     shade__mesh_rows r;
-    r.count = 0;
+    SHADE__ZERO(r);
     r.point = shade__take_rows(&r, 3, by_pixel);
     r.normal = shade__take_rows(&r, 3, by_pixel);
     r.light = shade__take_rows(&r, 3, by_vertex);
@@ -8198,7 +8198,7 @@ static const char *shade__bad_matrix(const shade__survey *s)
 
 static const char *shade__bad_lamp(const shade_light *l)
 {
-    const float *number = &l->position.x;
+    const float *number = (const float *)l;
     for (size_t k = 0; k < sizeof *l / sizeof *number; k++)
         if (number[k] != number[k]) return "A light of lighting.lights holds a NaN.";
     if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))

@@ -1,8 +1,7 @@
 /* 08_normal_matrix.c - a sphere whose points are transformed by M, which presses it to a third of
    its height.  Left: its normals are transformed by M as well and no longer stand on the surface,
    so that it shines like an egg.  Right: by the normal matrix, (M^-1)^T up to its scale, from
-   shade_normal_matrix (Massey).  The numbers are mean angles to the true normals of the ellipsoid,
-   the gradient of x^2/a^2 + y^2/b^2 + z^2/c^2.
+   shade_normal_matrix (Massey).  The numbers are mean angles to the ellipsoid's true normals.
    Try size { 0.7f, 0.7f, 0.7f }: both are right, because M scales evenly.
 
    cc -O2 -I. examples/lessons/08_normal_matrix.c -lm -o normal_matrix && ./normal_matrix */
@@ -49,7 +48,8 @@ int main(int argc, char **argv)
     const shade_light lamp = shade_directional_light(shade_v3(0.35f, -1, -0.55f), white);
     shade_draw_state state = { .material = &gold,
                                .lighting = { &lamp, 1, .ambient = { 0.20f, 0.21f, 0.25f } } };
-    shade_line_state pen = { .width = 4, .color = { 0.3f, 0.75f, 0.9f, 1 } };
+    shade_line_state pen = { .width = 4, .color = { 0.3f, 0.75f, 0.9f, 1 },    /* some lie twice */
+                             .raster = { .depth_test = SHADE_COMPARE_LESS_EQUAL } };
     canvas c = canvas_new(960, 380, 3);
     char text[80];
 

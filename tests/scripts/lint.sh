@@ -124,7 +124,7 @@ rm -f /tmp/lint_promised.$$ /tmp/lint_marks.$$ /tmp/lint_held.$$
 if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
     check "what make format lays out" "$(${MAKE:-make} -s format-check 2>&1 | grep 'error:')"
 else echo "left out: what make format lays out (no clang-format 14)"; fi
-if git cat-file -e fd18a07 2>/dev/null; then
+if git cat-file -e fe84f40 2>/dev/null; then
     check "titles of commits of at most 72 characters" "$(git log --format='%s' fe84f40.. | awk 'length > 72')"
 else echo "left out: titles of commits (no history)"; fi
 if command -v python3 >/dev/null; then

@@ -33,7 +33,8 @@ fi
 CPPCHECK="--std=c99 --language=c --quiet --error-exitcode=1 --inline-suppr -I. -D__GNUC__=12
     --enable=warning,performance,portability -DSHADE_NO_DISPATCH"
 check "cppcheck, shade.h" cppcheck $CPPCHECK -DSHADE_IMPLEMENTATION shade.h
-check "cppcheck, tests" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED $TESTS
+# tests read the floats of vectors as arrays
+check "cppcheck, tests" cppcheck $CPPCHECK --suppress=objectIndex -DSHADE__IMPLEMENTED $TESTS
 check "cppcheck, examples" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED $EXAMPLES
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -234,11 +234,11 @@ TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
 TEST(fragment, bias_moves_sloping_depth_as_a_whole)
 {
     for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(60, 50, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         ref_triangle e;
         random_grid_triangle(&t, 60, 50, 3);
         if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], 60, 50)) continue;
+        canvas c = canvas_open(60, 50, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { t.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.raster.depth_test = SHADE_COMPARE_ALWAYS;

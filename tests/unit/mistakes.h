@@ -134,7 +134,7 @@ static inline const char *stage_explain(stage *s, int with_stats)
     const shade_target *t = s->no_target ? NULL : &s->target;
     const shade_mesh *m = s->no_mesh ? NULL : &s->mesh;
     const shade_draw_state *d = s->no_state ? NULL : &s->state;
-    shade_stats stats;
+    shade_stats stats = { 0, 0, 0, 0, 0, 0, 0 };
     const char *said;
     if (s->clear == s->clear) shade_clear(&s->target, shade_v4(0, 0, 0, 1), s->clear);
     for (int k = 0; k < s->draws; k++) shade_draw_mesh(t, m, d, &stats);

@@ -416,6 +416,7 @@ static inline int ref_triangle_of(ref_triangle *t, const shade_vec4 *a, const sh
     v[0] = a;
     v[1] = b;
     v[2] = c;
+    memset(t, 0, sizeof *t);
     dmat m = dmat_identity(), inverse;
     for (int k = 0; k < 3; k++) {
         double x = (double)v[k]->x, y = (double)v[k]->y, w = (double)v[k]->w;

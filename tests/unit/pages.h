@@ -6,7 +6,7 @@
 #if defined(__unix__) || defined(__APPLE__)
 #define PAGES 1
 #ifndef _DEFAULT_SOURCE
-#define _DEFAULT_SOURCE
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for mmap with -std=c99 */
 #endif
 #include <setjmp.h>
 #include <signal.h>

@@ -145,7 +145,7 @@ static inline float rnd_float(double lo, double hi) { return (float)(lo + (hi - 
 /* A whole number of lo .. hi, both included. */
 static inline int rnd_int(int lo, int hi)
 {
-    return lo + (int)(rnd_bits() % ((uint64_t)((int64_t)hi - lo) + 1));
+    return lo + (int)(rnd_bits() % ((uint64_t)((int64_t)hi - lo) + 1)); /* NOLINT: lo <= hi */
 }
 
 static inline int rnd_one_in(int n) { return rnd_int(1, n) == 1; }

@@ -32,7 +32,7 @@ static int ref_wrapped(int i, int n, shade_wrap wrap) /* -1 <= i <= n */
 static void ref_bilinear(const shade_texture *base, const shade_texture *t, double u, double v,
                          double c[4], double *span)
 {
-    double x = ref_place(u, t->width, base->wrap_u) - 0.5;
+    double x = ref_place(u, t->width, base->wrap_u) - 0.5; /* NOLINT: k > 0 only with mipmaps */
     double y = ref_place(v, t->height, base->wrap_v) - 0.5;
     int i = (int)floor(x), j = (int)floor(y);
     double lo[4], hi[4];

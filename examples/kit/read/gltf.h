@@ -160,7 +160,7 @@ static inline int gltf_base64(gltf *g, const char *text, gltf_bytes *out)
     if (!out->owned) return mesh_fail(g->r, "out of memory");
     while (n && text[n - 1] == '=') n--;
     for (size_t i = 0; i < n; i++) {
-        const int c = text[i];
+        const int c = (unsigned char)text[i];
         const int digit = c >= 'A' && c <= 'Z'   ? c - 'A'
                           : c >= 'a' && c <= 'z' ? c - 'a' + 26
                           : c >= '0' && c <= '9' ? c - '0' + 52
@@ -416,7 +416,7 @@ static inline gather_matrix gltf_moved(const double *t, const double *q, const d
 static inline gather_matrix gltf_local(const gltf *g, uint32_t node)
 {
     double t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
-    gather_matrix m;
+    gather_matrix m = { { 0 } };
     if (json_array(&g->j, node, "matrix", m.at, 16)) return m;
     json_array(&g->j, node, "translation", t, 3);
     json_array(&g->j, node, "rotation", q, 4);

@@ -756,11 +756,9 @@ static inline int threemf_look_of(const threemf *t, uint32_t file, uint32_t pid,
         if (!layer || layer->kind == THREEMF_LAYERS) return 0;
         if (!threemf_single(t, file, layer, k < n ? v[k] : 0, &one)) return 0;
         part = one.rgba[3];
-        if (!k) {
-            *out = one;
-        } else if (k < 32 && g->multiply >> k & 1) {
+        if (k && k < 32 && g->multiply >> k & 1) {
             for (int c = 0; c < 4; c++) out->rgba[c] *= one.rgba[c];
-        } else if (one.texture || part >= 1) {
+        } else if (!k || one.texture || part >= 1) {
             *out = one;
         } else {
             for (int c = 0; c < 3; c++) out->rgba[c] += part * (one.rgba[c] - out->rgba[c]);
@@ -1028,11 +1026,11 @@ static inline int threemf_read(mesh_reader *r, model *m)
     for (size_t i = 0; i < t->items.count; i++) free(((threemf_use *)t->items.v)[i].path);
     for (size_t i = 0; i < t->textures.count; i++) free(((threemf_texture *)t->textures.v)[i].path);
     {
-        threemf_array *const arrays[] = { &t->files,   &t->objects,  &t->vertices, &t->faces,
-                                          &t->uses,    &t->items,    &t->groups,   &t->properties,
-                                          &t->numbers, &t->textures, &t->corners,  &t->indices,
-                                          &t->surfaces };
-        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]->v);
+        threemf_array *const arrays[] = { &t->files,    &t->objects,  &t->vertices, &t->faces,
+                                          &t->uses,     &t->items,    &t->groups,   &t->properties,
+                                          &t->numbers,  &t->textures, &t->corners,  &t->indices,
+                                          &t->surfaces, NULL };
+        for (size_t i = 0; arrays[i]; i++) free(arrays[i]->v);
     }
     mesh_set_free(&t->object_of);
     mesh_set_free(&t->group_of);
