@@ -384,8 +384,8 @@ TEST(explain_pipelines, each_mistake_gets_its_sentence)
         for (int lines = 0; lines < 2; lines++) {
             const struct piped_mistake *m = &piped_mistakes[i];
             const char *said[2];
-            piped *p = piped_open();
             if (!(m->of & (lines ? OF_LINES : OF_DRAW))) continue;
+            piped *p = piped_open();
             if (!(m->of & AFTERWARDS)) m->make(p);
             piped_aim(p);
             if (m->of & AFTERWARDS) m->make(p);
