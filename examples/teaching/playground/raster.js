@@ -173,8 +173,8 @@ function showRaster() {
 // ---- steps, pointer, keys -----------------------------------------------------------------------
 
 // A step ends what was pointed at, so that the numbers are those of the step.
-function goTo(step) {
-    guess = null, S.step = limit(step, 0, rasterSteps), S.cell = [-1, -1], changed();
+function goTo(step, told = null) {
+    guess = told, S.step = limit(step, 0, rasterSteps), S.cell = [-1, -1], changed();
 }
 // What the next step does is foretold before it is shown: outside, hidden by what is stored, or stored.
 const FATES = ['outside', 'hidden', 'stored'];
@@ -188,8 +188,7 @@ function fateOf(step) {
 function foretell(said) {
     if (S.step >= rasterSteps) return;
     const { t, x, y, fate } = fateOf(S.step);
-    goTo(S.step + 1);
-    guess = { t, x, y, fate, said };
+    goTo(S.step + 1, { t, x, y, fate, said });
 }
 function showGuess() {
     const more = S.step < rasterSteps, next = more && fateOf(S.step);
