@@ -18,7 +18,7 @@ check() {                       # name, command ...: no output but of passing is
 # Tests and examples are read without the implementation, which has its own turn.
 TESTS="tests/unit/*.c tests/golden/*.c"
 EXAMPLES="examples/lessons/*.c examples/pictures/*.c examples/programs/*/*.c"
-FLAGS="-std=c99 -I. -DSHADE_NO_DISPATCH"
+FLAGS="-std=c99 -D_DEFAULT_SOURCE -I. -DSHADE_NO_DISPATCH"
 printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/shade.c"
 check "clang-tidy, shade.h" clang-tidy -quiet "-config-file=.clang-tidy" "$T/shade.c" -- $FLAGS
 # Unit tests are one file here, because what they share is analysed once.  Of several files in one

@@ -21,11 +21,11 @@ static inline int batch_folder(const char *path)
 static inline long long batch_size(FILE *file) { return _filelengthi64(_fileno(file)); }
 static inline int batch_is_terminal(FILE *file) { return _isatty(_fileno(file)); }
 #else
-static inline int batch_folder(const char *path) { return mkdir(path, 0777); }
+static inline int batch_folder(const char *path) { return mkdir(path, 0777); } /* NOLINT: never NULL */
 static inline long long batch_size(FILE *file)
 {
     struct stat about;
-    return fstat(fileno(file), &about) ? -1 : (long long)about.st_size;
+    return file && !fstat(fileno(file), &about) ? (long long)about.st_size : -1;
 }
 static inline int batch_is_terminal(FILE *file) { return isatty(fileno(file)); }
 #endif

@@ -140,8 +140,7 @@ def _surfaces(owned: Any, model: str, faces: int, uv: Any, outside: bool) -> dic
     return out
 
 
-@INFLATE
-def _inflate(packed: int, packed_size: int, out: int, size: int) -> int:
+def _unpack(packed: int, packed_size: int, out: int, size: int) -> int:
     """Unpacks a file of an archive to as many bytes as the archive says."""
     try:
         made = zlib.decompressobj(-15).decompress(ctypes.string_at(packed, packed_size), size + 1)
@@ -150,6 +149,9 @@ def _inflate(packed: int, packed_size: int, out: int, size: int) -> int:
     if len(made) == size:
         ctypes.memmove(out, made, size)
     return int(len(made) != size)
+
+
+_inflate = INFLATE(_unpack)
 
 
 def _read(data: bytes, name: str, path: bytes | None, outside: bool = False) -> \

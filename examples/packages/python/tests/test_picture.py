@@ -244,7 +244,7 @@ def test_the_picture_on_an_obj_file(tmp_path):
                          (48, 48, (1, 1, 0))):
         assert np.array_equal(got[y, x, :3] > 128, np.array(wanted, bool))
     (tmp_path / "q.png").unlink()
-    with pytest.warns(UserWarning, match="q.png is missing"):
+    with pytest.warns(UserWarning, match="q.png lies outside of the model's folder"):
         assert shade.load(tmp_path / "q.obj").texture is None
 
 

@@ -509,7 +509,7 @@ class _Nodes(List[Node]):
     def __eq__(self, other: object) -> bool:
         return set(self) == other if isinstance(other, (set, frozenset)) else super().__eq__(other)
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None
 
 
 class Scene(_Bounded):
