@@ -93,11 +93,11 @@ int main(void)
     t.x_ref = any_float();
     t.z_low = any_float();
     t.z_high = any_float();
-    plan.early_test.less = any_mask();
-    plan.early_test.equal = any_mask();
-    plan.early_test.greater = any_mask();
-    plan.early_test.always = any_mask();
-    plan.early_test.write = any_mask();
+    plan.tile_test.less = any_mask();
+    plan.tile_test.equal = any_mask();
+    plan.tile_test.greater = any_mask();
+    plan.tile_test.always = any_mask();
+    plan.tile_test.write = any_mask();
     prove_reach();
     prove_cut();
     for (int less_only = 0; less_only < 2; less_only++) {
