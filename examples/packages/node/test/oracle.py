@@ -128,7 +128,7 @@ far_pose[:3, 3] = 1e8 + 4.5, -3e7, 2e6
 draw("far", [{**far, "edges": True}])
 draw("far by its pose", [far, {**brick, "pose": far_pose, "edges": True}], "top", ortho=True)
 draw("far camera", [far], shade.Camera.look_at((1e8 + 4, -3e7 - 6, 2e6 + 5), (1e8, -3e7, 2e6),
-                                               near=1, far=20))
+                                               aspect=1, near=1, far=20))
 draw("far lamps", [far], lighting=(
     [shade.Light.point((1e8 + 3, -3e7 - 4, 2e6 + 4), (9, 8, 7), (1, 0, 0.5))], (0.1, 0.1, 0.2),
     shade.Model.PHONG, shade.Flag.NONE))
