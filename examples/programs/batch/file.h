@@ -21,7 +21,10 @@ static inline int batch_folder(const char *path)
 static inline long long batch_size(FILE *file) { return _filelengthi64(_fileno(file)); }
 static inline int batch_is_terminal(FILE *file) { return _isatty(_fileno(file)); }
 #else
-static inline int batch_folder(const char *path) { return mkdir(path, 0777); } /* NOLINT: never NULL */
+static inline int batch_folder(const char *path)
+{
+    return mkdir(path, 0777); /* NOLINT: never NULL */
+}
 static inline long long batch_size(FILE *file)
 {
     struct stat about;
