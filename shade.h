@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8104  why nothing is seen   >>replay    9295  of lines, pipelines
-       >>image     9622  mipmaps, PPM           >>presets   9934  classic materials
+       >>explain   8104  why nothing is seen   >>replay    9301  of lines, pipelines
+       >>image     9628  mipmaps, PPM           >>presets   9940  classic materials
      Sources
-       >>refs     10010                        >>history  10040
-       >>license  10046
+       >>refs     10016                        >>history  10046
+       >>license  10052
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8741,7 +8741,8 @@ static const char shade__multiply[] =
     "lighting.terms and the lights multiply, and several of them may be at fault.";
 
 /* Changes are kept. */
-static const shade__rung shade__black[] = { { shade__alpha_is_zero, shade__transparent },
+static const shade__rung shade__black[] = {
+    { shade__alpha_is_zero, shade__transparent },
     { shade__shading_is_coarse, shade__coarse },
     { shade__shows, shade__multiply },
     { shade__faces_are_lit, shade__multiply },
@@ -8750,7 +8751,8 @@ static const shade__rung shade__black[] = { { shade__alpha_is_zero, shade__trans
     { shade__colors_are_black, shade__black_colors },
     { shade__shows, shade__multiply },
     { shade__material_is_black, shade__black_material },
-                                            { NULL, NULL } };
+    { NULL, NULL }
+};
 
 /* ---- the mesh is black, or lit by ambient light alone: the lamps */
 
@@ -8856,10 +8858,14 @@ static const shade__rung shade__no_lamps[] = {
 
 /* Changes are kept. */
 static const shade__rung shade__unlit[] = {
-    { shade__lacks_normals, shade__no_normals }, { shade__lamps_behind, shade__behind },
-    { shade__lamps_fall_off, shade__fall_off },  { shade__cones_miss, shade__no_cone },
-    { shade__lamps_are_many, shade__multiply },  { shade__sides_show, shade__multiply },
-    { shade__always, shade__no_color },          { NULL, NULL }
+    { shade__lacks_normals, shade__no_normals },
+    { shade__lamps_behind, shade__behind },
+    { shade__lamps_fall_off, shade__fall_off },
+    { shade__cones_miss, shade__no_cone },
+    { shade__lamps_are_many, shade__multiply },
+    { shade__sides_show, shade__multiply },
+    { shade__always, shade__no_color },
+    { NULL, NULL }
 };
 
 /* ---- the mesh is lit, but wrongly */
