@@ -92,7 +92,7 @@ static uint8_t *reader_head(uint8_t *to, const uint8_t *bytes, size_t n, const c
     to = reader_put(to, 20, where < 0 ? 2 : 4);
     to = reader_put(to, 0, 4);
     to = reader_put(to, 0, 4);
-    to = reader_put(to, zip_crc(bytes, n), 4);
+    to = reader_put(to, zip_crc(0, bytes, n), 4);
     to = reader_put(to, (uint32_t)n, 4);
     to = reader_put(to, (uint32_t)n, 4);
     to = reader_put(to, (uint32_t)strlen(name), 2);

@@ -162,13 +162,15 @@ static inline const unsigned char *zip_packed(mesh_reader *r, const zip *z, cons
     return p + head;
 }
 
-static inline uint32_t zip_crc(const unsigned char *bytes, size_t n)
+/* The checksum of ZIP and PNG, of bytes that follow those of crc; 0: there are none */
+static inline uint32_t zip_crc(uint32_t crc, const unsigned char *bytes, size_t n)
 {
-    uint32_t table[256], crc = 0xFFFFFFFF;
+    uint32_t table[256];
     for (uint32_t i = 0; i < 256; i++) {
         table[i] = i;
         for (int k = 0; k < 8; k++) table[i] = table[i] >> 1 ^ (table[i] & 1 ? 0xEDB88320 : 0);
     }
+    crc = ~crc;
     for (size_t i = 0; i < n; i++) crc = crc >> 8 ^ table[(crc ^ bytes[i]) & 255];
     return ~crc;
 }
@@ -195,7 +197,7 @@ static inline unsigned char *zip_unpack(mesh_reader *r, zip *z, const zip_entry 
         memcpy(out, packed, (size_t)e->size);
     else
         failed = 1;
-    if (failed || zip_crc(out, (size_t)e->size) != e->crc) {
+    if (failed || zip_crc(0, out, (size_t)e->size) != e->crc) {
         mesh_fail(r, "cannot be unpacked: it is damaged");
         free(out);
         return NULL;

@@ -3,6 +3,7 @@
 #ifndef THUMBNAIL_MAPS_H
 #define THUMBNAIL_MAPS_H
 
+#include "../../kit/read/zip.h"
 #include "annotate.h"
 #include "options.h"
 
@@ -15,15 +16,6 @@ typedef struct drawing_map {
 
 /* ---- pictures of 16 bits --------------------------------------------------------------------- */
 
-static uint32_t map_crc(uint32_t crc, const unsigned char *bytes, size_t n)
-{
-    for (size_t i = 0; i < n; i++) {
-        crc ^= bytes[i];
-        for (int k = 0; k < 8; k++) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0);
-    }
-    return crc;
-}
-
 static void map_uint(unsigned char *to, uint32_t v)
 {
     for (int k = 0; k < 4; k++) to[k] = (unsigned char)(v >> (24 - 8 * k));
@@ -33,11 +25,9 @@ static void map_uint(unsigned char *to, uint32_t v)
 static int map_chunk(FILE *file, const char *name, const unsigned char *bytes, size_t n)
 {
     unsigned char head[8], tail[4];
-    uint32_t crc;
     map_uint(head, (uint32_t)n);
     memcpy(head + 4, name, 4);
-    crc = map_crc(0xFFFFFFFFu, head + 4, 4);
-    map_uint(tail, ~map_crc(crc, bytes, n));
+    map_uint(tail, zip_crc(zip_crc(0, head + 4, 4), bytes, n));
     return fwrite(head, 1, 8, file) != 8 || fwrite(bytes, 1, n, file) != n ||
            fwrite(tail, 1, 4, file) != 4;
 }
