@@ -95,7 +95,11 @@ static inline int film_is_whole(const char *part, int is_webp)
         const long long low = (long long)b[0] << 24 | b[1] << 16 | b[2] << 8 | b[3];
         const long long riff = (long long)b[7] << 24 | b[6] << 16 | b[5] << 8 | b[4];
         long long box = is_webp ? 8 + riff : low;
-        for (int k = 8; low == 1 && !is_webp && k < 16; k++) box = k > 8 ? box << 8 | b[k] : b[k];
+        if (box == 1) { /* the size has 64 bits and stands behind */
+            unsigned long long wide = 0;
+            for (int k = 8; k < 16; k++) wide = wide << 8 | b[k];
+            box = (long long)wide;
+        }
         films += !memcmp(b, "RIFF", 4) || !memcmp(b + 4, "moov", 4);
         if (box < 8 || box > size - at) break;
         at += box;

@@ -117,9 +117,11 @@ static int read_row(picture *p, int y)
         int v = p->plain ? number(p->file) : wide ? b[2 * k] << 8 | b[2 * k + 1] : b[k];
         if (v < 0) return fail(p->name, "ends too early, or holds what is no number");
         if (v > p->most) return fail(p->name, "a value above its own maximum");
-        for (int i = p->channels == 3 ? k % 3 : 0, end = p->channels == 3 ? i + 1 : 3; i < end; i++)
-            p->row[k / p->channels * 4 + i] = 255.0 * v / p->most;
-        p->row[k / p->channels * 4 + 3] = 255;
+        p->row[k / p->channels * 4 + k % p->channels] = 255.0 * v / p->most;
+    }
+    for (double *at = p->row; at < p->row + 4 * (size_t)p->width; at += 4) {
+        if (p->channels == 1) at[1] = at[2] = at[0];
+        at[3] = 255;
     }
     return SAME;
 }
@@ -152,11 +154,11 @@ typedef struct comparison {
     int png;
 } comparison;
 
-/* How far two pixels are apart, of which the second may be missing */
+/* How far two pixels are apart */
 static double compare_pixel(result *r, const double *a, const double *b)
 {
-    double most = b ? 0 : 255;
-    for (int k = 0; k < 4 && b; k++) {
+    double most = 0;
+    for (int k = 0; k < 4; k++) {
         const double d = fabs(a[k] - b[k]);
         r->sum += d;
         r->squares += d * d;
@@ -171,6 +173,7 @@ static int compare_rows(FILE *difference, const void *data)
     const comparison *c = (const comparison *)data;
     picture *a = c->a, *b = c->b;
     result *r = c->result;
+    static const double neither[4];
     const size_t row = 3 * (size_t)c->width;
     for (int y = 0; y < c->height; y++) {
         unsigned char *out = c->drawn + (c->png ? row * (size_t)y : 0);
@@ -179,19 +182,15 @@ static int compare_rows(FILE *difference, const void *data)
         for (int x = 0; x < c->width; x++) {
             const double *one = x < a->width && y < a->height ? a->row + 4 * x : NULL;
             const double *other = x < b->width && y < b->height ? b->row + 4 * x : NULL;
-            static const double neither[4];
-            const double most = compare_pixel(r,
-                                              one     ? one
-                                              : other ? other
-                                                      : neither,
-                                              one ? other : NULL);
+            const int both = one && other;
+            const double most = both ? compare_pixel(r, one, other) : 255;
             if (most > r->most) {
                 r->most = most;
                 r->x = x;
                 r->y = y;
             }
             r->beyond += most > c->limit;
-            mark(out + 3 * x, one ? one : neither, most, one && other ? c->limit : 0);
+            mark(out + 3 * x, one ? one : neither, most, both ? c->limit : 0);
         }
         if (difference && !c->png && fwrite(out, 1, row, difference) < row) return 1;
     }
