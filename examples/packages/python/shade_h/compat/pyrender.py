@@ -227,18 +227,22 @@ def _primitive(mesh: Any, material: Any, poses: Any, smooth: bool) -> Primitive:
                      material=material, poses=poses)
 
 
-class _Number:
-    """A number of an object within bounds, which may be attributes of it; those that are open do not
-    belong to the range.  As in pyrender None is a TypeError, a number out of range a ValueError."""
-
-    def __init__(self, low: float | str, high: float | str, open_low: bool = True, none: bool = False) -> None:
-        self.low, self.high, self.open_low, self.none = low, high, open_low, none
+class _Attribute:
+    """An attribute of an object that is checked when it is set."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
 
     def __get__(self, one: Any, kind: type | None = None) -> Any:
         return one.__dict__[self.name]
+
+
+class _Number(_Attribute):
+    """A number of an object within bounds, which may be attributes of it; those that are open do not
+    belong to the range.  As in pyrender None is a TypeError, a number out of range a ValueError."""
+
+    def __init__(self, low: float | str, high: float | str, open_low: bool = True, none: bool = False) -> None:
+        self.low, self.high, self.open_low, self.none = low, high, open_low, none
 
     def __set__(self, one: Any, value: Any) -> None:
         if value is None and self.none:
@@ -394,17 +398,11 @@ def _falloff(inner: float, outer: float) -> float:
     return float(tried[error.argmin()])
 
 
-class _Slot:
+class _Slot(_Attribute):
     """An object of one kind, or None."""
 
     def __init__(self, kind: type) -> None:
         self.kind = kind
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    def __get__(self, one: Any, kind: type | None = None) -> Any:
-        return one.__dict__[self.name]
 
     def __set__(self, one: Any, value: Any) -> None:
         if value is not None and not isinstance(value, self.kind):
