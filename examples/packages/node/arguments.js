@@ -157,6 +157,9 @@ export function indices(name, value, vertices, words) {
     return got instanceof Uint32Array ? got : Uint32Array.from(got);
 }
 
+/** The sRGB value of linear light, not clamped */
+export const encoded = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
+
 /** Display colours, 0 .. 1; integers are bytes. */
 export function displayed(name, value, width) {
     if (value instanceof Uint8Array || value instanceof Uint8ClampedArray) {

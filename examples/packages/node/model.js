@@ -1,6 +1,6 @@
 // Reads glTF 2.0 (GLB, or JSON with its buffers inside) and 3MF by the module.  Each surface becomes
 // one mesh, as render takes them.  What 3MF has packed is unpacked by the platform, before it is read.
-import { ShadeError, record } from "./arguments.js";
+import { ShadeError, encoded, record } from "./arguments.js";
 
 // python_model and python_part of module.c, in words of four bytes
 const MODEL = 16, PART = 31;
@@ -11,10 +11,7 @@ function opaque(image) {
     return { ...image, data: Uint8ClampedArray.from(image.data, (x, i) => (step === 4 && i % 4 === 3 ? 255 : x)) };
 }
 
-function displayed(x) {
-    const shown = x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
-    return Math.min(Math.max(shown, 0), 1);
-}
+const displayed = (x) => Math.min(Math.max(encoded(x), 0), 1);
 
 /** The rows of the vertices at, of which all has so many numbers each */
 function rows(all, width, at, change = (x) => x) {

@@ -208,7 +208,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const texture = got.texture ?? shape.texture;
             ints[2] = texture === undefined ? -1 : check.integer("texture", texture, 0, this.#cubes.length - 1);
             ints[3] = (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
-            const light = (x) => (this.srgb || x <= 0.0031308 ? x * (this.srgb ? 1 : 12.92) : 1.055 * x ** (1 / 2.4) - 0.055);
+            const light = this.srgb ? (x) => x : check.encoded;
             floats.set(this.#color("color", got.color ?? "white").map((x, k) => x * light(shape.tint?.[k] ?? 1)), 19);
             floats[22] = check.number("alpha", got.alpha ?? 1, 0, 1);
             floats[23] = check.number("specular", got.specular ?? 0, 0, 1e6);
