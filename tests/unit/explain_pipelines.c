@@ -462,21 +462,29 @@ PIPED(biased)
 }
 PIPED(by_columns) { piped_matrix_by_rows(p); piped_without_clip(p); }
 
-/* How many pixels differ from `pixel` after the draw; of these, in *alike, how many are black, or
-   with full set have a full channel. */
-static int piped_changed(piped *p, int lines, uint32_t pixel, int full, int *alike)
+/* Of the pixels that differ from `pixel` after the draw, are so many tenths black, or with full set,
+   do they have a full channel?  No pixel differs: yes. */
+static int piped_are_alike(piped *p, int lines, uint32_t pixel, int full, int tenths)
 {
-    int n = 0;
-    *alike = 0;
+    int n = 0, alike = 0;
     piped_stats(p, lines, pixel);
     for (int k = 0; k < PIPED_W * PIPED_H; k++) {
         const uint32_t c = p->pixels[k];
         if (c == pixel) continue;
         n++;
-        *alike += full ? (c & 255) == 255 || (c >> 8 & 255) == 255 || (c >> 16 & 255) == 255
-                       : !(c & 0xFFFFFF);
+        alike += full ? (c & 255) == 255 || (c >> 8 & 255) == 255 || (c >> 16 & 255) == 255
+                      : !(c & 0xFFFFFF);
     }
-    return n;
+    return alike * 10 >= n * tenths;
+}
+
+/* Does the draw change a picture of such pixels? */
+static int piped_changes(piped *p, int lines, uint32_t pixel)
+{
+    int changed = 0;
+    piped_stats(p, lines, pixel);
+    for (int k = 0; k < PIPED_W * PIPED_H; k++) changed |= p->pixels[k] != pixel;
+    return changed;
 }
 
 /* Do all positions lie on the outer side of a plane, within rounding?  0: w = 0; 1: z = -w or, with
@@ -510,7 +518,6 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
 {
     const shade_stats stats = piped_stats(p, lines, 0xFF302010u);
     const long long got = stats.fragments;
-    int alike;
     if (strstr(said, "beside the clip rectangle"))
         return !piped_fragments(p, lines, piped_without_depth) &&
                piped_fragments(p, lines, piped_without_clip);
@@ -544,13 +551,14 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
     if (strstr(said, "sets discard"))
         return piped_fragments(p, 0, piped_discarding) < piped_fragments(p, 0, piped_without_depth);
     if (strstr(said, "Alpha is 0") || strstr(said, "adds nothing"))
-        return got && !piped_changed(p, lines, 0xFF302010u, 0, &alike);
+        return got && !piped_changes(p, lines, 0xFF302010u);
     if (strstr(said, "gives black") || strstr(said, "color is not set"))
-        return got && piped_changed(p, lines, 0xFFFFFFFFu, 0, &alike) == alike && alike;
+        return got && piped_changes(p, lines, 0xFFFFFFFFu) &&
+               piped_are_alike(p, lines, 0xFFFFFFFFu, 0, 10);
     if (strstr(said, "NaN or infinity"))
         return isnan(p->uniforms.color[0] + p->uniforms.color[1] + p->uniforms.color[2]);
     if (strstr(said, "255"))
-        return piped_changed(p, lines, 0xFF000000u, 1, &alike) <= alike * 10 / 9;
+        return piped_are_alike(p, lines, 0xFF000000u, 1, 9);
     if (strstr(said, "transposed")) return by_rows && piped_fragments(p, 1, piped_by_columns);
     if (strstr(said, "view times projection")) return exchanged;
     return strstr(said, "unset") && stats.clipped == stats.triangles;
