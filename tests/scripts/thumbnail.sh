@@ -107,8 +107,8 @@ formats() {
     # a plate so flat that ground within its maps of shadows lies behind their far planes
     awk 'BEGIN { for (i = 0; i < 8; i++) print "v", i % 2 * 2 - 1, (i > 3) / 25, int(i / 2) % 2 * 2 - 1
                  print "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 2 6 8 4\nf 4 8 7 3\nf 3 7 5 1" }' >"$T/plate.obj"
-    check "a plate" draw plate.obj a.ppm --background white --view 30,40,0.5 --size 100x100
-    check "throws no shadow on ground that the lamp sees" "$T/look" pixel "$T/a.ppm" .29 .34 255 255 255 0
+    check "a plate" draw plate.obj plate.ppm --background white --view 30,40,0.5 --size 100x100
+    check "throws no shadow on ground that the lamp sees" "$T/look" pixel "$T/plate.ppm" .29 .34 255 255 255 0
     for k in torus glass; do
         check "$k by one thread" draw $k.obj one.ppm --threads 1
         for n in 2 5 256; do
@@ -260,7 +260,7 @@ data_loss() {
         check "three name $k" kept "one file too many.*$k" "$T/v2.obj" "$THUMBNAIL" "$T/torus.obj" \
             "$T/v2.obj" "$T/v2.obj"
     done
-    cp "$T/torus.ply" "$T/ply.ppm"
+    cp "$T/colors.ply" "$T/ply.ppm"
     check "no picture over its model" kept "ply.ppm is read" "$T/ply.ppm" "$THUMBNAIL" "$T/ply.ppm" \
         "$T/./ply.ppm"
     check "a JSON over a model" kept "FILE ends in .json" "$T/v2.obj" "$THUMBNAIL" "$T/torus.obj" \
