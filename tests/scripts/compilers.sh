@@ -122,7 +122,7 @@ for cc in gcc clang; do
 done
 
 # Any capital letter may be a macro, for the standard headers too.  gcc compiles always_inline
-# functions into others with other flags: with -Ofast and -ffast-math in every step from -O0 on.
+# functions into others with other flags: with -Ofast, and with -ffast-math from -O0 on.
 letters=
 for l in A B C D E F G H I J K L M N O P Q R S T U V W X Y Z; do letters="$letters -D$l=480"; done
 for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g++ i686-linux-gnu-gcc \
@@ -133,14 +133,14 @@ for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g+
     *++) strict="$cc -std=c++17 -x c++ $WARN" ;;
     i686*) strict="$strict -msse2 -mfpmath=sse" ;;
     esac
-    check "capital letters, $cc" $strict $letters -DSHADE_NO_STDIO -I. -c "$T/impl.c" -o "$T/impl.o"
+    fast=
+    case $cc in *-gcc | *-g++) fast=-Ofast ;; esac
+    check "capital letters, $cc" $strict $fast $letters -DSHADE_NO_STDIO -I. -c "$T/impl.c" -o "$T/impl.o"
     case $cc in
     gcc | g++)
         for o in -O0 -Og -Os -Ofast; do
             check "$cc $o -ffast-math" $strict $o -ffast-math -I. -c "$T/impl.c" -o "$T/impl.o"
         done ;;
-    *-gcc | *-g++)
-        check "$cc -Ofast" $strict -Ofast -I. -c "$T/impl.c" -o "$T/impl.o" ;;
     esac
 done
 
@@ -191,12 +191,13 @@ find_wine
 wine=${wine:-none}
 
 sse="-msse2 -mfpmath=sse"
+find_i686
 program "gcc" "" C gcc
 program "g++" "" C++ g++
 program "clang" "" C clang
 program "clang++" "" C++ clang++
-program "gcc for i686" "" C i686-linux-gnu-gcc -static $sse
-program "g++ for i686" "" C++ i686-linux-gnu-g++ -static $sse
+program "gcc for i686" "$i686" C i686-linux-gnu-gcc -static $sse
+program "g++ for i686" "$i686" C++ i686-linux-gnu-g++ -static $sse
 if echo '#include <math.h>' | gcc -m32 -x c -c - -o "$T/m32.o" 2>/dev/null; then
     program "gcc -m32" "" C gcc -m32 $sse
     program "g++ -m32" "" C++ g++ -m32 $sse
@@ -216,11 +217,15 @@ program "zig cc for Windows" "$wine" C "$zig" cc -target x86_64-windows-gnu
 # Each program runs the loops that are built for its processor: it tells the level of them, 0 to 2.
 # gcc's and clang's libraries answer as the processor itself does; qemu's and valgrind's processors
 # have less.  zig builds for this processor unless it is told.
-level=
+level= compiled=
 takes_best() {                  # runner (or ""), level (or "": the first one's), compiler and flags
     runner=$1 want=${2:-$level}; shift 2
-    "$@" -std=c99 -O1 $WARN -finstrument-functions -I. tests/scripts/processor.c -lm -o "$T/processor.exe" &&
-        got=$($runner "$T/processor.exe" | tr -d '\r') && same "$got" "${want:-$got}" &&
+    if [ "$*" != "$compiled" ]; then
+        "$@" -std=c99 -O1 $WARN -finstrument-functions -I. tests/scripts/processor.c -lm \
+            -o "$T/processor.exe" || return 1
+        compiled=$*
+    fi
+    got=$($runner "$T/processor.exe" | tr -d '\r') && same "$got" "${want:-$got}" &&
         level=${level:-$got}
 }
 processor() {                   # name, runner, level, compiler and flags

@@ -42,7 +42,8 @@ if grep -q avx512vl /proc/cpuinfo 2>/dev/null; then
     one "clang -O2, AVX-512 forced" "" clang -O2 -DSHADE__LEVEL=2
 fi
 one "tcc" "" tcc
-one "i686 -msse2 -mfpmath=sse" "" i686-linux-gnu-gcc -static -msse2 -mfpmath=sse -O2
+find_i686
+one "i686 -msse2 -mfpmath=sse" "$i686" i686-linux-gnu-gcc -static -msse2 -mfpmath=sse -O2
 for std in "" "-std=c99"; do
     one "aarch64 $std" qemu-aarch64 aarch64-linux-gnu-gcc -static -O2 $std
     one "armhf $std" qemu-arm arm-linux-gnueabihf-gcc -static -O2 $std
@@ -64,7 +65,7 @@ for flags in -Ofast "-O3 -march=native -ffast-math" \
     one "gcc $flags" "" gcc $flags
 done
 static=-static
-one "i686 -Ofast" "" i686-linux-gnu-gcc -msse2 -mfpmath=sse -Ofast
+one "i686 -Ofast" "$i686" i686-linux-gnu-gcc -msse2 -mfpmath=sse -Ofast
 one "aarch64 -Ofast" qemu-aarch64 aarch64-linux-gnu-gcc -Ofast
 one "armhf -Ofast" qemu-arm arm-linux-gnueabihf-gcc -Ofast
 one "riscv64 -Ofast" qemu-riscv64 riscv64-linux-gnu-gcc -Ofast

@@ -18,6 +18,10 @@ no() { ! "$@"; }
 same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
 # The inline functions of shade.h's public part, one a line
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
+# Lessons draw with one sample a pixel where $one_sample is included before them, but for those that
+# count the samples of their picture themselves.
+one_sample=$PWD/tests/scripts/one_sample.h alone="32_z_buffer 37_rays"
+among() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }      # word, words
 soon() {                        # waits up to $patience seconds, 20, for a command to succeed
     for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
     "$@"
@@ -29,6 +33,13 @@ find_wine() {
     wine=
     for w in wine64 wine /usr/lib/wine/wine64; do there "$w" && wine=$w && break; done
     trap 'stop_wine >/dev/null 2>&1; rm -rf "$T"' EXIT
+}
+# Sets $i686 to what runs programs of 32 bits: nothing, or an emulator where the kernel takes none
+find_i686() {
+    i686=
+    echo 'int main(void) { return 0; }' |
+        i686-linux-gnu-gcc -static -x c - -o "$T/i686" 2>/dev/null && ! "$T/i686" 2>/dev/null &&
+        i686=qemu-i386
 }
 stop_wine() {
     for w in wineserver /usr/lib/wine/wineserver64; do

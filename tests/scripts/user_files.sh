@@ -11,7 +11,6 @@ cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD word=${1:-}
 own="glm 14_two_sided 19_threads 20_openmp 21_transparency 37_rays 40_fog 43_pinhole 47_by_hand"
-alone="32_z_buffer 37_rays"         # lessons that count the samples of their picture themselves
 by_rays="16_ray_cast 37_rays"       # a ray for each pixel: minutes under an emulator
 
 awk '/^```c$/ { inside = 1; text = ""; next }
@@ -20,10 +19,7 @@ awk '/^```c$/ { inside = 1; text = ""; next }
 { echo '#include "shade.h"'
   awk '/^ +#include <stdio.h>/ { inside = 1 } inside { print } /^       }/ { inside = 0 }' shade.h
 } >"$T/head.c"
-printf '#include "%s"\n#define canvas_new(w, h, samples) canvas_new(w, h, 1)\n' \
-    "$TOP/examples/shared/canvas.h" >"$T/one_sample.h"
 programs="readme head saddle ball $(cd examples/lessons && ls [0-9]*.c | sed 's/\.c$//')"
-among() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }      # word, words
 
 # folder, runner (or ""), program, compiler and flags: its pictures and text, in folder/program.out
 cat >"$T/draw.sh" <<'END'
@@ -40,7 +36,7 @@ glm) set -- "$@" "$E/glm.cpp" ;;
         echo 'int main(void) { return 0; }' | "$@" -fopenmp -x c - -o "$folder/openmp" 2>/dev/null &&
             set -- "$@" -fopenmp ;;
     esac
-    case " $ALONE " in *" $name "*) ;; *) set -- "$@" -include "$T/one_sample.h" ;; esac
+    case " $ALONE " in *" $name "*) ;; *) set -- "$@" -include "$ONE_SAMPLE" ;; esac
     set -- "$@" "$TOP/examples/lessons/$name.c" ;;
 esac
 mkdir -p "$folder/$name" && cd "$folder/$name" || exit 1
@@ -54,7 +50,7 @@ if ! [ -f "$ran" ]; then
 fi
 cp "$ran" "../$name.out" && rm -rf "$folder/$name"
 END
-export T TOP ALONE="$alone"
+export T TOP ALONE="$alone" ONE_SAMPLE="$one_sample"
 draw() { sh "$T/draw.sh" "$@"; }
 # folder, runner, programs, compiler and flags: as many at a time as there are cores
 draw_all() {

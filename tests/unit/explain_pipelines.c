@@ -462,8 +462,8 @@ PIPED(biased)
 }
 PIPED(by_columns) { piped_matrix_by_rows(p); piped_without_clip(p); }
 
-/* Of the pixels that differ from `pixel` after the draw, are so many tenths black, or with full set,
-   do they have a full channel?  No pixel differs: yes. */
+/* Of the pixels that differ from `pixel` after the draw, are so many tenths black, or with `full`,
+   full in a channel?  No pixel differs: yes. */
 static int piped_are_alike(piped *p, int lines, uint32_t pixel, int full, int tenths)
 {
     int n = 0, alike = 0;
