@@ -74,7 +74,7 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8104  why nothing is seen   >>replay    9301  of lines, pipelines
+       >>explain   8105  why nothing is seen   >>replay    9301  of lines, pipelines
        >>image     9628  mipmaps, PPM           >>presets   9940  classic materials
      Sources
        >>refs     10016                        >>history  10046
@@ -7921,7 +7921,7 @@ static int shade__lights_up(const shade__survey *s)
     if (!s->exact && s->target->depth && !r->depth_read_only && r->depth_bias == 0)
         shade__look_through(&q, SHADE_COMPARE_EQUAL);
     else if (!s->exact)
-        return shade__covered(s) && shade__count(s, least) == shade__covered(s);
+        return shade__count(s, least) == shade__covered(s);
     return shade__count(&q, least) > 0;
 }
 
@@ -7956,7 +7956,8 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
     if (state->material) s->material = *state->material;
 
-    s->whole = shade__clip_rectangle(target, s->clip) && s->clip[2] - s->clip[0] == target->width &&
+    shade__clip_rectangle(target, s->clip);    /* is not empty: shade__clip_fault */
+    s->whole = s->clip[2] - s->clip[0] == target->width &&
                s->clip[3] - s->clip[1] == target->height;
     shade__camera_of(&s->state.projection, &s->state.view, &s->camera);
     s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
@@ -8061,8 +8062,7 @@ static uint32_t shade__outside(const shade__survey *s)
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
         const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
-        const uint32_t out = shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
-        if (!(out & SHADE__OUT_BAD)) all &= out;
+        all &= shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
     }
     return all;
 }
@@ -8071,7 +8071,8 @@ static uint32_t shade__outside(const shade__survey *s)
 static int shade__depth_varies(const shade_target *t)
 {
     int clip[4];
-    if (!t->depth || !shade__clip_rectangle(t, clip)) return 0;
+    if (!t->depth) return 0;
+    shade__clip_rectangle(t, clip);
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x++)
             if (t->depth[shade__offset_of(t, x, y)] !=
@@ -8700,9 +8701,8 @@ static int shade__colors_are_black(shade__survey *q)
 
 static int shade__material_is_black(shade__survey *q)
 {
-    const int shows = shade__shows(q);
     shade__whiten(q);
-    return !shows && shade__bright(q) && shade__lights_up(q);
+    return shade__bright(q) && shade__lights_up(q);
 }
 
 static const char shade__transparent[] =
@@ -9211,7 +9211,7 @@ static const char *shade__why_black(const shade__survey *seen)
     why = shade__climb_on(&q, shade__black);
     if (!why) why = shade__climb_on(&q, shade__no_lamps);
     if (!why) why = shade__climb_on(&q, shade__unlit);
-    return why && shade__helps(seen, why) ? why : shade__multiply;
+    return shade__helps(seen, why) ? why : shade__multiply;
 }
 
 /* Is all dark that the mesh may show, or the caller's picture?  A channel of least is not dark. */

@@ -206,6 +206,39 @@ PIPED(colors_of_255)
         p->uniforms.color[k] *= 255;
     }
 }
+PIPED(colors_of_255_in_floats)
+{
+    piped_colors_of_255(p);
+    p->target.format = SHADE_FORMAT_RGBA32F;    /* the memory of four pixels for each */
+    p->target.width /= 2;
+    p->target.height /= 2;
+}
+PIPED(without_colors) { p->target.color = NULL; }
+PIPED(without_colors_discards_some)
+{
+    p->target.color = NULL;
+    p->pipe.may_discard = 1;
+    p->uniforms.discards = 2;
+}
+/* Cameras that lines must not take for a matrix that is wrong */
+PIPED(looks_down)
+{
+    p->view = shade_mat4_look_at(shade_v3(0, 2, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+}
+PIPED(eye_at_the_origin)
+{
+    p->view = shade_mat4_identity();
+    for (int k = 0; k < PIPED_CORNERS; k++) p->position[3 * k + 2] -= 5;
+    for (int k = 0; k < PIPED_POINTS; k++) p->point[k].z -= 5;
+}
+PIPED(eye_at_the_origin_reversed)
+{
+    piped_eye_at_the_origin(p);
+    p->projection = shade_mat4_perspective_reversed(0.8f, (float)PIPED_W / PIPED_H, 0.5f);
+    p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER;
+    p->pipe.raster.depth_zero_to_one = p->lines.raster.depth_zero_to_one = 1;
+    p->clear = 0;
+}
 PIPED(no_pipeline) { p->given_pipe = NULL; }
 PIPED(no_vertex) { p->pipe.vertex = NULL; }
 PIPED(bad_interpolation) { p->pipe.interpolation = (shade_interpolation)7; }
@@ -235,6 +268,12 @@ PIPED(no_fragment) { p->pipe.fragment = NULL; p->target.depth = NULL; }
 PIPED(depth_alone) { p->pipe.fragment = NULL; }
 PIPED(depth_not_written) { p->pipe.fragment = NULL; p->pipe.raster.depth_read_only = 1; }
 PIPED(black) { p->uniforms.color[0] = p->uniforms.color[1] = p->uniforms.color[2] = 0; }
+PIPED(outlines)
+{
+    p->pipe.raster.cull = SHADE_CULL_FRONT;
+    for (int k = 0; k < PIPED_CORNERS; k++) p->index[k] = (uint32_t)(PIPED_CORNERS - 1 - k);
+    piped_black(p);
+}
 PIPED(black_nan) { for (int k = 0; k < 3; k++) p->uniforms.color[k] = (float)NAN; }
 PIPED(shadow)
 {
@@ -259,6 +298,11 @@ PIPED(in_a_surface)
     p->point[1] = shade_v3(0.5f, 0, 0);
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
 }
+PIPED(behind_a_surface)
+{
+    piped_in_a_surface(p);
+    p->point[0].z = p->point[1].z = -1;
+}
 PIPED(color_forgotten) { p->lines.color = shade_v4(0, 0, 0, 0); }
 PIPED(black_lines) { p->lines.color = shade_v4(0, 0, 0, 1); }
 
@@ -271,6 +315,12 @@ PIPED(matrix_forgotten)
     for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = shade_scale(p->point[k], 3);
     memset(&p->lines.clip_from_points, 0, sizeof p->lines.clip_from_points);
 }
+PIPED(no_matrix_needed)
+{
+    for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = shade_scale(p->point[k], 0.5f);
+    memset(&p->lines.clip_from_points, 0, sizeof p->lines.clip_from_points);
+}
+PIPED(matrix_of_no_camera) { p->lines.clip_from_points.col[0].z += 0.3f; }
 PIPED(matrix_by_rows)
 {
     p->lines.clip_from_points = shade_mat4_transpose(p->lines.clip_from_points);
@@ -330,6 +380,11 @@ static const struct piped_mistake {
     { OF_BOTH, piped_alpha_zero, "Alpha is 0" },
     { OF_BOTH, piped_adds_black, "adds nothing" },
     { OF_BOTH, piped_colors_of_255, "255" },
+    { OF_BOTH, piped_colors_of_255_in_floats, "" },
+    { OF_BOTH, piped_without_colors, "" },
+    { OF_BOTH, piped_looks_down, "" },
+    { OF_BOTH, piped_eye_at_the_origin, "" },
+    { OF_BOTH, piped_eye_at_the_origin_reversed, "" },
     { OF_BOTH, piped_in_a_box, "" },
     { OF_BOTH, piped_box_beside, "beside the picture" },
     { OF_DRAW, piped_no_pipeline, "pipeline" },
@@ -355,6 +410,8 @@ static const struct piped_mistake {
     { OF_DRAW, piped_depth_alone, "" },
     { OF_DRAW, piped_depth_not_written, "depth_read_only" },
     { OF_DRAW, piped_black, "black" },
+    { OF_DRAW, piped_outlines, "" },
+    { OF_DRAW, piped_without_colors_discards_some, "" },
     { OF_DRAW, piped_black_nan, "NaN" },
     { OF_DRAW, piped_shadow, "" },
     { OF_DRAW | AFTERWARDS, piped_matrices_exchanged, "projection times view" },
@@ -368,9 +425,12 @@ static const struct piped_mistake {
     { OF_LINES, piped_point_nan, "NaN" },
     { OF_LINES, piped_hairs, "state.width" },
     { OF_LINES | STATS_ALONE, piped_in_a_surface, "depth_bias" },
+    { OF_LINES, piped_behind_a_surface, "" },
     { OF_LINES, piped_color_forgotten, "state.color" },
     { OF_LINES, piped_black_lines, "" },
     { OF_LINES | AFTERWARDS, piped_matrix_forgotten, "unset" },
+    { OF_LINES | AFTERWARDS, piped_no_matrix_needed, "" },
+    { OF_LINES | AFTERWARDS, piped_matrix_of_no_camera, "" },
     { OF_LINES | AFTERWARDS, piped_matrix_by_rows, "transposed" },
     { OF_LINES | AFTERWARDS, piped_matrix_by_rows_ahead, "transposed" },
     { OF_LINES | AFTERWARDS, piped_matrix_of_a_box_by_rows, "transposed" },
