@@ -27,12 +27,14 @@ soon() {                        # waits up to $patience seconds, 20, for a comma
     "$@"
 }
 # Sets $wine to what runs programs for Windows, or to nothing.  Debian's wine64 alone is not on the
-# path.  Wine's server writes into its folder until it ends.
+# path.  Wine's server runs until stop_wine: one that ends when it is idle resets the connection of a
+# program that has just begun.  It writes into its folder until it ends.
 find_wine() {
     export WINEPREFIX="$T/wine" WINEDEBUG=-all
     wine=
     for w in wine64 wine /usr/lib/wine/wine64; do there "$w" && wine=$w && break; done
     trap 'stop_wine >/dev/null 2>&1; rm -rf "$T"' EXIT
+    [ -z "$wine" ] || { mkdir -p "$WINEPREFIX" && wine_server -p; }
 }
 # Sets $i686 to what runs programs of 32 bits: nothing, or an emulator where the kernel takes none
 find_i686() {
@@ -41,11 +43,10 @@ find_i686() {
         i686-linux-gnu-gcc -static -x c - -o "$T/i686" 2>/dev/null && ! "$T/i686" 2>/dev/null &&
         i686=qemu-i386
 }
-stop_wine() {
-    for w in wineserver /usr/lib/wine/wineserver64; do
-        [ -d "$WINEPREFIX" ] && there "$w" && "$w" -k && "$w" -w && break
-    done
+wine_server() {                 # options
+    for w in wineserver /usr/lib/wine/wineserver64; do there "$w" && "$w" "$@" && break; done
 }
+stop_wine() { [ -d "$WINEPREFIX" ] && wine_server -k && wine_server -w; }
 finish() {
     [ "$skipped" -eq 0 ] || echo "$skipped left out"
     echo "$passed passed, $failed failed"
