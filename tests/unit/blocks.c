@@ -64,7 +64,7 @@ TEST(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test)
     shade_vec4 clip[3 * BLOCKS_MOST], color[BLOCKS_MOST];
     for (int i = 0; i < BLOCKS_MOST; i++)
         color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
-    for (int round = 0; round < 240; round++) {
+    for (int round = 0; round < test_rounds(240); round++) {
         int big = round % 20 == 19, count = big ? 20 : BLOCKS_MOST, strip = rnd_one_in(3);
         int width = big ? rnd_int(1000, 1500) : rnd_int(20, 200);
         int height = big ? rnd_int(600, 1100) : rnd_int(8, 120);

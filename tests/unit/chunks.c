@@ -516,7 +516,7 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
     static const int widths[6] = { 1, 2, 7, 64, 300, 16384 };
     static uint32_t pixels[16384 * 4];
     long touching = 0, by_rounding = 0, hidden = 0;
-    for (int i = 0; i < 150000; i++) {
+    for (int i = 0; i < test_rounds(150000); i++) {
         const double size = (double)rnd_log(1e-6, 1e6);
         const int n = rnd_one_in(2) ? rnd_int(4, 5) : rnd_int(0, 3);
         double rows[4][4], plane[4], point[4];
@@ -549,7 +549,8 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
         hidden += !got;
         if (want >= 0) CHECK_INT(got, want);
     }
-    CHECK_SAY(touching > 3000 && by_rounding > 100 && hidden > 1000,
+    CHECK_SAY(touching > test_rounds(3000) && by_rounding > test_rounds(100) &&
+                  hidden > test_rounds(1000),
               "%ld touch a pixel, %ld by rounding, %ld hidden", touching, by_rounding, hidden);
 }
 

@@ -318,7 +318,7 @@ TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
    at less than 1/1000 pixel: the quotient that finds the span's end is nearly a whole number. */
 TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
 {
-    for (int i = 0; i < 120; i++) {
+    for (int i = 0; i < test_rounds(120); i++) {
         int width = rnd_int(6000, 8000), height = rnd_int(40, 60), attempts = 0;
         canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], u, v, dy;
@@ -353,7 +353,7 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
 {
     static const int sizes[][2] = { { 1024, 1024 }, { 2000, 520 }, { 524, 2000 },  { 1448, 724 },
                                     { 2040, 2040 }, { 1100, 950 }, { 1023, 1020 }, { 64, 2040 } };
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < test_rounds(16); i++) {
         canvas c = canvas_open(2048, 2048, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], w = sizes[i % 8][0] * 256, h = sizes[i % 8][1] * 256;
         int64_t left = rnd_int(0, 2048 * 256 - (int)w), top = rnd_int(0, 2048 * 256 - (int)h);

@@ -686,7 +686,7 @@ static void piped_spoil(piped *p)
 TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
 {
     long said_something = 0, nothing_seen = 0;
-    for (int i = 0; i < 20000; i++) {
+    for (int i = 0; i < test_rounds(20000); i++) {
         const int lines = rnd_one_in(2);
         int exchanged = 0, by_rows = 0;
         const char *said[2];
@@ -722,8 +722,8 @@ TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
         }
         free(p);
     }
-    CHECK_SAY(said_something > 10000 && nothing_seen > 3000, "%ld, %ld", said_something,
-              nothing_seen);
+    CHECK_SAY(said_something > test_rounds(10000) && nothing_seen > test_rounds(3000), "%ld, %ld",
+              said_something, nothing_seen);
 }
 
 static const test_case explain_pipelines_cases[] = {

@@ -483,7 +483,7 @@ TEST(lines, ends_a_million_pictures_away_keep_their_pixels)
     static const int sizes[][2] = { { 60, 44 }, { 1, 1 },   { 2, 3 },     { 64, 64 },
                                     { 390, 4 }, { 5, 300 }, { 16384, 2 }, { 3, 16384 } };
     long inside = 0, far = 0;
-    for (int i = 0; i < 4000; i++) {
+    for (int i = 0; i < test_rounds(4000); i++) {
         int kind = i % 40 ? rnd_int(0, 5) : rnd_int(6, 7);
         int width = sizes[kind][0], height = sizes[kind][1], most = width > height ? width : height;
         canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA32F, 1);
@@ -510,7 +510,8 @@ TEST(lines, ends_a_million_pictures_away_keep_their_pixels)
         inside += check_line(&c, &s, p);
         canvas_close(&c);
     }
-    CHECK_SAY(inside > 100000 && far > 1000, "%ld pixels, %ld far lines", inside, far);
+    CHECK_SAY(inside > test_rounds(100000) && far > test_rounds(1000), "%ld pixels, %ld far lines",
+              inside, far);
 }
 
 /* The same behind a camera: ends beside, above, far before and behind the eye. */
@@ -518,7 +519,7 @@ TEST(lines, far_ends_seen_by_a_camera_keep_their_pixels)
 {
     enum { W = 64, H = 48 };
     long inside = 0, far = 0;
-    for (int i = 0; i < 4000; i++) {
+    for (int i = 0; i < test_rounds(4000); i++) {
         canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
         shade_line_state s = line_state(rnd_log(0.3, rnd_one_in(3) ? 300 : 5));
         double size = (double)rnd_log(1e-3, 1e3), way;
@@ -542,7 +543,8 @@ TEST(lines, far_ends_seen_by_a_camera_keep_their_pixels)
         inside += check_line(&c, &s, p);
         canvas_close(&c);
     }
-    CHECK_SAY(inside > 100000 && far > 1000, "%ld pixels, %ld far ends", inside, far);
+    CHECK_SAY(inside > test_rounds(100000) && far > test_rounds(1000), "%ld pixels, %ld far ends",
+              inside, far);
 }
 
 /* What touches a plane from outside is a point there. */

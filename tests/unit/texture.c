@@ -962,7 +962,7 @@ TEST(texture, lod_of_cut_triangles_is_that_of_the_whole)
     static const double scale[5] = { 1, 1099511627776.0, 1 / 1099511627776.0, 1e12, 1e-12 };
     static float lod[15][48][64];
     long checked = 0, apart = 0, moved = 0;
-    for (int i = 0; i < 1500; i++) {
+    for (int i = 0; i < test_rounds(1500); i++) {
         shade_texture map = lod_map(rnd_int(1, 600), rnd_int(1, 600));
         shade_vec4 clip[3];
         lod_scene s;
@@ -993,7 +993,7 @@ TEST(texture, lod_of_cut_triangles_is_that_of_the_whole)
                 moved += !(fabs((double)lod[n][y][x] - (double)lod[0][y][x]) <= 0.02);
         }
     }
-    CHECK_SAY(checked > 300000 && apart < checked / 2000 && moved < checked / 20000,
+    CHECK_SAY(checked > test_rounds(300000) && apart < checked / 2000 && moved < checked / 20000,
               "%ld of %ld pixels are off, %ld move", apart, checked, moved);
 }
 

@@ -109,7 +109,7 @@ TEST(vertex, every_triangle_gets_its_own_three_vertices) /* any index order, nea
     static shade_vec4 clip[VERTICES];
     static float attribute[VERTICES];
     static uint32_t indices[TRIANGLES * 3];
-    for (int round = 0; round < 6; round++) {
+    for (int round = 0; round < test_rounds(6); round++) {
         for (int i = 0; i < VERTICES; i++) {
             clip[i] = shade_v4(rnd_float(-1, 1), rnd_float(-1, 1), rnd_float(-0.9, 0.9), 1);
             attribute[i] = (float)i;
