@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8105  why nothing is seen   >>replay    9301  of lines, pipelines
-       >>image     9628  mipmaps, PPM           >>presets   9940  classic materials
+       >>explain   8104  why nothing is seen   >>replay    9300  of lines, pipelines
+       >>image     9627  mipmaps, PPM           >>presets   9939  classic materials
      Sources
-       >>refs     10016                        >>history  10046
-       >>license  10052
+       >>refs     10015                        >>history  10045
+       >>license  10051
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7695,7 +7695,7 @@ typedef struct shade__probe {
     uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
 } shade__probe;
 
-/* A draw: the given one, and what is drawn in its place.  No pointer leads into the survey itself,
+/* A draw: the given one, and the one drawn in its place.  No pointer leads into the survey itself,
    so that a copy is a survey of its own. */
 typedef struct shade__survey {
     const shade_target     *target;      /* the caller's */
@@ -7911,8 +7911,7 @@ static int shade__few(const shade__survey *s, long long n, long long all)
 }
 
 /* Is a pixel that the picture shows brighter than 12 of 255, which is more than 8 in each format?
-   Where what is drawn hides other fragments, and stored depth does not tell which, all of them must
-   be. */
+   Where fragments hide others, and stored depth does not tell which, all of them must be. */
 static int shade__lights_up(const shade__survey *s)
 {
     const shade_raster *r = &s->given_state->raster;
@@ -8192,7 +8191,7 @@ static const char *shade__bad_matrix(const shade__survey *s)
                "eye from state.view.  Are the two swapped?";
     if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(&s->camera) &&
         !s->state.raster.depth_zero_to_one)
-        return "state.projection is that of shade_mat4_perspective_reversed, which needs "
+        return "state.projection comes from shade_mat4_perspective_reversed, which needs "
                "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
     return NULL;
 }
@@ -8257,7 +8256,7 @@ static const char *shade__bad_number(const shade__survey *s)
 
 typedef struct shade__rung {
     int (*change)(shade__survey *q);     /* returns whether the sentence is true */
-    const char *sentence;                /* NULL: what is seen may be meant, the ladder ends */
+    const char *sentence;                /* NULL: this may be meant, the ladder ends */
 } shade__rung;
 
 /* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault,
@@ -8386,8 +8385,8 @@ static const shade__rung shade__nothing[] = {
       "state.model that mirrors reverses it as well." },
     { shade__is_scattered, NULL },
     { shade__all_cut,
-      "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) times "
-      "that of diffuse_map; lower it." },
+      "state.alpha_cutoff is above every alpha of the mesh, (1 - transparency) times the alpha of "
+      "diffuse_map; lower it." },
     { shade__has_no_area,
       "No triangle in view has an area on the screen: state.model scales by 0, the mesh is "
       "smaller than a pixel or seen edge-on, or corners in mesh.indices coincide." },
@@ -8438,7 +8437,7 @@ static int shade__test_is_turned(shade__survey *q)
 
 static const shade__rung shade__test[] = {
     { shade__test_is_turned,
-      "raster.depth_test does not fit state.projection, so that what is far hides what is near: "
+      "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: "
       "SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER and 0 for "
       "shade_mat4_perspective_reversed." },
     { NULL, NULL }
@@ -8538,7 +8537,7 @@ static int shade__depth_hides(shade__survey *q)
 {
     const int hidden = !shade__is_drawn(q) || shade__is_far(q);    /* with the given bias */
     if (!hidden || !shade__all_hidden(q)) return 0;
-    q->apart = 1e-6f;    /* floats are too coarse to tell what is nearer */
+    q->apart = 1e-6f;    /* floats are too coarse to tell which is nearer */
     return shade__covered(q) > 0;
 }
 
@@ -8707,7 +8706,7 @@ static int shade__material_is_black(shade__survey *q)
 
 static const char shade__transparent[] =
     "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
-    "state.transparency, times that of state.diffuse_map.";
+    "state.transparency, times the alpha of state.diffuse_map.";
 static const char shade__coarse[] =
     "state.shading lights vertices or middles of faces, which no light reaches, though it "
     "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
@@ -8718,7 +8717,7 @@ static const char shade__black_material[] =
     "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
     "or specular, lighting.ambient needs material.ambient; NULL is white.";
 static const char shade__behind[] =
-    "Every lamp is behind nine tenths or more of what is in view, on the side that the normals "
+    "Every lamp is behind nine tenths or more of the visible pixels, on the side that the normals "
     "point away from: turn mesh.normals (without them the winding), move light.position, set "
     "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside of the mesh?";
 static const char shade__black_colors[] =
@@ -8731,13 +8730,13 @@ static const char shade__fall_off[] =
     "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
     "constant, linear or quadratic, or raise the light's diffuse and specular.";
 static const char shade__no_cone[] =
-    "No cone of the lights shows in what is in view; check spot_direction and spot_cos_cutoff, "
+    "No cone of the lights shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
     "the cosine of an angle in radians.";
 static const char shade__no_color[] =
-    "The lights have no colour, or too little for what is in view: their diffuse is dark or "
-    "meets it at a flat angle, and no highlight reaches the eye.";
+    "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
+    "meets them at a flat angle, and no highlight reaches the eye.";
 static const char shade__multiply[] =
-    "What is in view is black or almost: state.material, mesh.colors, the map, alpha, "
+    "The visible pixels are black or almost: state.material, mesh.colors, the map, alpha, "
     "lighting.terms and the lights multiply, and several of them may be at fault.";
 
 /* Changes are kept. */
@@ -8787,8 +8786,8 @@ static int shade__lamps_alone(shade__survey *q)
     return l->model <= SHADE_MODEL_LAMBERT && l->terms;
 }
 
-/* Do nine tenths of what is in view face away from every lamp, which would light them if they had
-   two sides?  Lamps are taken without cone and attenuation. */
+/* Do nine tenths of the visible pixels face away from every lamp, which would light them if they
+   had two sides?  Lamps are taken without cone and attenuation. */
 static int shade__lamps_behind(shade__survey *q)
 {
     const shade_vec3 glow = q->material.emission;
@@ -8891,7 +8890,7 @@ static int shade__colors_are_zero(shade__survey *q)
            q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
 }
 
-/* Does a lamp at the eye leave a third of what is in view dark, on faces wound toward it? */
+/* Does a lamp at the eye leave a third of the visible pixels dark, on faces wound toward it? */
 static int shade__normals_turned(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -9131,8 +9130,8 @@ static const char *shade__doubt_of_view(const shade__survey *s)
 {
     const shade_mat4 *p = &s->state.projection;
     if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
-        return "state.view scales or shears, but it must only turn and move, as that of "
-               "shade_mat4_look_at does; scale by state.model.";
+        return "state.view scales or shears, but it must only turn and move, as shade_mat4_look_at "
+               "does; scale by state.model.";
     if (shade__aspect_is_wrong(s))
         return "The aspect of state.projection is not that of the picture: pass width / height of "
                "the target as floats to shade_mat4_perspective.";
@@ -9409,7 +9408,7 @@ static const char *shade__why_matrix(const shade__replay *r, const shade__tally 
     if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
         return "Every line lies outside of the cube from -1 to 1: state.clip_from_points is unset, "
                "or no projection; it is projection times view, in this order.";
-    /* w = -z, but what is left is no perspective */
+    /* w = -z, but the rest is no perspective */
     if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
         (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
         return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "

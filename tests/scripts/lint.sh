@@ -121,6 +121,16 @@ check "a number stands in a line of its own directly above a TEST" "$(awk '
     mark && !/^TEST\(/ { print mark }
     { mark = /^ *\/\* *G[0-9]/ ? FILENAME ":" FNR ": " $0 : "" }' tests/unit/*.c)"
 rm -f /tmp/lint_promised.$$ /tmp/lint_marks.$$ /tmp/lint_held.$$
+# Relative clauses in place of nouns: in the comments and sentences of shade.h and in README.md, each
+# of these stands half as often as once
+tics="10 whose|5 those of|5 that of|5 so many|5 where no|4 nobody|4 what is|3 asks|7 whatever"
+check "words that stand for nouns" "$(
+    { cat README.md; sed -n '/\/\*/,/\*\//p; /^ *".*"/p' $H; } | tr -s ' \n' ' ' >/tmp/lint_text.$$
+    echo "$tics" | tr '|' '\n' | while read -r most words; do
+        n=$(grep -oiw "$words" /tmp/lint_text.$$ | wc -l)
+        [ "$n" -le "$most" ] || echo "\"$words\" $n times, $most allowed"
+    done
+    rm -f /tmp/lint_text.$$)"
 if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
     check "what make format lays out" "$(${MAKE:-make} -s format-check 2>&1 | grep 'error:')"
 else echo "left out: what make format lays out (no clang-format 14)"; fi
