@@ -844,11 +844,12 @@ int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth)
 }
 
 SHADEDEF int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                                  int faces, int srgb);
+                                  int faces, int srgb, int wrap_u, int wrap_v);
 int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                         int faces, int srgb)
+                         int faces, int srgb, int wrap_u, int wrap_v)
 {
-    return renderer_add_texture(scene, rgba, width, height, faces, srgb);
+    return renderer_add_texture(scene, rgba, width, height, faces, srgb, (shade_wrap)wrap_u,
+                                (shade_wrap)wrap_v);
 }
 
 SHADEDEF renderer *python_renderer_open(void);

@@ -451,10 +451,11 @@ static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m, 
     return scene->mesh_count++;
 }
 
-/* Copies RGBA bytes with their mipmaps; faces: 1, or 6 one below the other, for a cube.  Returns
-   the texture's number, -1 without memory. */
+/* Copies RGBA bytes with their mipmaps; faces: 1, or 6 one below the other, for a cube, which needs
+   no wrap.  Returns the texture's number, -1 without memory. */
 static inline int renderer_add_texture(renderer_scene *scene, const uint8_t *rgba, int width,
-                                       int height, int faces, int srgb)
+                                       int height, int faces, int srgb, shade_wrap wrap_u,
+                                       shade_wrap wrap_v)
 {
     const size_t bytes = 4 * (size_t)width * (size_t)height;
     const size_t below = (shade_mipmap_bytes(width, height, SHADE_FORMAT_RGBA8) + 15) / 16 * 16;
@@ -470,7 +471,8 @@ static inline int renderer_add_texture(renderer_scene *scene, const uint8_t *rgb
         memcpy(at, rgba + (size_t)i * bytes, bytes);
         t.face[i] = (shade_texture){ .pixels = at, .width = width, .height = height, .srgb = srgb };
         t.face[i].filter = SHADE_FILTER_TRILINEAR;
-        if (faces > 1) t.face[i].wrap_u = t.face[i].wrap_v = SHADE_WRAP_CLAMP;
+        t.face[i].wrap_u = faces > 1 ? SHADE_WRAP_CLAMP : wrap_u;
+        t.face[i].wrap_v = faces > 1 ? SHADE_WRAP_CLAMP : wrap_v;
         if (levels) shade_build_mipmaps(&t.face[i], t.levels + i * levels, at + bytes, below);
     }
     if (!grown || !t.memory || !t.levels) {

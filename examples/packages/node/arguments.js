@@ -186,9 +186,18 @@ export function color(label, value) {
     return Float32Array.of((bits >> 16) / 255, ((bits >> 8) & 255) / 255, (bits & 255) / 255);
 }
 
-/** A picture of RGB or RGBA bytes, as RGBA. */
+const WRAPS = ["repeat", "clamp", "mirror"];
+
+/** How a texture goes on beyond its edges along u and v, as numbers */
+export function wraps(name, value) {
+    if (!Array.isArray(value) || value.length !== 2) throw new ShadeError(`${name} must be two names, for u and v`);
+    return value.map((how) => WRAPS.indexOf(choice(name, how, WRAPS)));
+}
+
+/** A picture of RGB or RGBA bytes, as RGBA; wrap becomes numbers. */
 export function texture(name, value) {
-    const { data, width, height } = record(name, value, ["data", "width", "height"]);
+    const got = record(name, value, ["data", "width", "height", "wrap"]), { data, width, height } = got;
+    const wrap = wraps(`${name}.wrap`, got.wrap ?? ["repeat", "repeat"]);
     integer(`${name}.width`, width, 1, 16384);
     integer(`${name}.height`, height, 1, 16384);
     const channels = numbers(`${name}.data`, data).length / (width * height);
@@ -196,10 +205,10 @@ export function texture(name, value) {
         throw new ShadeError(`${name}.data must hold 3 or 4 bytes a pixel, not ${data.length} in all`);
     }
     const bytes = Uint8ClampedArray.from(data);
-    if (channels === 4) return { data: bytes, width, height };
+    if (channels === 4) return { data: bytes, width, height, wrap };
     const rgba = new Uint8ClampedArray(4 * width * height).fill(255);
     for (let i = 0; i < width * height; i++) rgba.set(bytes.subarray(3 * i, 3 * i + 3), 4 * i);
-    return { data: rgba, width, height };
+    return { data: rgba, width, height, wrap };
 }
 
 const MODELS = ["blinn-phong", "phong", "lambert", "ambient", "emissive", "cool-to-warm"];

@@ -19,8 +19,12 @@ export interface Material {
     shininess?: number;
 }
 
+/** How a texture goes on beyond its edges, along u and v; default "repeat". */
+export type Wrap = [Wraps, Wraps];
+export type Wraps = "repeat" | "clamp" | "mirror";
+
 /** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top. */
-export interface Texture { data: Numbers; width: number; height: number; }
+export interface Texture { data: Numbers; width: number; height: number; wrap?: Wrap; }
 
 /** What a mesh is made of.  Arrays are copied. */
 export interface MeshSource {
@@ -169,7 +173,7 @@ export class Renderer {
     mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
                           uv?: Numbers; colors?: Numbers }): Shape;
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;
-    texture(picture: { data: Numbers; width: number; height: number; faces?: 1 | 6 }): number;
+    texture(picture: Texture & { faces?: 1 | 6 }): number;
     checker(one?: Color, other?: Color): number;
     /** Size: half the sides of a plane (none: endless) and box, a radius, radii, or radius and half the
         length along z; of a shape its scale. */

@@ -23,7 +23,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 12, ITEM = 42, VIEW = 66, LIGHT = 21;
+const MESH = 14, ITEM = 42, VIEW = 66, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -187,7 +187,7 @@ export class Mesh {
                         shown && rows("colors", shown, 3, vertices, faces),
                         uv && rows("uv", uv, 2, vertices), this.indices, map?.data];
         ask.set([vertices, this.indices.length, shown ? shown.length / 3 : 0,
-                 given ? 0 : kinds[normals], map?.width ?? 0, map?.height ?? 0], 6);
+                 given ? 0 : kinds[normals], map?.width ?? 0, map?.height ?? 0, ...(map?.wrap ?? [0, 0])], 6);
         return withMemory((room) => {
             const at = room(4 * MESH), result = room(4), held = [];
             try {

@@ -11,6 +11,8 @@ function opaque(image) {
     return { ...image, data: Uint8ClampedArray.from(image.data, (x, i) => (step === 4 && i % 4 === 3 ? 255 : x)) };
 }
 
+const WRAPS = ["repeat", "clamp", "mirror"];    // of shade_wrap
+
 const displayed = (x) => Math.min(Math.max(encoded(x), 0), 1);
 
 /** The rows of the vertices at, of which all has so many numbers each */
@@ -69,6 +71,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         const of = (name, width, change) => rows(floats(all[name], width * all.vertices), width, used, change);
         const k = [...values.subarray(11, 24)], [isOpaque, isBlended] = [ints[8], ints[25]];
         const blend = isBlended || values[5] > 0, cutoff = ints[10] || isOpaque || blend ? values[24] : 0.5;
+        const surface = image && { ...(isOpaque ? opaque(image) : image), wrap: [WRAPS[ints[28]], WRAPS[ints[29]]] };
         const material = { emission: k.slice(0, 3), ambient: k.slice(3, 6), diffuse: k.slice(6, 9),
                            specular: k.slice(9, 12), shininess: k[12] };
         return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
@@ -78,7 +81,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                  ...(all.smooth ? { normals: of("normals", 3) } : {}),
                  ...(all.colors ? { colors: of("colors", 3, displayed) } : {}),
                  ...(image && all.uv ? { uv: of("uv", 2, (x, axis) => (axis ? 1 - x : x)),
-                                         texture: isOpaque ? opaque(image) : image } : {}) };
+                                         texture: surface } : {}) };
     }
 
     function meshesOf(model, picture) {

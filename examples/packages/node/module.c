@@ -23,6 +23,7 @@ typedef struct asked_mesh {
     uint32_t *indices;
     uint8_t *texels;                             /* RGBA */
     int vertices, corners, color_count, normals_kind, texture_width, texture_height;
+    int wrap_u, wrap_v;                          /* shade_wrap */
 } asked_mesh;
 
 typedef struct asked_item {
@@ -217,6 +218,8 @@ static shade_result make_map(module_mesh *m, const asked_mesh *asked)
     m->map.height = h;
     m->map.srgb = 1;
     m->map.filter = SHADE_FILTER_TRILINEAR;
+    m->map.wrap_u = (shade_wrap)asked->wrap_u;
+    m->map.wrap_v = (shade_wrap)asked->wrap_v;
     return shade_build_mipmaps(&m->map, m->levels, memory, bytes);
 }
 
@@ -459,11 +462,12 @@ int module_scene_made(renderer_scene *scene, const module_mesh *m, float x, floa
 
 EXPORT(scene_texture)
 int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                         int faces, int srgb);
+                         int faces, int srgb, int wrap_u, int wrap_v);
 int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                         int faces, int srgb)
+                         int faces, int srgb, int wrap_u, int wrap_v)
 {
-    return renderer_add_texture(scene, rgba, width, height, faces, srgb);
+    return renderer_add_texture(scene, rgba, width, height, faces, srgb, (shade_wrap)wrap_u,
+                                (shade_wrap)wrap_v);
 }
 
 EXPORT(renderer_open) renderer *module_renderer_open(void);

@@ -109,7 +109,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (made !== source) made.free();
             if (number < 0) throw new RangeError("memory is not enough for the mesh");
             this.#meshes++;
-            const own = made === source, texture = own && made.map ? this.texture(made.map) : undefined;
+            const own = made === source, map = own ? made.map : null;
+            const texture = map ? this.#texture(map.data, map.width, map.height, 1, map.wrap) : undefined;
             return { mesh: number, triangles: made.indices.length / 3, texture, tint: own ? made.tint : null };
         }
 
@@ -156,8 +157,12 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
-         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it. */
-        texture({ data, width, height, faces = 1 }) {
+         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Texture. */
+        texture({ data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
+            return this.#texture(data, width, height, faces, check.wraps("wrap", wrap));
+        }
+
+        #texture(data, width, height, faces, wrap) {
             check.integer("width", width, 1, 16384);
             check.integer("height", height, 1, 16384);
             if (faces !== 1 && (faces !== 6 || height !== 6 * width)) {
@@ -168,7 +173,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             const made = withMemory((room) => library.scene_texture(
                 this.#scene, put(room(data.length), Uint8Array.from(data)), width, height / faces, faces,
-                this.srgb ? 1 : 0));
+                this.srgb ? 1 : 0, ...wrap));
             if (made < 0) throw new RangeError("memory is not enough for the texture");
             this.#cubes.push(faces === 6);
             return made;

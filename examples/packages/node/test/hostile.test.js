@@ -258,6 +258,33 @@ test("pictures of a GLB are decoded by the caller", () => {
     assert.match(told.join(), /^shade-h: model: it has pictures/);
 });
 
+test("a sampler of a GLB says how its texture goes on", () => {
+    const data = Uint8Array.of(255, 0, 0, 255, 0, 0, 255, 255), picture = () => ({ data, width: 2, height: 1 });
+    const hues = (wrapS) => {    // where u is 1.25, 1.75 and 2.25
+        const [mesh] = readGltf(glb((json) => {
+            const transform = { KHR_texture_transform: { scale: [3, 1] } };
+            json.materials[0].pbrMetallicRoughness =
+                { baseColorTexture: { index: 0, extensions: transform }, metallicFactor: 0 };
+            json.samplers = [{ wrapS }];
+            json.textures = [{ source: 0, sampler: 0 }];
+            json.images = [{ uri: "data:image/png;base64,AAEC", mimeType: "image/png" }];
+        }), { picture });
+        const row = render(mesh, { ...front, size: 96, background: null }).data.subarray(4 * 96 * 48, 4 * 96 * 49);
+        const seen = [...Array(96).keys()].filter((x) => row[4 * x + 3]), width = seen.at(-1) + 1 - seen[0];
+        return [1.25, 1.75, 2.25].map((u) => {
+            const at = 4 * (seen[0] + Math.floor(width * u / 3));
+            return row[at] > row[at + 2] ? "red" : "blue";
+        }).join(" ");
+    };
+    assert.equal(hues(10497), "red blue red");
+    assert.equal(hues(33071), "blue blue blue");
+    assert.equal(hues(33648), "blue red red");
+    const texture = { data, width: 2, height: 1, wrap: ["clamp"] };
+    refused(/^texture.wrap must be two names/, { ...box(), uv: new Array(16).fill(0), texture });
+    refused(/^texture.wrap must be one of repeat, clamp, mirror/,
+            { ...box(), uv: new Array(16).fill(0), texture: { ...texture, wrap: ["clamp", "clip"] } });
+});
+
 test("alpha modes of a GLB", () => {
     const picture = () => ({ data: Uint8Array.of(0, 0, 255, 100), width: 1, height: 1 });
     const shown = (mode, more) => {

@@ -174,7 +174,7 @@ def _open() -> Any:
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
             ("python_scene_mesh", c_int, [c_void_p, c_void_p, c_int]),
-            ("python_scene_texture", c_int, [c_void_p, c_void_p] + 4 * [c_int]),
+            ("python_scene_texture", c_int, [c_void_p, c_void_p] + 6 * [c_int]),
             ("python_renderer_open", c_void_p, []),
             ("python_renderer_close", None, [c_void_p]),
             ("python_renderer_draw", c_int, 3 * [c_void_p]),

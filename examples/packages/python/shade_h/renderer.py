@@ -14,7 +14,7 @@ from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Integers, Light 
 from .annotate import display
 from .camera import Camera
 from .light import Light
-from .mesh import Mesh
+from .mesh import WRAPS, Mesh
 from .picture import Picture
 
 #: The shapes that are made once for all scenes, and the numbers that their size is.
@@ -168,7 +168,8 @@ class Renderer:
             made = Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
         pieces = [piece for piece in made.pieces if piece.count]
         maps = [piece.texture for piece in pieces]
-        if len({None if m is None else (m.shape, m.tobytes()) for m in maps}) > 1:
+        if len({None if m is None else (m.shape, m.tobytes(), piece.surface.wrap)
+                for m, piece in zip(maps, pieces)}) > 1:
             raise Error(f"vertices: the mesh has {len(maps)} surfaces with textures of their own, and "
                         "an object one texture: make a mesh of each")
         positions = np.ascontiguousarray(made.positions + made.origin.astype(np.float32))
@@ -184,7 +185,7 @@ class Renderer:
             rows[3] = display(rows[3])
         shape = self._keep_mesh(rows[0], rows[1], rows[2], rows[3], indices)
         if isinstance(vertices, Mesh) and pieces:
-            shape.texture = -1 if maps[0] is None else self.texture(maps[0])
+            shape.texture = -1 if maps[0] is None else self.texture(maps[0], pieces[0].surface.wrap)
             shape.alpha = float(pieces[0].surface.opacity) if len(pieces) == 1 else 1.0
         return shape
 
@@ -236,9 +237,9 @@ class Renderer:
         return self._keep_mesh(np.stack([x, y, z], -1).reshape(-1, 3), None, None, None,
                                np.ascontiguousarray(faces.reshape(-1, 3), np.uint32), smooth=True)
 
-    def texture(self, picture: object) -> int:
+    def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat")) -> int:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
-        -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it."""
+        -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Surface."""
         given = np.asarray(picture)
         faces = 6 if given.ndim == 4 else 1
         if faces == 6:
@@ -246,15 +247,16 @@ class Renderer:
                 raise Error(f"picture must have the shape (6, h, h, 3 or 4), not {given.shape}")
             given = given.reshape(-1, *given.shape[2:])
         rgba = arguments.texture("picture", given)
-        return self._keep_texture(rgba, faces)
+        u, v = (WRAPS.index(arguments.choice("wrap", how, WRAPS)) for how in wrap)
+        return self._keep_texture(rgba, faces, u, v)
 
-    def _keep_texture(self, rgba: Bytes, faces: int) -> int:
+    def _keep_texture(self, rgba: Bytes, faces: int, u: int = 0, v: int = 0) -> int:
         height, width = rgba.shape[:2]
         got = library.python_scene_texture(self._scene.handle, pointer(rgba), width,
-                                           height // faces, faces, int(self.srgb))
+                                           height // faces, faces, int(self.srgb), u, v)
         if got < 0:
             raise MemoryError("memory is not enough for the texture")
-        self._made.append(("texture", rgba, faces))
+        self._made.append(("texture", rgba, faces, u, v))
         self._textures += 1
         return int(got)
 

@@ -44,6 +44,25 @@ def crowd(height=60, width=80, shadow=0, **options):
     return made
 
 
+@pytest.mark.parametrize("how, hues", [("repeat", "rbr"), ("clamp", "bbb"), ("mirror", "brr")])
+def test_a_texture_goes_on_beyond_its_edges_as_it_is_told(how, hues):
+    strip = np.array([[[255, 0, 0], [0, 0, 255]]], np.uint8)
+    corners = np.array([[0, 0, 0], [3, 0, 0], [3, 0, 1], [0, 0, 1]], float)
+    faces, uv = [[0, 1, 2], [0, 2, 3]], corners[:, [0, 2]]
+    camera = shade.Camera.look_at((1.5, -3, 0.5), (1.5, 0, 0.5), aspect=4 / 3)
+    look = shade.Surface(texture=strip, wrap=(how, "repeat"))
+    whole = shade.Mesh(corners, faces, uv=uv, surfaces=([0, 0], [look]))
+    for own in (True, False):
+        made = shade.Renderer(90, 120)
+        made.light([], (1, 1, 1))
+        shape = made.mesh(whole) if own else made.mesh(corners, faces, uv=uv)
+        made.add(shape, texture=None if own else made.texture(strip, (how, "repeat")))
+        color = made.render(camera).color
+        at = camera.projection @ camera.view @ np.array([[x, 0, 0.5, 1] for x in (1.25, 1.75, 2.25)]).T
+        columns = ((at[0] / at[3] + 1) * 60).astype(int)
+        assert "".join("r" if color[45, x, 0] > color[45, x, 2] else "b" for x in columns) == hues
+
+
 def eyes(count=4):
     return [shade.Camera.look_at((4 * np.cos(a), 4 * np.sin(a), 2.5), (0, 0, 0.3), aspect=4 / 3,
                                  near=0.05, far=60) for a in np.arange(count)]
