@@ -84,7 +84,7 @@ static void guard_reading(const char *path)
     if (!path || guard_lines < 0) guard_lines = 2;
 }
 
-/* A quarter of the memory that programs can still get, of which Linux tells, or of all */
+/* A quarter of the memory that programs can still get, which Linux tells, or of all */
 static double guard_quarter(void)
 {
     double bytes = 0;
@@ -230,14 +230,22 @@ static BOOL WINAPI guard_interrupt(DWORD event)
 
 static void guard_reading(const char *path) { guard_file = path ? path : ""; }
 
-/* Limits the memory to megabytes; 0 sets no limit. */
+/* A quarter of the memory that programs can still get */
+static double guard_quarter(void)
+{
+    MEMORYSTATUSEX now = { .dwLength = sizeof now };
+    return GlobalMemoryStatusEx(&now) ? 0.25 * (double)now.ullAvailPhys : 0;
+}
+
+/* Limits the memory to megabytes, or with 0 to a quarter of what is free, but to 1000 at least. */
 static inline void guard_memory(int megabytes)
 {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limit = { 0 };
-    HANDLE job = megabytes ? CreateJobObjectW(NULL, NULL) : NULL;
+    const double bytes = megabytes ? 1e6 * megabytes : fmax(1e9, guard_quarter());
+    HANDLE job = bytes < (double)SIZE_MAX ? CreateJobObjectW(NULL, NULL) : NULL;
     if (!job) return;
     limit.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_PROCESS_MEMORY;
-    limit.ProcessMemoryLimit = (SIZE_T)megabytes * 1000000;
+    limit.ProcessMemoryLimit = (SIZE_T)bytes;
     SetInformationJobObject(job, JobObjectExtendedLimitInformation, &limit, sizeof limit);
     AssignProcessToJobObject(job, GetCurrentProcess());
 }
