@@ -198,9 +198,12 @@ break.obj" "is no OBJ"
             "$T/sparse.obj" "$T/none.ppm" --threads 2 --max-memory 64
         check "enough" draw sparse.obj a.ppm $flat --threads 2 --max-memory 1000
     fi
+    check "processor time is up" refused "gave up after --max-seconds while drawing" "$THUMBNAIL" \
+        "$T/torus.obj" "$T/none.ppm" --size 8192x8192 --samples 2 --max-seconds 1 --quiet
     if mkfifo "$T/pipe.obj" 2>/dev/null; then
-        check "time is up" sh -c "'$THUMBNAIL' - '$T/none.ppm' --max-seconds 1 <>'$T/pipe.obj' 2>'$T/err'
-            [ \$? -eq 1 ] && grep 'gave up after --max-seconds' '$T/err'"
+        check "time is up" sh -c "began=\$(date +%s)
+            '$THUMBNAIL' - '$T/none.ppm' --max-seconds 1 <>'$T/pipe.obj' 2>'$T/err'
+            [ \$? -eq 1 ] && grep 'gave up after --max-seconds' '$T/err' && [ \$((\$(date +%s) - began)) -ge 3 ]"
         check "a crash of the reader" ended SEGV 1 crashed
         check "an abort" ended ABRT 1 crashed
         for k in INT:130 TERM:143 HUP:129 QUIT:131; do

@@ -10,7 +10,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD word=${1:-}
-own="glm 14_two_sided 19_threads 20_openmp 21_transparency 37_rays 40_fog 43_pinhole 47_by_hand"
+own="glm 14_two_sided 19_threads 20_openmp 21_transparency 37_rays 40_fog 43_pinhole"
 by_rays="16_ray_cast 37_rays"       # a ray for each pixel: minutes under an emulator
 
 awk '/^```c$/ { inside = 1; text = ""; next }

@@ -6,12 +6,16 @@
 
 #include "options.h"
 
+/* --max-seconds counts processor time; a program that waits ends after so many times as many. */
+enum { GUARD_PATIENCE = 4 };
+
 #if defined(__unix__) || defined(__APPLE__)
 #define GUARD_POSIX
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,16 +54,17 @@ static void guard_end(int number)
 {
     const int crashed = number == SIGSEGV || number == SIGBUS || number == SIGFPE ||
                         number == SIGILL || number == SIGABRT;
+    const int late = number == SIGALRM || number == SIGPROF;
     if (guard_child > 0 && !kill(guard_child, SIGKILL)) waitpid(guard_child, NULL, 0);
     if (guard_part[0]) unlink(guard_part);
     guard_say(program_name);
-    guard_say(number == SIGALRM ? ": gave up after --max-seconds while "
-              : crashed         ? ": crashed while "
-                                : ": interrupted while ");
+    guard_say(late      ? ": gave up after --max-seconds while "
+              : crashed ? ": crashed while "
+                        : ": interrupted while ");
     guard_say(guard_doing);
     guard_say(guard_file);
     guard_say("\n");
-    if (!crashed && number != SIGALRM) guard_pass_on(number);
+    if (!crashed && !late) guard_pass_on(number);
     _exit(guard_status);
 }
 
@@ -118,8 +123,8 @@ static void guard_memory(int megabytes)
 }
 
 /* What guard_begin has changed, for guard_done: the signals of crashes, then those of others */
-static const int guard_signals[] = { SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT, SIGALRM,
-                                     SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGXCPU };
+static const int guard_signals[] = { SIGSEGV, SIGBUS, SIGFPE,  SIGILL, SIGABRT, SIGALRM,
+                                     SIGPROF, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU };
 enum { GUARD_CRASHES = 5, GUARD_SIGNALS = sizeof guard_signals / sizeof *guard_signals };
 static struct sigaction guard_before[GUARD_SIGNALS];
 static struct rlimit guard_limit;
@@ -160,10 +165,16 @@ static inline void guard_begin(int max_memory)
 /* Watches the whole program. */
 static inline void guard_program(int max_seconds, int max_memory)
 {
+    struct itimerval limit = { 0 };
     guard_begin(max_memory);
     guard_interrupts();
     signal(SIGPIPE, SIG_IGN); /* write reports it instead */
-    if (max_seconds) alarm((unsigned)max_seconds);
+    if (!max_seconds) return;
+    limit.it_value.tv_sec = max_seconds;
+    setitimer(ITIMER_PROF, &limit, NULL);
+    if (max_seconds < 100000000)
+        limit.it_value.tv_sec *= GUARD_PATIENCE; /* time_t may have 32 bits */
+    setitimer(ITIMER_REAL, &limit, NULL);
 }
 
 /* Ends guard_begin: signals and memory are as they were. */
@@ -203,11 +214,23 @@ static void guard_tell(const char *what)
     guard_say("\n");
 }
 
-/* A thread of the system calls this.  ExitProcess would wait for locks that others may hold. */
+static double guard_seconds(FILETIME time)
+{
+    return 1e-7 * (4294967296.0 * (double)time.dwHighDateTime + (double)time.dwLowDateTime);
+}
+
+/* A thread of the system calls this five times a second, with the limit.  ExitProcess would wait for
+   locks that others may hold. */
 static void CALLBACK guard_time(void *data, BOOLEAN fired)
 {
-    (void)data;
+    const double limit = *(const int *)data;
+    FILETIME began, ended, system, user, now;
     (void)fired;
+    GetSystemTimeAsFileTime(&now);
+    if (!GetProcessTimes(GetCurrentProcess(), &began, &ended, &system, &user) ||
+        (guard_seconds(system) + guard_seconds(user) < limit &&
+         guard_seconds(now) - guard_seconds(began) < GUARD_PATIENCE * limit))
+        return;
     guard_tell(": gave up after --max-seconds while ");
     TerminateProcess(GetCurrentProcess(), (UINT)guard_status);
 }
@@ -264,12 +287,12 @@ static inline void guard_done(void) { SetUnhandledExceptionFilter(NULL); }
 
 static inline void guard_program(int max_seconds, int max_memory)
 {
+    static int limit;
     HANDLE timer;
-    const DWORD limit = max_seconds < 4000000 ? 1000 * (DWORD)max_seconds : 4000000000u;
     guard_begin(max_memory);
     guard_interrupts();
-    if (max_seconds)
-        CreateTimerQueueTimer(&timer, NULL, guard_time, NULL, limit, 0, WT_EXECUTEONLYONCE);
+    limit = max_seconds;
+    if (limit) CreateTimerQueueTimer(&timer, NULL, guard_time, &limit, 200, 200, WT_EXECUTEDEFAULT);
 }
 
 static inline int guard_terminal(void) { return _isatty(2); }

@@ -25,7 +25,8 @@ static const char usage[] =
     "  --help, --version     prints this text; the version\n"
     "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"
     "picture that it is compared with:\n" PORTRAIT_USAGE MODEL_USAGE
-    "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
+    "  --max-seconds N       gives up after N seconds of processor time, or 4 N by the clock,\n"
+    "                        0 .. 1000000000 (0: no limit)\n"
     "Colours count as much as they cover: with alpha 0 any two are the same.\n"
     "exit status: 0 the same within limit and count, 1 different, 2 error\n";
 

@@ -10,7 +10,8 @@ static const char thumbnail_usage[] =
     "output\n" PORTRAIT_USAGE
     "  --png                 writes PNG also to standard output, and under a new name that does\n"
     "                        not say so\n" MODEL_USAGE
-    "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
+    "  --max-seconds N       gives up after N seconds of processor time, or 4 N by the clock,\n"
+    "                        0 .. 1000000000 (0: no limit)\n"
     "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
 
 typedef struct options {
