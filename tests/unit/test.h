@@ -51,7 +51,8 @@ extern struct test_run {
 
 #define TEST_MAX_PRINTED 6 /* failures shown per case */
 
-/* Of a loop that only tries other numbers, what slows the tests tenfold runs one round in so many. */
+/* Loops that only try other numbers run 1 / TEST_SHARE of their rounds: for sanitizers and
+   coverage, which take ten times as long. */
 #ifndef TEST_SHARE
 #define TEST_SHARE 1
 #endif

@@ -219,8 +219,8 @@ static double guard_seconds(FILETIME time)
     return 1e-7 * (4294967296.0 * (double)time.dwHighDateTime + (double)time.dwLowDateTime);
 }
 
-/* A thread of the system calls this five times a second, with the limit.  ExitProcess would wait for
-   locks that others may hold. */
+/* A thread of the system calls this five times a second, with the limit.  ExitProcess would wait
+   for locks that others may hold. */
 static void CALLBACK guard_time(void *data, BOOLEAN fired)
 {
     const double limit = *(const int *)data;
