@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8104  why nothing is seen   >>replay    9300  of lines, pipelines
-       >>image     9627  mipmaps, PPM           >>presets   9939  classic materials
+       >>explain   8109  why nothing is seen   >>replay    9305  of lines, pipelines
+       >>image     9632  mipmaps, PPM           >>presets   9944  classic materials
      Sources
-       >>refs     10015                        >>history  10045
-       >>license  10051
+       >>refs     10020                        >>history  10050
+       >>license  10056
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7910,18 +7910,23 @@ static int shade__few(const shade__survey *s, long long n, long long all)
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Is a pixel that the picture shows brighter than 12 of 255, which is more than 8 in each format?
-   Where fragments hide others, and stored depth does not tell which, all of them must be. */
-static int shade__lights_up(const shade__survey *s)
+/* Does the picture show a pixel from `least` to `most`?  Where fragments hide others, and stored
+   depth does not tell which, all of them must be. */
+static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
-    const float least = 1.5f * s->dim;
+    const int told = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
     shade__survey q = *s;
-    if (!s->exact && s->target->depth && !r->depth_read_only && r->depth_bias == 0)
-        shade__look_through(&q, SHADE_COMPARE_EQUAL);
-    else if (!s->exact)
-        return shade__count(s, least) == shade__covered(s);
-    return shade__count(&q, least) > 0;
+    long long n;
+    if (!s->exact && told) shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    n = shade__count(&q, least) - shade__count(&q, most);
+    return n > 0 && (s->exact || told || n == shade__covered(s));
+}
+
+/* Is a pixel that the picture shows brighter than 12 of 255, more than 8 in each format? */
+static int shade__lights_up(const shade__survey *s)
+{
+    return shade__has_pixels(s, 1.5f * s->dim, FLT_MAX);
 }
 
 /* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
@@ -8942,8 +8947,8 @@ static int shade__alpha_is_stored(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
     return d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
-           d->raster.blend == SHADE_BLEND_REPLACE &&
-           shade__count(q, 0.1f) > shade__count(q, 1 / (1 - d->transparency));    /* stays white */
+           d->raster.blend == SHADE_BLEND_REPLACE &&    /* dimmed by 2 %, and not still white */
+           shade__has_pixels(q, 0.02f / d->transparency, 1 / (1 - d->transparency));
 }
 
 /* Do highlights cover more than they would of a surface that is polished? */
@@ -9118,9 +9123,9 @@ static int shade__aspect_is_wrong(const shade__survey *s)
     high = shade__dot3(y, y) * h * h;
     if (s->state.projection.col[3].w != 0 || !shade__faces_ahead(&c) ||
         shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
-        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high))
+        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high) ||
+        shade__size(wide - high) <= 0.06 * wide)
         return 0;
-    if (shade__size(wide - high) <= 0.06 * wide) return 0;
     for (int k = 0; k < 4; k++)
         mended.state.projection.col[k].x *= shade__sqrt((float)(high / wide));
     return shade__differ(s, &mended);
@@ -9234,7 +9239,7 @@ static const char *shade__why_wrong(const shade__survey *s)
     if (s->given_state->fragment) {
         if (s->given_state->raster.cull == SHADE_CULL_FRONT || !shade__is_dark(&seen, 0))
             return NULL;
-        return s->state.transparency < 1 || opaque
+        return opaque || 1 - s->state.transparency > s->dim    /* else white would be black, too */
                    ? "state.fragment leaves all pixels of the mesh black: does it write color for "
                      "each lane, or discard them?"
                    : shade__transparent;
