@@ -3,9 +3,9 @@
 #include "unit.h"
 #include "stage.h"
 
+/* The words are said where miss is 0.  A sentence of several conditions has a miss for each. */
 #define NEAR(name) static void near_##name(stage *s, int miss)
 
-/* The words are said of miss = 0 alone; a row with more misses has one for each condition. */
 NEAR(positions) { s->position[40].x = miss ? 9e11f : 1.1e12f; }
 NEAR(lamp_nan) { s->lamps[1].diffuse.y = miss ? 0.5f : NAN; }
 NEAR(attenuation) { s->lamps[0].linear = miss ? 1e-6f : -1e-6f; }
@@ -313,9 +313,9 @@ static const struct near {
     ROW(material, "state.material reflects"), ROW(alpha, "Alpha is 0"),
     ROW(terms, "leaves out every term"), ROW(colors, "mesh.colors, or the texels"),
     ROW(shader, "leaves all pixels"), ROW(discards, "discards all"),
-    ROW(shader_of_glass, "leaves all pixels"), ROW(shader_of_nothing, "transparency"),
+    ROW(shader_of_glass, "leaves all pixels"), ROW(shader_of_nothing, "Alpha is 0"),
     ROW(shader_of_no_alpha, "leaves all pixels"),
-    ROW(reversed, "perspective_reversed"), ROW(overflow, "NaN"), ROW(second_eye, "eye"),
+    ROW(reversed, "perspective_reversed"), ROW(overflow, "mesh.positions hold NaN"), ROW(second_eye, "Highlights belong"),
     ROW(inside_out, "inside out"), ROW(later, "Triangles drawn later"),
     ROW(always, "Triangles drawn later"), ROW_OF(test_is_turned, "does not fit", 2),
     ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),

@@ -233,11 +233,8 @@ PIPED(eye_at_the_origin)
 }
 PIPED(eye_at_the_origin_reversed)
 {
+    piped_eye_turned(p);
     piped_eye_at_the_origin(p);
-    p->projection = shade_mat4_perspective_reversed(0.8f, (float)PIPED_W / PIPED_H, 0.5f);
-    p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER;
-    p->pipe.raster.depth_zero_to_one = p->lines.raster.depth_zero_to_one = 1;
-    p->clear = 0;
 }
 PIPED(no_pipeline) { p->given_pipe = NULL; }
 PIPED(no_vertex) { p->pipe.vertex = NULL; }
@@ -270,8 +267,8 @@ PIPED(depth_not_written) { p->pipe.fragment = NULL; p->pipe.raster.depth_read_on
 PIPED(black) { p->uniforms.color[0] = p->uniforms.color[1] = p->uniforms.color[2] = 0; }
 PIPED(outlines)
 {
+    piped_wound_clockwise(p);
     p->pipe.raster.cull = SHADE_CULL_FRONT;
-    for (int k = 0; k < PIPED_CORNERS; k++) p->index[k] = (uint32_t)(PIPED_CORNERS - 1 - k);
     piped_black(p);
 }
 PIPED(black_nan) { for (int k = 0; k < 3; k++) p->uniforms.color[k] = (float)NAN; }
