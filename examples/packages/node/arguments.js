@@ -186,7 +186,8 @@ export function color(label, value) {
     return Float32Array.of((bits >> 16) / 255, ((bits >> 8) & 255) / 255, (bits & 255) / 255);
 }
 
-const WRAPS = ["repeat", "clamp", "mirror"];
+/** Of shade_wrap, by number */
+export const WRAPS = ["repeat", "clamp", "mirror"];
 
 /** How a texture goes on beyond its edges along u and v, as numbers */
 export function wraps(name, value) {

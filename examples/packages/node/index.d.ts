@@ -19,12 +19,11 @@ export interface Material {
     shininess?: number;
 }
 
-/** How a texture goes on beyond its edges, along u and v; default "repeat". */
-export type Wrap = [Wraps, Wraps];
-export type Wraps = "repeat" | "clamp" | "mirror";
+/** How a texture goes on beyond its edges; default "repeat". */
+export type Wrap = "repeat" | "clamp" | "mirror";
 
 /** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top. */
-export interface Texture { data: Numbers; width: number; height: number; wrap?: Wrap; }
+export interface Texture { data: Numbers; width: number; height: number; wrap?: [Wrap, Wrap]; }
 
 /** What a mesh is made of.  Arrays are copied. */
 export interface MeshSource {

@@ -1,6 +1,6 @@
 // Reads glTF 2.0 (GLB, or JSON with its buffers inside) and 3MF by the module.  Each surface becomes
 // one mesh, as render takes them.  What 3MF has packed is unpacked by the platform, before it is read.
-import { ShadeError, encoded, record } from "./arguments.js";
+import { ShadeError, WRAPS, encoded, record } from "./arguments.js";
 
 // python_model and python_part of module.c, in words of four bytes
 const MODEL = 16, PART = 31;
@@ -10,8 +10,6 @@ function opaque(image) {
     const step = image.data.length / (image.width * image.height);
     return { ...image, data: Uint8ClampedArray.from(image.data, (x, i) => (step === 4 && i % 4 === 3 ? 255 : x)) };
 }
-
-const WRAPS = ["repeat", "clamp", "mirror"];    // of shade_wrap
 
 const displayed = (x) => Math.min(Math.max(encoded(x), 0), 1);
 
