@@ -121,8 +121,8 @@ check "a number stands in a line of its own directly above a TEST" "$(awk '
     mark && !/^TEST\(/ { print mark }
     { mark = /^ *\/\* *G[0-9]/ ? FILENAME ":" FNR ": " $0 : "" }' tests/unit/*.c)"
 rm -f /tmp/lint_promised.$$ /tmp/lint_marks.$$ /tmp/lint_held.$$
-# Relative clauses in place of nouns: in the comments and sentences of shade.h and in README.md, each
-# of these stands half as often as once
+# Relative clauses in place of nouns, in the comments and sentences of shade.h and in README.md: the
+# most that each word may stand there, half of its count before 1.3
 tics="10 whose|5 those of|5 that of|5 so many|5 where no|4 nobody|4 what is|3 asks|7 whatever"
 check "words that stand for nouns" "$(
     { cat README.md; sed -n '/\/\*/,/\*\//p; /^ *".*"/p' $H; } | tr -s ' \n' ' ' >/tmp/lint_text.$$

@@ -6,7 +6,7 @@
 
 #include "options.h"
 
-/* --max-seconds counts processor time; a program that waits ends after so many times as many. */
+/* --max-seconds counts processor time.  A program that waits ends after four times as long. */
 enum { GUARD_PATIENCE = 4 };
 
 #if defined(__unix__) || defined(__APPLE__)
