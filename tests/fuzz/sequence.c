@@ -364,6 +364,7 @@ static void do_scope(fuzz_input *in, outcome *o)
     shade_target *t = &w.pic[k].target;
     int *n = &w.scopes[k], *held = w.scope[k][kind & 2 && *n ? *n - 1 : *n % SCOPES];
     o->changes = 1;
+    if (w.pic[k].want != SHADE_OK) return;    /* a good rectangle would need more memory */
     if ((kind & 2) && *n) {
         --*n;
         t->clip_x = held[0];
