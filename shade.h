@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8109  why nothing is seen   >>replay    9305  of lines, pipelines
-       >>image     9632  mipmaps, PPM           >>presets   9944  classic materials
+       >>explain   8139  why nothing is seen   >>replay    9309  of lines, pipelines
+       >>image     9636  mipmaps, PPM           >>presets   9948  classic materials
      Sources
-       >>refs     10020                        >>history  10050
-       >>license  10056
+       >>refs     10024                        >>history  10054
+       >>license  10060
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7718,6 +7718,8 @@ typedef struct shade__survey {
     float dim;                           /* channels below it are stored as 8 of 255 at most */
     shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
+    int   own_eye;                       /* light takes this eye, not that of state.view */
+    shade_vec3 eye;
 } shade__survey;
 
 /* One drawing of a survey, for its fragment shader. */
@@ -7798,6 +7800,11 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     if (!(trial->least > 0)) t.color = NULL;
     shade__scene_of(&t, &s->mesh, &state, &trial->scene);
     trial->scene.white_map = s->white_map;
+    if (s->own_eye) {
+        shade_vec4 *eye = &trial->scene.surface.eye;
+        trial->scene.eye = s->eye;
+        *eye = shade__xyzw(s->eye, eye->w);
+    }
     trial->survey = s;
     t.color = NULL;
     shade__draw_scene(&t, &trial->scene, shade__judge, 1, &stats);
@@ -7845,19 +7852,31 @@ static int shade__bright(const shade__survey *s)
     return shade__count(s, shade__sqrt(s->dim)) > 0;
 }
 
-/* Draws the mesh with this culling, and samples pixels. */
-static void shade__take_probes(const shade__survey *s, shade_cull cull,
-                               shade__probe probes[SHADE__PROBES])
+/* Samples pixels.  In a perspective the nearest is nearest to the eye, whatever the test is. */
+static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE__PROBES])
 {
     shade__survey q = *s;
     shade__trial trial;
-    q.state.raster.cull = cull;
+    if (q.camera.perspective) q.farthest = (float)!q.camera.reversed;
     q.state.raster.depth_bias = 0;    /* depths at the end of their range would be equal */
     SHADE__ZERO(trial);
     trial.every = 1 + (uint32_t)(shade__covered(&q) * 2 / SHADE__PROBES);
     trial.probes = probes;
     for (int k = 0; k < SHADE__PROBES; k++) SHADE__ZERO(probes[k]);
     shade__draw_trial(&q, &trial);
+}
+
+/* Has a pixel a last fragment that is not its nearest, or a farthest one? */
+static int shade__hides_nearest(const shade__survey *s, int last)
+{
+    shade__probe probes[SHADE__PROBES];
+    int n = 0;
+    shade__take_probes(s, probes);
+    for (int k = 0; k < SHADE__PROBES; k++) {
+        const float other = last ? probes[k].last : probes[k].farthest;
+        n += !shade__within(other - probes[k].nearest, 1e-6f);
+    }
+    return n > 0;
 }
 
 /* ---- which pixels are drawn */
@@ -7886,6 +7905,12 @@ static void shade__look_through(shade__survey *q, shade_compare test)
     q->state.raster.depth_test = test;
 }
 
+/* Are there more fragments of stored depth than were drawn?  Then faces coincide. */
+static int shade__coincides(const shade__survey *s)
+{
+    return s->given_stats && shade__covered(s) > s->given_stats->fragments;
+}
+
 /* What the picture shows: after a draw these are the fragments of stored depth.  A band shows too
    little, blending shows more, a bias makes depths equal at the end of their range, and depth may
    have changed since: all fragments are drawn then, so that what they lack is not there.  Where
@@ -7899,8 +7924,7 @@ static void shade__look_at_seen(shade__survey *q)
     shade__look_through(q, r->depth_read_only ? r->depth_test : SHADE_COMPARE_EQUAL);
     if (q->whole && q->target->depth &&
         (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(q))
-        q->exact = !r->depth_read_only &&    /* faces may coincide */
-                   (!q->given_stats || shade__covered(q) <= q->given_stats->fragments);
+        q->exact = !r->depth_read_only && !shade__coincides(q);
     else shade__look_at_all(q);
 }
 
@@ -7915,10 +7939,13 @@ static int shade__few(const shade__survey *s, long long n, long long all)
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
-    const int told = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
+    int told = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
     shade__survey q = *s;
     long long n;
-    if (!s->exact && told) shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    if (!s->exact && told) {
+        shade__look_through(&q, SHADE_COMPARE_EQUAL);
+        told = !shade__coincides(&q);
+    }
     n = shade__count(&q, least) - shade__count(&q, most);
     return n > 0 && (s->exact || told || n == shade__covered(s));
 }
@@ -7957,8 +7984,7 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->state.projection = shade__or_identity(s->state.projection);
     if (s->state.fragment) s->state.alpha_cutoff = 0;
     s->state.fragment = NULL;
-    s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
-    if (state->material) s->material = *state->material;
+    s->material = state->material ? *state->material : shade__white_lambert();
 
     shade__clip_rectangle(target, s->clip);    /* is not empty: shade__clip_fault */
     s->whole = s->clip[2] - s->clip[0] == target->width &&
@@ -7985,7 +8011,7 @@ static void shade__polish(shade__survey *q)
     const shade_vec3 one = shade_v3(1, 1, 1);
     q->material.diffuse = q->material.ambient = one;
     if (q->given_state->material) q->material.specular = one;
-    q->material.shininess = shade__minf(q->material.shininess, 4);
+    q->material.shininess = shade__minf(shade__maxf(q->material.shininess, 1), 4);
 }
 
 static void shade__whiten(shade__survey *q)
@@ -8042,10 +8068,10 @@ static void shade__open_cones(shade__survey *q)
         q->lamp[i].spot_direction = shade_v3(0, 0, 0);
 }
 
-static void shade__paint_lamps(shade__survey *q, shade_vec3 color)
+static void shade__whiten_lamps(shade__survey *q)
 {
     for (int i = 0; i < q->state.lighting.light_count; i++)
-        q->lamp[i].diffuse = q->lamp[i].specular = color;
+        q->lamp[i].diffuse = q->lamp[i].specular = shade_v3(1, 1, 1);
 }
 
 /* Lights every fragment, where there is room for its position and normal. */
@@ -8057,9 +8083,11 @@ static void shade__light_fragments(shade__survey *q)
 
 /* ---- questions that need no drawing */
 
-/* The SHADE__OUT_... bits that all corners share. */
+/* The SHADE__OUT_... bits that all corners share.  Where z is 0 at the eye, but for the rounding of
+   floats, depth is the same everywhere, and near and far are not told apart. */
 static uint32_t shade__outside(const shade__survey *s)
 {
+    const double *z = s->camera.row[2];
     shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     uint32_t all = ~0u;
     m = shade__mat4_product(&m, &s->state.model);
@@ -8068,6 +8096,8 @@ static uint32_t shade__outside(const shade__survey *s)
         const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
         all &= shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
     }
+    if (shade__size(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__size(z[3]))
+        all &= ~(uint32_t)(SHADE__OUT_NEAR | SHADE__OUT_FAR);
     return all;
 }
 
@@ -8166,11 +8196,11 @@ static int shade__scales_w(const shade_mat4 *m)
 static int shade__view_by_rows(const shade__survey *s)
 {
     shade__survey q = *s;
-    if (!shade__is_transposed(&s->state.view)) return 0;
+    if (!shade__is_transposed(&s->state.view) || s->state.view.col[3].w == 0) return 0;
     q.state.view = shade_mat4_transpose(s->state.view);
     if (shade__is_transposed(&s->state.projection))
         q.state.projection = shade_mat4_transpose(s->state.projection);
-    return shade__covered(&q) || shade__covered(s);
+    return shade__differ(&q, s);
 }
 
 static const char *shade__bad_matrix(const shade__survey *s)
@@ -8357,7 +8387,8 @@ static int shade__projection_is_none(shade__survey *q)
 
 static int shade__beyond_far(shade__survey *q)
 {
-    return (shade__outside(q) & (q->camera.reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR)) != 0;
+    const uint32_t out = shade__outside(q);
+    return out & (q->camera.reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR) && !(out & SHADE__OUT_W);
 }
 
 static int shade__view_is_inverse(shade__survey *q)
@@ -8429,15 +8460,9 @@ static const shade__rung shade__nothing[] = {
 static int shade__test_is_turned(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
-    shade__probe probes[SHADE__PROBES];
-    int n = 0;
-    if (!q->target->depth || !shade__faces_ahead(&q->camera) || r->depth_read_only ||
-        r->depth_test >= SHADE_COMPARE_EQUAL || (float)q->camera.reversed != q->farthest)
-        return 0;
-    shade__take_probes(q, r->cull, probes);
-    for (int k = 0; k < SHADE__PROBES; k++)
-        n += !shade__within(probes[k].farthest - probes[k].nearest, 1e-6f);
-    return n > 0;
+    return q->target->depth && shade__faces_ahead(&q->camera) && !r->depth_read_only &&
+           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->camera.reversed == q->farthest &&
+           shade__hides_nearest(q, 0);
 }
 
 static const shade__rung shade__test[] = {
@@ -8533,9 +8558,8 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    if (!q->camera.perspective || !shade__all_hidden(q)) return 0;
-    q->apart = FLT_MIN;
-    return !shade__covered(q);
+    return q->camera.perspective && shade__is_far(q) &&    /* with the given bias, and without */
+           shade__all_hidden(q) && shade__is_far(q);
 }
 
 static int shade__depth_hides(shade__survey *q)
@@ -8579,9 +8603,10 @@ static int shade__is_inside_out(const shade__survey *s)
     uint32_t fronts = 0, behind = 0;
     shade__survey q = *s;
     const int ahead = s->state.projection.col[2].z < 0;    /* depth grows away from the eye */
-    if (shade__eye_inside(s) || (!q.camera.perspective && ahead && q.farthest == 0)) return 0;
-    if (q.camera.perspective) q.farthest = (float)!q.camera.reversed;    /* whatever the test is */
-    shade__take_probes(&q, SHADE_CULL_NONE, probes);
+    if (!shade__is_affine(&s->state.model) || shade__eye_inside(s) ||
+        (!q.camera.perspective && ahead && q.farthest == 0)) return 0;
+    q.state.raster.cull = SHADE_CULL_NONE;
+    shade__take_probes(&q, probes);
     for (int k = 0; k < SHADE__PROBES; k++) {
         fronts += probes[k].any_front;
         behind += probes[k].any_front & !probes[k].front;
@@ -8616,18 +8641,12 @@ static int shade__wound_inward(shade__survey *q)
 static int shade__lacks_depth(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
-    shade__probe probes[SHADE__PROBES];
-    int n = 0;
     if (r->blend != SHADE_BLEND_REPLACE) return 0;
     if (q->target->depth && r->depth_test != SHADE_COMPARE_ALWAYS) {
         if (!r->depth_read_only) return 0;
         shade__look_through(q, r->depth_test);
     }
-    if (q->camera.perspective) q->farthest = (float)!q->camera.reversed;    /* of any test */
-    shade__take_probes(q, q->state.raster.cull, probes);
-    for (int k = 0; k < SHADE__PROBES; k++)
-        n += !shade__within(probes[k].last - probes[k].nearest, 1e-6f);
-    return n > 0;
+    return shade__hides_nearest(q, 1);
 }
 
 static const char shade__inward[] =
@@ -8744,20 +8763,6 @@ static const char shade__multiply[] =
     "The visible pixels are black or almost: state.material, mesh.colors, the map, alpha, "
     "lighting.terms and the lights multiply, and several of them may be at fault.";
 
-/* Changes are kept. */
-static const shade__rung shade__black[] = {
-    { shade__alpha_is_zero, shade__transparent },
-    { shade__shading_is_coarse, shade__coarse },
-    { shade__shows, shade__multiply },
-    { shade__faces_are_lit, shade__multiply },
-    { shade__terms_are_few, shade__no_terms },
-    { shade__shows, shade__multiply },
-    { shade__colors_are_black, shade__black_colors },
-    { shade__shows, shade__multiply },
-    { shade__material_is_black, shade__black_material },
-    { NULL, NULL }
-};
-
 /* ---- the mesh is black, or lit by ambient light alone: the lamps */
 
 static int shade__lights_are_none(shade__survey *q)
@@ -8799,6 +8804,7 @@ static int shade__lamps_behind(shade__survey *q)
     const long long all = shade__covered(q);
     shade__survey each = *q;
     shade_lighting *l = &each.state.lighting;
+    each.state.shading = q->given_state->shading;
     shade__whiten(&each);
     if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
         q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
@@ -8815,7 +8821,7 @@ static int shade__lamps_behind(shade__survey *q)
     l->terms = SHADE_TERM_DIFFUSE;
     shade__light_everywhere(&each);
     shade__open_cones(&each);
-    shade__paint_lamps(&each, shade_v3(1, 1, 1));
+    shade__whiten_lamps(&each);
     return shade__few(q, shade__count(&each, FLT_MIN), all);
 }
 
@@ -8829,7 +8835,7 @@ static int shade__lamps_fall_off(shade__survey *q)
 static int shade__cones_miss(shade__survey *q)
 {
     shade__survey white = *q;
-    shade__paint_lamps(&white, shade_v3(1, 1, 1));
+    shade__whiten_lamps(&white);
     shade__open_cones(q);
     return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
 }
@@ -8850,18 +8856,23 @@ static int shade__lamps_are_many(shade__survey *q)
     return q->given_state->lighting.light_count > SHADE__SUSPECTS;
 }
 
-static const shade__rung shade__no_lamps[] = {
+/* Changes are kept. */
+static const shade__rung shade__black[] = {
+    { shade__alpha_is_zero, shade__transparent },
+    { shade__shading_is_coarse, shade__coarse },
+    { shade__shows, shade__multiply },
+    { shade__faces_are_lit, shade__multiply },
+    { shade__terms_are_few, shade__no_terms },
+    { shade__shows, shade__multiply },
+    { shade__colors_are_black, shade__black_colors },
+    { shade__shows, shade__multiply },
+    { shade__material_is_black, shade__black_material },
     { shade__count_is_zero,
       "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is dark; set "
       "light_count." },
     { shade__lights_are_none,
       "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a light, or "
       "ambient light." },
-    { NULL, NULL }
-};
-
-/* Changes are kept. */
-static const shade__rung shade__unlit[] = {
     { shade__lacks_normals, shade__no_normals },
     { shade__lamps_behind, shade__behind },
     { shade__lamps_fall_off, shade__fall_off },
@@ -8881,7 +8892,7 @@ static int shade__is_clipped(shade__survey *q)
     q->material.emission = shade_v3(0, 0, 0);
     clipped = shade__count(q, 2);
     return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
-           q->state.raster.blend != SHADE_BLEND_OVER && lit > 0 &&
+           q->state.raster.blend != SHADE_BLEND_OVER && lit > 11 &&
            clipped * 8 >= lit * (8 - q->exact);
 }
 
@@ -8910,7 +8921,7 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 3 >= all;
+    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
 }
 
 /* Has no normal a negative component, though an eighth of the faces or more would need one? */
@@ -8963,30 +8974,26 @@ static int shade__highlights_are_wide(shade__survey *q)
     return shade__count(q, q->dim) < all;
 }
 
-/* Does the picture differ, once the camera stands in view alone, and does light take another eye
-   now?  A one-point projection, with w = 1 at the origin of view, is meant to have its eye
-   elsewhere. */
+/* Does light take another eye than that of the camera, and would the picture differ with it?  A
+   one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
 static int shade__eye_is_astray(shade__survey *q)
 {
     const shade__camera *c = &q->camera;
     const shade_mat4 camera = shade_mat4_inverse(q->state.view);
-    const shade_vec3 eye = shade__single3(c->eye), at = shade__xyz(camera.col[3]);
-    shade_lighting *l = &q->state.lighting;
-    shade_mat4 frame = shade__frame_of(c);
-    shade__survey given;
-    if (c->perspective) frame.col[3] = shade__xyzw(eye, 1);
-    if (l->flags & SHADE_FLAG_INFINITE_VIEWER
-            ? shade_dot(shade__xyz(camera.col[2]), shade__xyz(frame.col[2])) >= 0
-            : !c->perspective || q->state.projection.col[3].w == 1 ||
-                  shade_distance(eye, at) <= 1e-3f * (shade_length(eye) + shade_length(at)))
-        return 0;
-    if (l->terms && !(l->terms & SHADE_TERM_SPECULAR)) return 0;
-    shade__look_at_all(q);
-    given = *q;
-    q->state.view = shade__mat4_product(&q->state.view, &frame);
-    q->state.projection = shade__mat4_product(&q->state.projection, &q->state.view);
-    q->state.view = shade_mat4_inverse(frame);
-    return shade__differ(q, &given);
+    const shade_vec3 at = shade__xyz(camera.col[3]);
+    const unsigned terms = q->state.lighting.terms;
+    shade__survey given = *q;
+    q->own_eye = 1;
+    if (q->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
+        q->eye = shade_neg(shade__single3(c->sight));
+        if (shade_dot(shade__xyz(camera.col[2]), q->eye) >= 0) return 0;
+    } else {
+        q->eye = shade__single3(c->eye);
+        if (!c->perspective || q->state.projection.col[3].w == 1 ||
+            shade_distance(q->eye, at) <= 1e-3f * (shade_length(q->eye) + shade_length(at)))
+            return 0;
+    }
+    return (!terms || terms & SHADE_TERM_SPECULAR) && q->exact && shade__differ(q, &given);
 }
 
 static const shade__rung shade__wrong_light[] = {
@@ -9213,8 +9220,6 @@ static const char *shade__why_black(const shade__survey *seen)
     const char *why;
     if (shade__black_is_meant(&q)) return NULL;
     why = shade__climb_on(&q, shade__black);
-    if (!why) why = shade__climb_on(&q, shade__no_lamps);
-    if (!why) why = shade__climb_on(&q, shade__unlit);
     return shade__helps(seen, why) ? why : shade__multiply;
 }
 
@@ -9251,7 +9256,6 @@ static const char *shade__why_wrong(const shade__survey *s)
     why = shade__climb(&seen, shade__wrong_light);
     if (why) return why;
 
-    q = seen;
     why = shade__climb_on(&q, shade__flat);
     if (!why && shade__is_dark(&seen, opaque ? seen.dim : 0)) return shade__multiply;
     shade__lamps_alone(&seen);

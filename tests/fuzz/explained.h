@@ -138,6 +138,10 @@ static int ex_is_greater(const shade_draw_state *d)
     return d->raster.depth_test == SHADE_COMPARE_GREATER ||
            d->raster.depth_test == SHADE_COMPARE_GREATER_EQUAL;
 }
+static shade_mat4 ex_camera(const stage *s)
+{
+    return shade_mat4_mul(ex_or_identity(s->state.projection), ex_or_identity(s->state.view));
+}
 /* Is the nearer of two points, along some ray, the one of greater depth? */
 static int ex_near_is_greater(const stage *s)
 {
@@ -150,14 +154,10 @@ static int ex_near_is_greater(const stage *s)
     }
     return 0;
 }
-static shade_mat4 ex_camera(const stage *s)
-{
-    return shade_mat4_mul(ex_or_identity(s->state.projection), ex_or_identity(s->state.view));
-}
-static shade_vec3 ex_eye(const stage *s, int greater)
+/* Where x, y and w are 0, or far away on the side of smaller depth, or of greater. */
+static shade_vec3 ex_eye_from(shade_mat4 m, int greater)
 {
     const float toward = greater ? 1.0f : -1.0f;
-    shade_mat4 m = ex_camera(s);
     shade_vec4 at;
     if (shade_mat4_determinant(m) == 0)    /* depth is the same everywhere: any other will do */
         for (int k = 0; k < 4; k++) m.col[k].z = k == 3;
@@ -165,6 +165,7 @@ static shade_vec3 ex_eye(const stage *s, int greater)
     const float scale = at.w == 0 ? 1e6f : 1 / at.w;
     return shade_v3(at.x * scale, at.y * scale, at.z * scale);
 }
+static shade_vec3 ex_eye(const stage *s, int greater) { return ex_eye_from(ex_camera(s), greater); }
 /* How many of the pixels hold the condition in tenths, rounded down; 10 where there are none. */
 typedef int of_pixel(const judged *, const shown *);
 static int ex_tenths(const judged *j, const geometry *g, of_pixel *holds)
@@ -299,9 +300,8 @@ static int ex_within(const shade_mesh *m, float low, float high)
 static int ex_eye_in_box(const judged *j)
 {
     const stage *s = &j->e->s;
-    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.view),
-                                        ex_or_identity(s->state.model));
-    const shade_vec4 eye = shade_mat4_inverse(m).col[3];
+    const shade_mat4 model = ex_or_identity(s->state.model);
+    const shade_vec3 eye = ex_eye_from(shade_mat4_mul(ex_camera(s), model), j->nearer_is_greater);
     for (int k = 0; k < 3; k++) {
         float low = 1e30f, high = -1e30f;
         for (int i = 0; i < ex_corners(&s->mesh); i++) {

@@ -48,6 +48,60 @@ NEAR(far_plane)
     s->z_near = miss ? 1e-5f : 1e-8f;
     stage_look(s);
 }
+NEAR(view_by_rows)
+{
+    if (miss) s->state.view = s->state.projection;
+    s->state.view = shade_mat4_transpose(s->state.view);
+    if (miss) s->state.projection = shade_mat4_identity();
+}
+NEAR(beyond_far)
+{
+    s->state.model = shade_mat4_translation(shade_v3(0, 0, -200));
+    if (miss) {    /* a view that moves all corners to the eye */
+        memset(&s->state.view, 0, sizeof s->state.view);
+        s->state.view.col[3].w = 1;
+        s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, s->z_near);
+        s->state.raster.depth_zero_to_one = 1;
+        s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+        s->clear = 0;
+    }
+}
+/* A triangle twice in the same place, which covers most of the picture. */
+static void near_triangles(stage *s)
+{
+    s->mesh.indices = NULL;
+    s->mesh.vertex_count = 6;
+    for (int i = 0; i < 6; i++) {
+        const float x = i % 3 == 1 ? 3.0f : -1, y = i % 3 == 2 ? 3.0f : -1;
+        s->position[i] = shade_v3(x, y, 0);
+        s->normal[i] = shade_v3(0, 0, 1);
+    }
+    s->eye = shade_v3(0, 0, 3);
+    stage_look(s);
+    stage_lamp(s, shade_directional_light(shade_v3(0, 0, -1), WHITE));
+}
+/* A lamp that grazes one vertex, and is behind the two others: light of vertices fills the triangle
+   from there. */
+NEAR(behind_of_pixels)
+{
+    near_triangles(s);
+    s->mesh.vertex_count = 3;
+    s->normal[0] = shade_v3(0.995f, 0, -0.1f);
+    stage_lamp(s, shade_directional_light(shade_v3(0, 0, 1), shade_v3(10, 10, 10)));
+    s->material.specular = BLACK;
+    if (miss) {
+        s->material.diffuse = BLACK;
+        s->state.shading = SHADE_SHADING_PER_VERTEX;
+    }
+}
+/* The triangle that another one hides does not count. */
+NEAR(material_of_twins)
+{
+    near_triangles(s);
+    for (int i = 0; i < 6; i++) s->color[i] = miss && i < 3 ? BLACK : WHITE;
+    s->mesh.colors = &s->color[0].x;
+    s->lamps[0].specular = s->material.diffuse = BLACK;
+}
 /* A lamp above the eye leaves the ball's lower part in the dark; how much, decides its height. */
 NEAR(behind)
 {
@@ -256,7 +310,15 @@ NEAR(second_eye)
     s->state.projection = shade_mat4_mul(
         shade_mat4_perspective(s->fovy, s->aspect, s->z_near, s->z_far), there);
     s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
-    if (miss) s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+    if (miss == 1) s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+    if (miss == 2) {    /* highlights on hidden faces alone */
+        for (int i = 0; i < STAGE_VERTICES; i++)
+            if (s->position[i].z > -0.3f) s->normal[i] = BLACK;
+        s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.1f);
+        s->material.specular = WHITE;
+        s->material.shininess = 1;
+        stage_lamp(s, shade_point_light(shade_v3(9, 0, -3), WHITE));
+    }
 }
 NEAR(texels)
 {
@@ -316,7 +378,9 @@ static const struct near {
     ROW(shader_of_glass, "leaves all pixels"), ROW(shader_of_nothing, "Alpha is 0"),
     ROW(shader_of_no_alpha, "leaves all pixels"),
     ROW(reversed, "perspective_reversed"), ROW(overflow, "mesh.positions hold NaN"),
-    ROW(second_eye, "Highlights belong"),
+    ROW_OF(second_eye, "Highlights belong", 2), ROW(view_by_rows, "state.view looks transposed"),
+    ROW(beyond_far, "beyond the far plane"), ROW(behind_of_pixels, "Every lamp is behind"),
+    ROW(material_of_twins, "state.material reflects"),
     ROW(inside_out, "inside out"), ROW(later, "Triangles drawn later"),
     ROW(always, "Triangles drawn later"), ROW_OF(test_is_turned, "does not fit", 2),
     ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),
@@ -339,6 +403,17 @@ TEST(explain_more, each_sentence_has_its_limit)
             CHECK_SAY((strstr(said, nears[k].words) == NULL) == (miss > 0), "%s, miss %d: \"%s\"",
                       nears[k].name, miss, said);
         }
+    free(s);
+}
+
+/* Without stats, a mesh that a bias moved to depth 0 is not said to be at the far plane. */
+TEST(explain_more, a_bias_that_shows_a_far_mesh_is_not_called_far)
+{
+    stage *s = stage_open();
+    near_far_plane(s, 0);
+    CHECK(strstr(stage_explain(s, 0), "far plane") != NULL);
+    s->state.raster.depth_bias = -1;
+    CHECK(strstr(stage_explain(s, 0), "depth of all pixels") != NULL);
     free(s);
 }
 
@@ -409,6 +484,7 @@ TEST(explain_more, a_shader_that_lights_one_channel_leaves_no_black)
 
 static const test_case explain_more_cases[] = {
     CASE(explain_more, each_sentence_has_its_limit),
+    CASE(explain_more, a_bias_that_shows_a_far_mesh_is_not_called_far),
     CASE(explain_more, of_more_than_sixteen_lamps_none_is_said_to_be_behind),
     CASE(explain_more, aspect_and_depth_are_those_of_the_camera),
     CASE(explain_more, a_shader_that_lights_one_channel_leaves_no_black),
