@@ -259,17 +259,21 @@ typedef struct guard {
 static guard guard_blocks[GUARD_BLOCKS];
 static int guard_count;
 
+/* Four chains, since one waits for its products. */
 static inline uint64_t guard_hash(const uint8_t *p, size_t size)
 {
-    uint64_t h = 14695981039346656037u, word;
+    uint64_t h[4] = { 14695981039346656037u, 1, 2, 3 }, word[4];
     size_t i = 0;
-    for (; i + 8 <= size; i += 8) {
-        memcpy(&word, p + i, 8);
-        h = (h ^ word) * 1099511628211u;
-        h ^= h >> 32;
+    for (; i + 32 <= size; i += 32) {
+        memcpy(word, p + i, 32);
+        for (int k = 0; k < 4; k++) {
+            h[k] = (h[k] ^ word[k]) * 1099511628211u;
+            h[k] ^= h[k] >> 32;
+        }
     }
-    for (; i < size; i++) h = (h ^ p[i]) * 1099511628211u;
-    return h | 1;
+    for (; i < size; i++) h[0] = (h[0] ^ p[i]) * 1099511628211u;
+    for (int k = 1; k < 4; k++) h[0] = (h[0] ^ h[k]) * 1099511628211u;
+    return h[0] | 1;
 }
 
 static inline uint8_t *guard_room(void)
