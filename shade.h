@@ -8892,7 +8892,7 @@ static int shade__is_clipped(shade__survey *q)
     q->material.emission = shade_v3(0, 0, 0);
     clipped = shade__count(q, 2);
     return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
-           q->state.raster.blend != SHADE_BLEND_OVER && lit > 11 &&
+           q->state.raster.blend != SHADE_BLEND_OVER && lit > 0 &&
            clipped * 8 >= lit * (8 - q->exact);
 }
 
