@@ -27,12 +27,9 @@ report() {
 
 build() { "$make" -s -j"$cores" "$@" || { wait; echo "0 passed, 1 failed"; exit 1; }; }
 step compile sh tests/scripts/dialects.sh
-step lint sh tests/scripts/lint.sh
-step compare sh tests/scripts/compare.sh
 step board sh tests/scripts/microcontroller.sh
 build build/shade.o    # which the README's programs are linked to as well
 step readme sh tests/scripts/readme.sh
-step slides sh tests/scripts/course.sh
 step rows sh tests/scripts/rows.sh
 build build/test_main
 step runner build/test_main
