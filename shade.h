@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8139  why nothing is seen   >>replay    9309  of lines, pipelines
-       >>image     9636  mipmaps, PPM           >>presets   9948  classic materials
+       >>explain   8140  why nothing is seen   >>replay    9310  of lines, pipelines
+       >>image     9637  mipmaps, PPM           >>presets   9949  classic materials
      Sources
-       >>refs     10024                        >>history  10054
-       >>license  10060
+       >>refs     10025                        >>history  10055
+       >>license  10061
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8096,7 +8096,8 @@ static uint32_t shade__outside(const shade__survey *s)
         const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
         all &= shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
     }
-    if (shade__size(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__size(z[3]))
+    if (s->camera.perspective &&
+        shade__size(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__size(z[3]))
         all &= ~(uint32_t)(SHADE__OUT_NEAR | SHADE__OUT_FAR);
     return all;
 }

@@ -57,6 +57,7 @@ NEAR(view_by_rows)
 NEAR(beyond_far)
 {
     s->state.model = shade_mat4_translation(shade_v3(0, 0, -200));
+    s->state.projection = shade_mat4_ortho(-60, 60, -60, 60, -100, 100);
     if (miss) {    /* a view that moves all corners to the eye */
         memset(&s->state.view, 0, sizeof s->state.view);
         s->state.view.col[3].w = 1;
