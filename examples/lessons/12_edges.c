@@ -2,7 +2,7 @@
    draw hides the edges behind faces.  Right: what an illustrator draws.  Silhouettes lie between a
    face seen from the front and one seen from behind, creases where faces meet at a sharp angle,
    boundaries where an edge has only one face.
-   Try 0.99f for the crease threshold 0.5f: handle and spout are drawn full of facets.
+   Try crease = 0.99f: handle and spout are drawn full of facets.
 
    cc -O2 -I. examples/lessons/12_edges.c -lm -o edges && ./edges        writes edges.ppm */
 #define SHADE_IMPLEMENTATION
@@ -15,7 +15,8 @@ int main(int argc, char **argv)
 {
     static const char *const name[3] = { "all edges", "hidden ones removed", "the drawing" };
     static const char *const kind[3] = { "silhouette: (e·n_0) (e·n_1) ≤ 0",
-                                         "crease: n_0·n_1 ≤ 0.5", "boundary: one face" };
+                                         "crease: n_0·n_1 ≤ %g", "boundary: one face" };
+    static const float crease = 0.5f;
     static const shade_vec4 ink[EDGE_KINDS] = {
         { 0.01f, 0.01f, 0.02f, 1 }, { 0.01f, 0.10f, 0.6f, 1 }, { 0.7f, 0.03f, 0.01f, 1 },
         { 0.1f, 0.12f, 0.16f, 1 }
@@ -32,7 +33,7 @@ int main(int argc, char **argv)
     edges_add(&part[0], shape_teapot(12), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
     edges_add(&part[1], mesh_cube(), shape_at(-1.6f, 0.65f, 2.6f, 0.65f, 0.9f));
     edges_add(&part[1], shape_turned(tube, 2, 16), shape_at(1.5f, 0, 3, 0.7f, 0));
-    for (int i = 0; i < 2; i++) lines[i] = edges_sort(&part[i], eye, 0.5f);
+    for (int i = 0; i < 2; i++) lines[i] = edges_sort(&part[i], eye, crease);
     lines[0].count[EDGE_BOUNDARY] = 0;    /* rims below the lid, within the pot */
     state.view = shade_mat4_look_at(eye, shade_v3(0.08f, 0.85f, 0.8f), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.5f, 320 / 300.0f, 5, 25);
@@ -58,7 +59,7 @@ int main(int argc, char **argv)
         float y = 352 + 24 * (float)i;
         const shade_vec3 sample[2] = { { 668, y, 0 }, { 698, y, 0 } };
         shade_draw_lines(&c.target, sample, 2, &pen, NULL);
-        label_draw(&c, 710, 359 + 24 * i, 20, black, kind[i]);
+        label_print(&c, 710, 359 + 24 * i, 20, black, kind[i], (double)crease);
     }
     for (int i = 0; i < 2; i++) {
         edges_free(&lines[i]);

@@ -4,7 +4,15 @@
 const turned = (angle, far) => [far * Math.sin(angle * Math.PI / 180), -far * Math.cos(angle * Math.PI / 180)];
 const planeAt = (toL, toV, model) => answerAt(wasm.page_plane(toL, toV, model));
 const degrees = ([x, y]) => Math.atan2(x, y) * 180 / Math.PI;
-
+// Angles, each with one beside it that is so far from its neighbours
+function setApart(angles, apart) {
+    const from = [...angles].sort((a, b) => a - b), to = [...from];
+    for (let round = 0; round < 40; round++) for (let i = 1; i < to.length; i++) {
+        const short = (apart - to[i] + to[i - 1]) / 2;
+        if (short > 0) to[i - 1] -= short, to[i] += short;
+    }
+    return new Map(from.map((angle, i) => [angle, to[i]]));
+}
 function showPlane() {
     document.body.classList.toggle('plane', !!S.plane);
     if (!S.plane) return;
@@ -37,15 +45,10 @@ function showPlane() {
     const at = (angle, length) => turned(angle, length).map((v, i) => (v + [x, y][i]).toFixed(1));
 
     const drawn = [0, S.toL, S.toV, ...(mirror ? [toR] : []), ...(half ? [toH] : [])];
-    // a letter that would touch the one before it stands farther to its side
-    const tips = [...drawn].sort((a, b) => a - b), apart = 1.35 * rem / (far + 0.75 * rem) * 180 / Math.PI;
-    const places = [...tips];
-    for (let round = 0; round < 40; round++) for (let i = 1; i < places.length; i++) {
-        const short = (apart - places[i] + places[i - 1]) / 2;
-        if (short > 0) places[i - 1] -= short, places[i] += short;
-    }
+    // a letter that would touch another stands farther to its side
+    const place = setApart(drawn, 1.35 * rem / (far + 0.75 * rem) * 180 / Math.PI);
     const ray = (letter, angle, css, grip = '') => {
-        const [X, Y] = turned(angle, far), [tx, ty] = at(places[tips.indexOf(angle)], far + 0.75 * rem);
+        const [X, Y] = turned(angle, far), [tx, ty] = at(place.get(angle), far + 0.75 * rem);
         return `<g class="${css}"${grip}>${grip && `<circle class="grip" cx="${x + X}" cy="${y + Y}" r="${1.2 * rem}"/>`}` +
             `<line x1="${x}" y1="${y}" x2="${x + X * 0.97}" y2="${y + Y * 0.97}"/>` +
             head(css, X, Y, x + X, y + Y, rem / 14) + `<text x="${tx}" y="${ty}">${name(letter)}</text></g>`;
