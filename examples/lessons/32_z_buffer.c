@@ -35,7 +35,7 @@ static shade_vec3 at(int x, float z) { return shade_v3((float)x * 860 / W, 360 *
 
 static void plot(const canvas *c, const float *z, const shade_vec4 *color)
 {
-    sketch s = sketch_new(c, 80, 490, 1);
+    sketch s = sketch_new(c, 80, 498, 1);
     sketch_ink(&s, white, 1);
     sketch_arrow(&s, at(0, 0.4f), at(W, 0.4f));
     sketch_arrow(&s, at(0, 0.4f), at(0, 1.05f));

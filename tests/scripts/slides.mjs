@@ -200,6 +200,8 @@ for (const name of decks) {
                     if (right > innerWidth + 1) say(part.tagName + ' is wider than the screen');
                     if (!upright && bottom > innerHeight - letter * 1.4) say(part.tagName + ' reaches into the row below');
                 }
+                const [number, tools] = ['.slide-number', '.tools.low'].map(what => document.querySelector(what).getBoundingClientRect());
+                if (number.right > tools.left + 1) say('the number runs into the buttons');
                 const [equation, statement, figure] = ['.equation', '.statement', 'figure'].map(box);
                 const row = slide.querySelector('.equation');
                 if (row && !upright && row.scrollWidth > row.clientWidth + 1) say('the equation is cut');

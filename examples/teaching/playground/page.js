@@ -22,8 +22,8 @@ const FIELDS = {
     mark: [-20, 20, ...MARK], part: [0, 1, 0], panel: [0, 2, 1],
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
-    // the vectors in a plane: degrees from N to L and to V; rays: 1 for R, 2 for H, 4 for a bent surface
-    plane: [0, 1, 0], toL: [-180, 180, -40], toV: [-180, 180, 20], rays: [0, 7, 3],
+    // the vectors in a plane: degrees from N to L and to V; rays: 1 for R, 2 for H, 4 for a bent surface, 8 for -R
+    plane: [0, 1, 0], toL: [-180, 180, -40], toV: [-180, 180, 20], rays: [0, 15, 3],
     simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
     // the stepper of the rasterizer; a triangle is three corners of x, y and w
     raster: [0, 1, 0], order: [0, 1, 0], step: [0, 576, 0], count: [1, 3, 2], hand: [1, 3, 1],

@@ -21,7 +21,7 @@ function showPlane() {
     const [toR, toH] = [by.phong, by.blinn].map(answer => degrees(answer.unitH)), blinn = S.model !== 1;
     const shown = blinn ? by.blinn : by.phong, lit = shown.gate, seen = Math.abs(S.toV) < 90;
     // where L = -V there is no H
-    const mirror = S.rays & 1, half = S.rays & 2 && Math.hypot(...by.blinn.unitH) > 0.5;
+    const mirror = S.rays & 1, slip = S.rays & 8, half = S.rays & 2 && Math.hypot(...by.blinn.unitH) > 0.5;
     const name = letter => bare(`\\mathbf{${letter}}`), dot = (a, b) => `${name(a)} · ${name(b)}`;
 
     // what the values are; they stand in the corner or, where it is narrow, below
@@ -39,19 +39,19 @@ function showPlane() {
     const high = Math.max(tall - 2.4 * rem, 1), corner = wide > 1.5 * high + 13 * rem;
     const values = corner ? rem : (0.3 + 1.3 * line.length) * rem;
     // of a vector's length what is drawn below the surface
-    const sinks = Math.max(0, ...[S.toL, S.toV].map(v => -Math.cos(v * Math.PI / 180)));
+    const sinks = Math.max(0, ...[S.toL, S.toV, ...(slip ? [toR + 180] : [])].map(v => -Math.cos(v * Math.PI / 180)));
     const far = Math.max(Math.min(wide / 2 - 1.4 * rem, (tall - values - 1.4 * rem - (S.rays & 4 && 0.14 * wide)) / (1 + sinks) - 0.8 * rem * !!sinks), 1);
     const deep = Math.max(sinks && sinks * far + 0.8 * rem, S.rays & 4 && 0.14 * wide), x = wide / 2, y = (tall + far + 1.4 * rem - values - deep) / 2;
     const at = (angle, length) => turned(angle, length).map((v, i) => (v + [x, y][i]).toFixed(1));
 
-    const drawn = [0, S.toL, S.toV, ...(mirror ? [toR] : []), ...(half ? [toH] : [])];
+    const drawn = [0, S.toL, S.toV, ...(mirror ? [toR] : []), ...(half ? [toH] : []), ...(slip ? [toR + 180] : [])];
     // a letter that would touch another stands farther to its side
     const place = setApart(drawn, 1.35 * rem / (far + 0.75 * rem) * 180 / Math.PI);
-    const ray = (letter, angle, css, grip = '') => {
+    const ray = (letter, angle, css, grip = '', sign = '') => {
         const [X, Y] = turned(angle, far), [tx, ty] = at(place.get(angle), far + 0.75 * rem);
         return `<g class="${css}"${grip}>${grip && `<circle class="grip" cx="${x + X}" cy="${y + Y}" r="${1.2 * rem}"/>`}` +
             `<line x1="${x}" y1="${y}" x2="${x + X * 0.97}" y2="${y + Y * 0.97}"/>` +
-            head(css, X, Y, x + X, y + Y, rem / 14) + `<text x="${tx}" y="${ty}">${name(letter)}</text></g>`;
+            head(css, X, Y, x + X, y + Y, rem / 14) + `<text x="${tx}" y="${ty}">${sign}${name(letter)}</text></g>`;
     };
     // an arc between two directions; its letter stands in the widest gap between vectors, if that has room
     const arc = (from, to, share, sign, css) => {
@@ -76,7 +76,7 @@ function showPlane() {
             lobe += `<circle class="value" cx="${cx}" cy="${cy}" r="${rem / 5}"/>`;
         }
     }
-    const slip = (angle, way) => ` tabindex="0" role="slider" data-to="${way}" ` +
+    const grip = (angle, way) => ` tabindex="0" role="slider" data-to="${way}" ` +
         `aria-label="${way[2]}, degrees from N" aria-valuemin="-180" aria-valuemax="180" aria-valuenow="${Math.round(angle)}"`;
     svg.innerHTML = (S.rays & 4 ? `<circle class="below bent" cx="${x}" cy="${y + wide}" r="${wide}"/>` +
             `<text class="degrees tangent" x="0" y="${0.7 * rem}">tangent</text><text class="degrees tangent" x="0" y="${1.9 * rem}">plane</text>`
@@ -85,8 +85,8 @@ function showPlane() {
         `<clipPath id="above"><rect width="${wide}" height="${Math.max(y, 0)}"/></clipPath><g clip-path="url(#above)" class="${S.terms & 8 ? 'H' : 'N'}">${lobe}</g>` +
         arc(0, S.toL, 0.42, '\\theta', 'L') + (mirror ? arc(0, toR, 0.42, '', 'L') + arc(toR, S.toV, 0.62, '\\phi', 'H') : '') +
         (half && lit ? arc(0, toH, 0.8, '\\omega', 'H') : '') +
-        ray('N', 0, 'N') + (mirror ? ray('R', toR, 'H') : '') + (half ? ray('H', toH, 'H') : '') +
-        ray('V', S.toV, 'V', slip(S.toV, 'toV')) + ray('L', S.toL, 'L', slip(S.toL, 'toL')) +
+        ray('N', 0, 'N') + (mirror ? ray('R', toR, 'H') : '') + (half ? ray('H', toH, 'H') : '') + (slip ? ray('R', toR + 180, 'H', '', '−') : '') +
+        ray('V', S.toV, 'V', grip(S.toV, 'toV')) + ray('L', S.toL, 'L', grip(S.toL, 'toL')) +
         line.map((text, i) => `<text class="values ${corner ? 'corner' : ''}" x="${corner ? wide : x}" ` +
             `y="${(corner ? 0.8 * rem : y + deep + 1.1 * rem) + 1.3 * i * rem}">${text.replace(/= -/, '= −')}</text>`).join('');
     svg.dataset.centre = [x, y];
