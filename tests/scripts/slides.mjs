@@ -319,8 +319,19 @@ for (const name of decks) {
     await page.keyboard.press('z'), await page.keyboard.press('o');
     check('O: all slides', await page.evaluate(() => document.querySelectorAll('#overview[open] button').length ===
         Reveal.getSlides().length));
+    check('each with its name in words', await page.evaluate(() => [...document.querySelectorAll('#overview button')].every(button =>
+        /^\d+ [^\\{}]+$/.test(button.textContent))));
     check('each with its picture', await soon(() => page.evaluate(() => [...document.querySelectorAll(
         '#overview button')].every(button => !button.draws || button.firstChild.src.startsWith('data:')))));
+    for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080]]) {
+        await page.setViewportSize({ width, height });
+        check(`all of them on the screen: ${width} x ${height}`, await soon(() => page.evaluate(() => [...document.querySelectorAll(
+            '#overview button')].every(button => {
+            const { left, right, bottom } = button.getBoundingClientRect();
+            return left >= 0 && right <= innerWidth + 1 && bottom <= innerHeight + 1;
+        }))), await page.evaluate(() => [document.querySelector('#overview').scrollHeight, document.querySelector('#overview').scrollWidth]));
+    }
+    await page.setViewportSize({ width: 1024, height: 768 });
     await page.keyboard.press('o');
     check('the address names the slide', /#\/\d+/.test(page.url()), page.url());
 
