@@ -2,10 +2,9 @@
    Graphics 1 (1982), 7-24), by a fragment shader:
        I = SUM of I_s (N.L) D F G / (4 (N.L) (N.V)),   D = e^-((tan a / m)^2) / (pi m^2 cos^4 a),
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
-   and F = F_0 + (1 - F_0) (1 - V.H)^5, of gold here, by C. Schlick (Computer Graphics Forum 13
-   (1994), 233-246).  Left: Blinn-Phong, k_s = F_0 / (4 pi m^2) and n = 2/m^2 - 4, the same where
-   N = L = V.  It stays gold; Cook and Torrance's whitens where light grazes.
-   Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, whose curve rises from .04 to 1.
+   and F = F_0 + (1 - F_0) (1 - V.H)^5 by C. Schlick (Computer Graphics Forum 13 (1994), 233-246).
+   Left: Blinn-Phong, n = 2/m^2 - 4 and k_s = F_0 / (4 pi m^2), the same where N = L = V.  It stays
+   gold; theirs whitens where light grazes.  Try F_0 = { .04f, .04f, .04f }: varnish, F from .04 on.
 
    cc -O2 -I. examples/lessons/34_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */
 #define SHADE_IMPLEMENTATION
@@ -64,12 +63,13 @@ int main(int argc, char **argv)
         if (i % 2) mesh_draw(&panel, &pipeline, &pot);
         else shade_draw_mesh(&panel, &pot.view, &state, NULL);
     }
-    for (int x = 0; x < 1680; x++) {
-        const shade_vec3 f = F(mesh_turn((float)x / 6720).x);
-        canvas_fill(&c.target, 140 + x, 910, 1, 2, grey);
-        canvas_fill(&c.target, 140 + x, 908 - (int)(150 * f.x), 1, 5, shade_v3(.8f, .1f, .1f));
-        canvas_fill(&c.target, 140 + x, 908 - (int)(150 * f.y), 1, 5, shade_v3(.1f, .8f, .1f));
-        canvas_fill(&c.target, 140 + x, 908 - (int)(150 * f.z), 1, 5, shade_v3(.1f, .1f, .8f));
+    const shade_target plot = canvas_inset(&c, 70, 376, 840, 80);
+    for (int x = 0; x < plot.width; x++) {
+        const shade_vec3 f = F(mesh_turn(0.25f * (float)x / (float)plot.width).x);
+        const float high = (float)(plot.height - 5);
+        canvas_fill(&plot, x, (int)(high * (1 - f.x)), 1, 5, shade_v3(.8f, .1f, .1f));
+        canvas_fill(&plot, x, (int)(high * (1 - f.y)), 1, 5, shade_v3(.1f, .8f, .1f));
+        canvas_fill(&plot, x, (int)(high * (1 - f.z)), 1, 5, shade_v3(.1f, .1f, .8f));
     }
     label_center(&c, 240, 352, 22, grey, "Blinn-Phong; a rim × 4");
     label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V)); a rim × 4");
