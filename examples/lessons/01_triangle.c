@@ -27,10 +27,10 @@ int main(int argc, char **argv)
     state.lighting.ambient = shade_v3(1, 1, 1);    /* white light from everywhere: bare colours */
     shade_clear(&target, shade_v4(0.02f, 0.02f, 0.03f, 1), 1);
     shade_draw_mesh(&target, &mesh, &state, NULL);
-    label_set(&target, 40, 600, 30, grey, "c_0");
-    label_set(&target, 890, 600, 30, grey, "c_1");
-    label_set(&target, 505, 62, 30, grey, "c_2");
-    label_set(&target, 250, 606, 26, grey, "c = α c_0 + β c_1 + γ c_2,   α + β + γ = 1");
+    label_set(&target, 30, 608, 40, grey, "c_0");
+    label_set(&target, 885, 608, 40, grey, "c_1");
+    label_set(&target, 505, 66, 40, grey, "c_2");
+    label_set(&target, 195, 610, 34, grey, "c = α c_0 + β c_1 + γ c_2,   α + β + γ = 1");
     if (shade_write_ppm(path, &target)) {
         fprintf(stderr, "%s: not written\n", path);
         return 1;

@@ -2,7 +2,7 @@
    draw hides the edges behind faces.  Right: what an illustrator draws.  Silhouettes lie between a
    face seen from the front and one seen from behind, creases where faces meet at a sharp angle,
    boundaries where an edge has only one face.
-   Try 0.99f for the crease threshold 0.5f: handle and spout are drawn full of facets.
+   Try crease = 0.99f: handle and spout are drawn full of facets.
 
    cc -O2 -I. examples/lessons/12_edges.c -lm -o edges && ./edges        writes edges.ppm */
 #define SHADE_IMPLEMENTATION
@@ -15,38 +15,41 @@ int main(int argc, char **argv)
 {
     static const char *const name[3] = { "all edges", "hidden ones removed", "the drawing" };
     static const char *const kind[3] = { "silhouette: (e·n_0) (e·n_1) ≤ 0",
-                                         "crease: n_0·n_1 ≤ 0.5", "boundary: one face" };
+                                         "crease: n_0·n_1 ≤ %g", "boundary: one face" };
+    static const float crease = 0.5f;
     static const shade_vec4 ink[EDGE_KINDS] = {
         { 0.01f, 0.01f, 0.02f, 1 }, { 0.01f, 0.10f, 0.6f, 1 }, { 0.7f, 0.03f, 0.01f, 1 },
         { 0.1f, 0.12f, 0.16f, 1 }
     };
     static const shade_vec2 tube[2] = { { 1, 2 }, { 1, 0 } };
     const shade_vec3 eye = { 2.5f, 7, 12 }, black = { 0.02f, 0.02f, 0.03f };
-    owned_mesh scene = mesh_new(9000, 32000);
+    owned_mesh part[2] = { mesh_new(9000, 32000), mesh_new(100, 300) };    /* pot; box and tube */
     shade_draw_state state = { 0 };
     shade_line_state pen = { .cap = SHADE_CAP_SQUARE };
-    edge_lines lines;
+    edge_lines lines[2];
     canvas c = canvas_new(960, 420, 3);
 
-    scene.view.vertex_count = scene.view.index_count = 0;
-    edges_add(&scene, shape_teapot(12), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
-    edges_add(&scene, mesh_cube(), shape_at(-1.6f, 0.65f, 2.6f, 0.65f, 0.5f));
-    edges_add(&scene, shape_turned(tube, 2, 16), shape_at(1.5f, 0, 3, 0.7f, 0));
-    lines = edges_sort(&scene, eye, 0.5f);
+    for (int i = 0; i < 2; i++) part[i].view.vertex_count = part[i].view.index_count = 0;
+    edges_add(&part[0], shape_teapot(12), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
+    edges_add(&part[1], mesh_cube(), shape_at(-1.6f, 0.65f, 2.6f, 0.65f, 0.9f));
+    edges_add(&part[1], shape_turned(tube, 2, 16), shape_at(1.5f, 0, 3, 0.7f, 0));
+    for (int i = 0; i < 2; i++) lines[i] = edges_sort(&part[i], eye, crease);
+    lines[0].count[EDGE_BOUNDARY] = 0;    /* rims below the lid, within the pot */
     state.view = shade_mat4_look_at(eye, shade_v3(0.08f, 0.85f, 0.8f), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.5f, 320 / 300.0f, 5, 25);
     canvas_gradient(&c.target, shade_v3(0.92f, 0.90f, 0.84f), shade_v3(0.80f, 0.76f, 0.68f));
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 300), fill = panel;
         fill.color = NULL;
-        if (i > 0) shade_draw_mesh(&fill, &scene.view, &state, NULL);
+        for (int j = 0; i > 0 && j < 2; j++) shade_draw_mesh(&fill, &part[j].view, &state, NULL);
         pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
         pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
-        pen.raster.depth_bias = i > 0 ? -0.002f : 0;
-        for (int k = i < 2 ? EDGE_OTHER : EDGE_BOUNDARY; k >= 0; k--) {
+        pen.raster.depth_bias = i > 0 ? -0.004f : 0;
+        for (int k = 0; k < (i < 2 ? EDGE_KINDS : EDGE_OTHER); k++) {
             pen.color = ink[i < 2 ? EDGE_OTHER : k];
             pen.width = i < 2 ? 2 : 9;
-            shade_draw_lines(&panel, lines.points[k], lines.count[k], &pen, NULL);
+            for (int j = 0; j < 2; j++)
+                shade_draw_lines(&panel, lines[j].points[k], lines[j].count[k], &pen, NULL);
         }
         label_center(&c, 320 * i + 160, 330, 22, black, name[i]);
         pen.clip_from_points = canvas_from_pixels(&c);
@@ -56,9 +59,11 @@ int main(int argc, char **argv)
         float y = 352 + 24 * (float)i;
         const shade_vec3 sample[2] = { { 668, y, 0 }, { 698, y, 0 } };
         shade_draw_lines(&c.target, sample, 2, &pen, NULL);
-        label_draw(&c, 710, 359 + 24 * i, 20, black, kind[i]);
+        label_print(&c, 710, 359 + 24 * i, 20, black, kind[i], (double)crease);
     }
-    edges_free(&lines);
-    mesh_free(&scene);
+    for (int i = 0; i < 2; i++) {
+        edges_free(&lines[i]);
+        mesh_free(&part[i]);
+    }
     return canvas_save(&c, argc, argv, "edges.ppm");
 }

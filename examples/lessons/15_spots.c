@@ -26,7 +26,7 @@ int main(int argc, char **argv)
     canvas_dark(&c.target);
     for (int i = 0; i < 10; i++) {
         int x = 192 * (i % 5), y = 245 * (i / 5);
-        float e = i < 5 ? exponent[i] : 0, beta = i < 5 ? 25 : degrees[i - 5];
+        float e = i < 5 ? exponent[i] : 0, beta = degrees[i < 5 ? 4 : i - 5];
         shade_target panel = canvas_panel(&c, x + 2, y, 188, 188);
         shade_light lamp = shade_spot_light(shade_v3(0, 0, 2), shade_v3(0, 0, -1),
                                             shade_radians(beta), e, shade_v3(1, 0.95f, 0.85f));
@@ -35,7 +35,8 @@ int main(int argc, char **argv)
         sprintf(text, i < 5 ? "e = %d" : "β = %d°", (int)(i < 5 ? e : beta));
         label_center(&c, x + 96, y + 212, 20, grey, text);
     }
-    label_center(&c, 480, 238, 20, grey, "(L·S)^e where L·S ≥ cos 25°");
+    sprintf(text, "(L·S)^e where L·S ≥ cos %g°", (double)degrees[4]);
+    label_center(&c, 480, 238, 20, grey, text);
     label_center(&c, 480, 483, 20, grey, "1 where L·S ≥ cos β");
     mesh_free(&plane);
     return canvas_save(&c, argc, argv, "spots.ppm");

@@ -1,8 +1,8 @@
-/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), by a shadow map: depth
-   alone, drawn from the lamp.  The share of 3 x 3 texels that a pixel's own depth passes is the
-   visibility of the lamp.  Shadow acne: a texel holds the depth at its centre, and beside it a
-   slanted face is farther and shadows itself.  So points first move along N (a normal offset), by
-   the reach of the lookup times the sine of N to the lamp.  Try reach = facets = 0: stripes.
+/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), in two draws.  The first,
+   from the lamp, keeps depth alone: a map.  In the second a point farther from the lamp than
+   the map says is in shadow; the share of 3 x 3 texels that let it pass is its visibility.  Shadow
+   acne: beside the centre of a texel a slanted face is farther than the map says.  So points move
+   along N, by the texels' reach times the sine of N to the lamp.  Try reach = facets = 0: stripes.
 
    cc -O2 -I. examples/lessons/22_shadow.c -lm -o shadow && ./shadow            writes shadow.ppm */
 #define SHADE_IMPLEMENTATION

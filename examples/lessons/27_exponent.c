@@ -41,8 +41,7 @@ int main(int argc, char **argv)
     const shade_material metal = { none, shade_scale(copper, 0.04f), shade_scale(copper, 0.1f),
                                    shade_scale(copper, 0.8f), 100 };
     const shade_material plastic = { none, shade_scale(blue, 0.1f), blue, half_white, 30 };
-    const shade_material planet = { none, { 0.05f, 0.05f, 0.05f }, { 0.94f, 0.94f, 0.94f }, none,
-                                    0 };
+    const shade_material planet = { none, { .05f, .05f, .05f }, { .94f, .94f, .94f }, none, 0 };
     shade_material glossy = { none, teal, teal, gloss, 0 };
     const shade_light lamp[2] = { shade_directional_light(shade_v3(0.5f, -0.6f, -1), white),
                                   shade_directional_light(shade_v3(-1, -0.2f, 0.3f), white) };
@@ -51,22 +50,23 @@ int main(int argc, char **argv)
     shade_draw_state state = { .lighting = { lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
     owned_mesh mesh = mesh_sphere(128, 64);
     canvas c = canvas_new(960, 580, 2);
-
+    char name[40], text[60];
     state.view = shade_mat4_look_at(shade_v3(0, 0, 8), none, shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.27f, 1, 1, 10);
     state.model = shade_mat4_rotation(3.6f, shade_v3(0, 1, 0));
     canvas_dark(&c.target);
     state.material = &glossy;
     for (int i = 0, n = 1; i < 5; i++, n *= 4) {
-        char name[40], half[40];
         glossy.shininess = (float)n;
         sprintf(name, "(N·H)^{%d}", n);
-        sprintf(half, n > 1 ? "half at %.1f°" : "half at %.1f°; rim: B", half_angle((float)n));
-        ball(&c, &mesh, &state, 96 + 192 * i, 8, 184, name, half);
+        sprintf(text, n > 1 ? "half at %.1f°" : "half at %.1f°; rim: B", half_angle((float)n));
+        ball(&c, &mesh, &state, 96 + 192 * i, 8, 184, name, text);
     }
     state.material = &metal;
     state.lighting.light_count = 2;    /* metal shows what is around it */
-    ball(&c, &mesh, &state, 160, 256, 264, "metal", "n = 100, k_s = 8 k_d");
+    sprintf(text, "n = %g, k_s = %g k_d", (double)metal.shininess,
+            (double)(metal.specular.x / metal.diffuse.x));
+    ball(&c, &mesh, &state, 160, 256, 264, "metal", text);
     state.material = &plastic;
     state.lighting.light_count = 1;
     ball(&c, &mesh, &state, 480, 256, 264, "plastic", "n = 30, k_s white");

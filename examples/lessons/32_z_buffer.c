@@ -1,8 +1,8 @@
-/* 32_z_buffer.c - the z-buffer as a picture.  Above: the picture, and the depth of every pixel,
-   bright where it is near, black where it was cleared (z = 1, UW's FAR).  Below: z along the marked
-   row: straight pieces, one for each face, because z/w is linear on the screen.  So one addition a
-   pixel is enough, z += dz (UW's incremental z); the number tells how far the longest sum strays.
-   Try near_z = 0.4: the pieces flatten against FAR, as most depths go to the space before them.
+/* 32_z_buffer.c - the z-buffer as a picture (UW).  Above: the picture, and the depth of each pixel,
+   bright where it is near, black where it was cleared to 1, UW's FAR.  Below: z along the marked
+   row: a straight line for each face, because z is linear on the screen.  So z of the next pixel
+   takes one addition, z + dz.  The number tells how far sums over the widest face stray from z.
+   Try near_z = 0.4: the lines flatten against FAR, as most depths go to the space before them.
 
    cc -O2 -I. examples/lessons/32_z_buffer.c -lm -o z_buffer && ./z_buffer    writes z_buffer.ppm */
 #define SHADE_IMPLEMENTATION
@@ -15,19 +15,19 @@ enum { W = 960, H = 540, ROW = 330 };    /* samples of a panel, two to a pixel; 
 static const float near_z = 4, far_z = 10;
 static const shade_vec3 white = { 1, 1, 1 }, grey = { 0.3f, 0.3f, 0.3f };
 
-/* Adds dz from the first sample of the longest straight piece to its last. */
+/* The incremental z of the widest face: its first z, to which dz is added for each next sample */
 static void add_up(const canvas *c, const float *z)
 {
-    int begin = 0, count = 0, from = 0;
-    for (int i = 1; i + 1 < W; i++) {
-        if (z[i] == 1 || fabsf(z[i + 1] - 2 * z[i] + z[i - 1]) > 1e-6f) from = i;
-        if (z[i + 1] == 1 || i + 1 - from <= count) continue;
-        count = i + 1 - (begin = from);
+    int run = 0, first = 0, count = 0;
+    for (int i = 1; i + 1 < W; i++) {    /* samples on the line between their neighbours */
+        run = z[i] < 1 && fabsf(z[i + 1] - 2 * z[i] + z[i - 1]) < 1e-6f ? run + 1 : 0;
+        if (run > count) first = i - run;
+        if (run > count) count = run;
     }
-    float sum = z[begin], dz = (z[begin + count] - sum) / (float)count, off = 0;
-    for (int i = 0; i <= count; i++, sum += dz) off = fmaxf(off, fabsf(sum - z[begin + i]));
-    label_print(c, 80, 530, 20, white, "z along x: %d times z += dz stray by %.1e of its range",
-                count, (double)off);
+    float sum = z[first], dz = z[first + 1] - sum, off = 0;
+    for (int i = first; i <= first + count; i++, sum += dz) off = fmaxf(off, fabsf(sum - z[i]));
+    label_print(c, 80, 530, 28, white, "z along x: %d sums z + dz stray by %.1e", count,
+                (double)off);
 }
 
 /* Where the plot has sample x of the row, at depth z */
@@ -39,10 +39,10 @@ static void plot(const canvas *c, const float *z, const shade_vec4 *color)
     sketch_ink(&s, white, 1);
     sketch_arrow(&s, at(0, 0.4f), at(W, 0.4f));
     sketch_arrow(&s, at(0, 0.4f), at(0, 1.05f));
-    sketch_name(&s, at(-44, 1), 20, "FAR 1");
-    sketch_name(&s, at(-38, 0.5f), 20, "z 0.5");
+    sketch_name(&s, at(-44, 1), 28, "FAR");
+    sketch_name(&s, at(-44, 0.5f), 28, "0.5");
     for (int i = 0; i + 1 < W; i++) {
-        sketch_ink(&s, z[i] < 1 ? shade_v3(color[i].x, color[i].y, color[i].z) : grey, 3);
+        sketch_ink(&s, z[i] < 1 ? shade_v3(color[i].x, color[i].y, color[i].z) : grey, 4);
         if (fabsf(z[i + 1] - z[i]) < 0.01f) sketch_line(&s, at(i, z[i]), at(i + 1, z[i + 1]));
     }
 }
@@ -73,7 +73,7 @@ int main(int argc, char **argv)
     plot(&c, z, (const shade_vec4 *)picture.color + ROW * 2 * W);
     add_up(&c, z);
     canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);
-    label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer: near is bright");
+    label_draw(&c, W / 2 + 12, 34, 30, white, "its z-buffer: near is bright");
     mesh_free(&cube);
     return canvas_save(&c, argc, argv, "z_buffer.ppm");
 }

@@ -1,10 +1,10 @@
-/* 34_cook_torrance.c - gold as paint and as metal.  Left: the preset, by Blinn-Phong.  Right: Cook
-   and Torrance's model (ACM Transactions on Graphics 1 (1982), 7-24), by a fragment shader:
+/* 34_cook_torrance.c - gold by two models (UW).  Right: Cook and Torrance's (ACM Transactions on
+   Graphics 1 (1982), 7-24), by a fragment shader:
        I = SUM of I_s (N.L) D F G / (4 (N.L) (N.V)),   D = e^-((tan a / m)^2) / (pi m^2 cos^4 a),
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
-   They divide by pi.  F = F_0 + (1 - F_0) (1 - V.H)^5 is C. Schlick's Fresnel term (Computer
-   Graphics Forum 13 (1994), 233-246).  With n = 2/m^2 - 4 both lobes bend alike at their peak (UW).
-   Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, whose curve rises from .04 to 1.
+   and F = F_0 + (1 - F_0) (1 - V.H)^5 by C. Schlick (Computer Graphics Forum 13 (1994), 233-246).
+   Left: Blinn-Phong, n = 2/m^2 - 4 and k_s = F_0 / (4 pi m^2), the same where N = L = V.  It stays
+   gold; theirs whitens where light grazes.  Try F_0 = { .04f, .04f, .04f }: varnish, F from .04 on.
 
    cc -O2 -I. examples/lessons/34_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */
 #define SHADE_IMPLEMENTATION
@@ -12,7 +12,7 @@
 #include "../shared/shapes.h"
 #include "../shared/label.h"
 
-static const shade_vec3 F_0 = { 1, 0.766f, 0.336f }, eye = { 0, 4, 11 };    /* gold, linear */
+static const shade_vec3 F_0 = { 1, .766f, .336f }, eye = { 0, 4, 11 }, grey = { .7f, .7f, .7f };
 static const float m = 0.28f;
 typedef struct scene { mesh_scene place; shade_light lamp[4]; } scene;
 static shade_vec3 F(float VH) { return shade_lerp(F_0, shade_v3(1, 1, 1), shade_power(1 - VH, 5)); }
@@ -35,45 +35,45 @@ static void metal(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
             float D = shade_power(0.36787944f, t) / (3.1415927f * m * m * cos2 * cos2);
             float G = 2 * NH * (NV < NL ? NV : NL) / VH;
             G = NL > 0 ? 0.7f * amount[i] * D * (G < 1 ? G : 1) / (4 * NV) : 0;
-            shade_vec3 I = shade_madd(shade_scale(F_0, 0.005f), G, F(VH));    /* in grey light */
-            lane_put(out->color[0], i, shade_add(lane(out->color[0], i), I));
+            lane_put(out->color[0], i, shade_madd(lane(out->color[0], i), G, F(VH)));
         }
     }
 }
 
 int main(int argc, char **argv)
 {
-    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, white = { 1, 1, 1 };
-    const shade_vec3 from[4] = { { 1, -.6f, -1 }, { -1, -.6f, -1 }, { 1, -.6f, 1.3f },
-                                 { -1, -.6f, 1.3f } };    /* both sides, before and behind */
-    const shade_vec3 axis[4] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0, 0, 0 } };
-    shade_material paint = shade_linear_material(shade_preset_material(SHADE_PRESET_GOLD));
-    owned_mesh pot = shape_teapot(16);
+    const shade_material gold = { .specular = shade_scale(F_0, 1 / (4 * 3.1415927f * m * m)),
+                                  .shininess = 2 / (m * m) - 4 };
+    owned_mesh pot = shape_teapot(32);
     scene s = { .place = { .mesh = &pot, .model = shade_mat4_identity() } };
     shade_pipeline pipeline = { mesh_vertex, metal, &s, .varyings = 8 };
-    shade_draw_state state = { .material = &paint, .lighting = { s.lamp, 4, .ambient = white } };
+    shade_draw_state state = { .material = &gold, .lighting = { s.lamp, 4 } };
+    const shade_mat4 lens[2] = { shade_mat4_perspective(0.46f, 480 / 340.0f, 1, 20),
+                                 shade_mat4_frustum(-.173f, -.131f, .093f, .122f, 1, 20) };
     canvas c = canvas_new(960, 490, 2);
-    paint.shininess = 2 / (m * m) - 4;
-    shade_target panel = canvas_panel(&c, 0, 0, 480, 340);
-    for (int j = 0; j < 4; j++) s.lamp[j] = shade_directional_light(from[j], grey);
+    for (int j = 0; j < 4; j++)    /* from both sides, before and behind */
+        s.lamp[j] = shade_directional_light(shade_v3(j % 2 ? 1 : -1, -.6f, j < 2 ? -1 : 1), grey);
     state.view = shade_mat4_look_at(eye, shade_v3(0.2f, 1.2f, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.46f, 480 / 340.0f, 1, 20);
-    s.place.clip_from_world = shade_mat4_mul(state.projection, state.view);
     canvas_dark(&c.target);
-    shade_draw_mesh(&panel, &pot.view, &state, NULL);
-    panel = canvas_panel(&c, 480, 0, 480, 340);
-    mesh_draw(&panel, &pipeline, &pot);
-    for (int i = 0; i < 4 * 840; i++) {    /* three curves, and the axis */
-        const shade_vec3 f = F(mesh_turn((float)(i / 4) / 3360).x), k = axis[i % 4];
-        panel = canvas_panel(&c, 60 + i / 4, 455 - (int)(75 * shade_dot(f, k)), 1, 3 - i % 4 / 3);
-        shade_clear(&panel, shade_v4(.1f + .7f * k.x, .1f + .7f * k.y, .1f + .7f * k.z, 1), 1);
+    for (int i = 0; i < 4; i++) {    /* two models, each whole and a part x 4 */
+        const shade_target panel = i < 2 ? canvas_panel(&c, 480 * i, 0, 480, 340)
+                                         : canvas_inset(&c, 480 * i - 610, 220, 120, 85);
+        state.projection = lens[i / 2];
+        s.place.clip_from_world = shade_mat4_mul(state.projection, state.view);
+        if (i % 2) mesh_draw(&panel, &pipeline, &pot);
+        else shade_draw_mesh(&panel, &pot.view, &state, NULL);
     }
-    for (int i = 0; i < 2; i++) canvas_zoom(&c, 480 * i + 118, 80, 30, 18, 480 * i + 12, 10, 4);
-    label_center(&c, 240, 352, 22, grey, "Blinn-Phong, preset gold; rim × 4");
-    label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V)); rim × 4");
-    label_center(&c, 480, 482, 19, grey, "F of gold, angle between V and H from 0° to 90°");
-    label_draw(&c, 36, 387, 19, grey, "1");
-    label_draw(&c, 36, 461, 19, grey, "0");
+    const shade_target plot = canvas_inset(&c, 70, 376, 840, 80);
+    for (int x = 0; x < plot.width; x++) {
+        const shade_vec3 f = F(mesh_turn(0.25f * (float)x / (float)plot.width).x);
+        const float high = (float)(plot.height - 5);
+        canvas_fill(&plot, x, (int)(high * (1 - f.x)), 1, 5, shade_v3(.8f, .1f, .1f));
+        canvas_fill(&plot, x, (int)(high * (1 - f.y)), 1, 5, shade_v3(.1f, .8f, .1f));
+        canvas_fill(&plot, x, (int)(high * (1 - f.z)), 1, 5, shade_v3(.1f, .1f, .8f));
+    }
+    label_center(&c, 240, 352, 22, grey, "Blinn-Phong; a rim × 4");
+    label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V)); a rim × 4");
+    label_center(&c, 480, 482, 19, grey, "F of gold, 0 to 1; angle of V and H: 0° to 90°");
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "cook_torrance.ppm");
 }

@@ -52,11 +52,11 @@ static void panel(const canvas *c, int i, float theta)
     }
     sketch_ink(&s, black, 2);
     sketch_line(&s, shade_madd(far_end, -0.5f, across), shade_madd(far_end, 0.5f, across));
-    sketch_name(&s, shade_scale(L, 3.85f), 22, "1");
+    sketch_name(&s, shade_scale(L, 3.9f), 32, "1");
     sketch_arrow(&s, origin, shade_scale(N, 2));
-    sketch_name(&s, shade_v3(0.2f, 2, 0), 24, "N");
+    sketch_name(&s, shade_v3(theta > 0 ? 0.26f : 0.7f, 2, 0), 34, "N");
     sketch_arc(&s, origin, 1.4f, -theta, 0);
-    if (theta > 0) sketch_name(&s, shade_scale(sketch_direction(-theta / 2), 1.62f), 22, "θ");
+    if (theta > 0) sketch_name(&s, shade_scale(sketch_direction(-theta / 2), 1.68f), 34, "θ");
     sketch_ink(&s, shade_scale(shade_v3(1, 0.95f, 0.85f), light), 12);
     s.pen.cap = SHADE_CAP_BUTT;
     sketch_line(&s, shade_madd(begin, -0.09f, N), shade_madd(end, -0.09f, N));

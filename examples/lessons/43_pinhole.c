@@ -40,16 +40,15 @@ static void world(const canvas *c)
     for (int k = POSTS - 1; k >= 0; k--) {
         sketch_ink(&s, ink[k], 5);
         sketch_line(&s, drawn(depth[k], -top), drawn(depth[k], top));
-        sketch_ink(&s, ink[k], 9);
-        sketch_line(&s, drawn(depth[k], top), drawn(depth[k], top));
-        sketch_line(&s, drawn(-1.2f, -1.2f * top / depth[k]), drawn(-1.2f, -1.2f * top / depth[k]));
+        sketch_dot(&s, drawn(depth[k], top), 9);
+        sketch_dot(&s, drawn(-1.2f, -1.2f * top / depth[k]), 9);
         sketch_ink(&s, ink[k], 2);
         for (int end = -1; end <= 1; end += 2)
             sketch_line(&s, drawn(depth[k], top * (float)end),
                         drawn(-1.2f, -1.2f * top * (float)end / depth[k]));
     }
-    sketch_ink(&s, black, 9);
-    sketch_line(&s, drawn(0, 0), drawn(0, 0));
+    sketch_ink(&s, black, 2);
+    sketch_dot(&s, drawn(0, 0), 9);
     sketch_name(&s, drawn(0, 0.42f), 22, "COP");
 }
 

@@ -1,9 +1,8 @@
 /* 44_microfacets.c - what k_s and k_d stand for (Massey).  A smooth interface is a mirror: rays
    leave side by side.  A rough one is made of microfacets, each a mirror.  Tilted a little, they
-   spread the rays about R, the highlight, with a smaller n the rougher they are: glossy.  Tilted
-   every way they send light in all directions, UW's first picture of k_d.  So does pigment, its
-   second, which absorbs light and re-emits the rest in its own colour.  RMS of 20,000 rays.
-   Try 0.02f for the roughness 0.22f: the second surface becomes the first.
+   spread the rays about R: glossy, with a smaller n.  Tilted every way they send light in all
+   directions, UW's first picture of k_d.  So do grains of pigment, its second, which absorb light
+   and re-emit the rest in their colour.  RMS of 20,000 rays.  Try 0.02f for 0.22f: a mirror.
 
    cc -O2 -I. examples/lessons/44_microfacets.c -lm -o microfacets && ./microfacets */
 #define SHADE_IMPLEMENTATION
@@ -50,6 +49,7 @@ static void draw_ray(sketch *s, int k, shade_vec3 L, float roughness)
             float depth = i == 2 ? 0 : 0.4f + 0.3f * evenly(3 * k + i, 0.33f);
             grain = shade_v3(P.x + 0.2f * evenly(3 * k + i, 0.57f), -depth, 0);
             sketch_line(s, out, grain);
+            if (i < 2) sketch_dot(s, grain, 8);
             out = grain;
         }
     }

@@ -63,7 +63,7 @@ int main(int argc, char **argv)
         sketch s = sketch_new(&c, x, 215, UNIT);
         sketch_ink(&s, black, 3);
         sketch_arrow(&s, shade_v3(0, 0, 0), shade_scale(L, 0.7f));
-        sketch_name(&s, shade_scale(L, 0.82f), 24, "L");
+        sketch_name(&s, shade_v3(-0.13f, 0.47f, 0), 34, "L");
         label_center(&c, x, 412, 22, black,
                      i ? "normals of corners, interpolated" : "normals of sides");
         sprintf(text, "at most %.1f° off the circle's", off);

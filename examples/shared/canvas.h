@@ -62,6 +62,16 @@ static inline shade_target canvas_panel(const canvas *c, int x, int y, int width
     return t;
 }
 
+/* The same in front of all that is drawn there, black and with a frame of one pixel around it */
+static inline shade_target canvas_inset(const canvas *c, int x, int y, int width, int height)
+{
+    shade_target frame = canvas_panel(c, x - 1, y - 1, width + 2, height + 2);
+    shade_target inside = canvas_panel(c, x, y, width, height);
+    shade_clear(&frame, shade_v4(0.7f, 0.7f, 0.7f, 1), 1);
+    shade_clear(&inside, shade_v4(0, 0, 0, 1), 1);
+    return inside;
+}
+
 /* Clears depth to 1, and colour to a gradient from the top row to the bottom row. */
 static inline void canvas_gradient(const shade_target *target, shade_vec3 top, shade_vec3 bottom)
 {

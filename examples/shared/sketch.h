@@ -49,6 +49,14 @@ static inline void sketch_line(const sketch *s, shade_vec3 a, shade_vec3 b)
     shade_draw_lines(&s->c->target, ends, 2, &s->pen, NULL);
 }
 
+/* A dot in the ink of the sketch, so many pixels wide */
+static inline void sketch_dot(const sketch *s, shade_vec3 at, float width)
+{
+    sketch dot = *s;
+    dot.pen.width = width * (float)s->c->samples;
+    sketch_line(&dot, at, at);
+}
+
 static inline void sketch_dashes(const sketch *s, shade_vec3 a, shade_vec3 b)
 {
     float dash = 7 / ((float)s->unit * shade_distance(a, b));

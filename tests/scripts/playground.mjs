@@ -630,6 +630,28 @@ check('iteration three reads the same on every screen', read.size === 1 &&
         return wrong.slice(0, 4);
     });
     check('E by one addition, and by its formula', !sums.length, JSON.stringify(sums));
+    // what is interpolated: how bright the colour is that a step stores
+    await go(page, 'raster=1&count=2');
+    const stored = await page.evaluate(() => {
+        const wrong = [], ratio = [];
+        for (S.step = 1; S.step <= 150; S.step++) {
+            tellRaster();
+            const { t, x, y } = rasterStep(), pixel = new Uint8Array(wasm.memory.buffer, wasm.page_raster_pixels() + 4 * (16 * y + x), 4);
+            wasm.page_raster_run(S.step - 1);
+            const a = askRaster(t, x, y);
+            if (!a.covered || !a.passes || pixel[1] > 250) continue;
+            ratio.push([t, decode(pixel[1] / 255) / brightness(a)]);
+        }
+        for (const t of [0, 1]) {
+            const own = ratio.filter(([of]) => of === t).map(([, v]) => v);
+            if (own.length < 20 || Math.max(...own) / Math.min(...own) > 1.08) wrong.push([t, own.length, Math.min(...own), Math.max(...own)]);
+        }
+        S.step = 40, changed();
+        return wrong;
+    });
+    check('the colour is as bright as its corners, interpolated', !stored.length, JSON.stringify(stored));
+    check('which the numbers say', /1.5α.*of its colour/.test((await page.locator('#numbers').textContent()).replace(/\s/g, '')
+        .replace('ofitscolour', 'of its colour')));
     // what is foretold is asked before it is shown, and told right or wrong
     await go(page, SCENE);
     const told = await page.evaluate(() => {
@@ -759,6 +781,29 @@ check('iteration three reads the same on every screen', read.size === 1 &&
         check('beside the picture: ' + hash, dialog.x >= picture.x + picture.width - 1, [dialog, picture]);
         check('with its result in sight: ' + hash, result.y + result.height <= 768 && result.x + result.width <= 1367, result);
     }
+    // its vectors from the side: N and L in the plane of the picture, degrees beside them
+    for (const hash of ['turn=0', 'turn=0&model=1&n=5', 'turn=0&lamp=2', 'turn=0&p1=-3,1,-3&model=1', 'turn=0&model=2', 'turn=0&on1=0']) {
+        await go(page, hash);
+        await page.evaluate(() => $('#explanation').open || explain());
+        const { drawn, text, want, base, names } = await page.evaluate(() => {
+            const a = (probeMark(), answerAt(wasm.page_factors(0, S.lamp - 1))), degrees = v => Math.acos(v) * 180 / Math.PI;
+            const along = name => {
+                const line = document.querySelector(`#from-side .${name} line`);
+                return line && ['x', 'y'].map(n => line[n + '2'].baseVal.value - line[n + '1'].baseVal.value);
+            };
+            const [N, L] = [along('N'), along('L')];
+            return { drawn: L && Math.atan2(L[0] - 0, -L[1]) * 180 / Math.PI, text: $('#from-side').textContent, want: degrees(a.nl),
+                base: degrees(a.base), names: [...document.querySelectorAll('#from-side g')].map(g => g.getAttribute('class')).join(''), N };
+        });
+        if (/on1=0/.test(hash)) {
+            check('no light of a lamp that is off: ' + hash, drawn === null && /lamp 1 is off/.test(text), text);
+            continue;
+        }
+        check('N and L from the side: ' + hash, Math.abs(Math.abs(drawn) - want) < 0.5, [drawn, want]);
+        check('with its degrees: ' + hash, text.includes(`θ = ${Math.round(want)}°`) && (/model=2/.test(hash) ? names === 'NVL'
+            : text.includes(`${/model=1/.test(hash) ? 'φ' : 'ω'} = ${Math.round(base)}°`) && names === 'NVLH'), [text, names, want, base]);
+    }
+    await go(page, 'turn=0&p1=-3,1,-3&on2=0');
     check('a lamp that brings nothing is folded, and says why', await soon(async () =>
         /^Lamp 1 brings nothing here: .*=0$/.test((await page.locator('#lines summary').textContent()).replace(/\s/g, ' ')
             .replace(/ = /g, '='))), await page.locator('#lines').textContent());

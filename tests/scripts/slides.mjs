@@ -194,18 +194,28 @@ for (const name of decks) {
                     const part = slide.querySelector(selector);
                     return part && part.getBoundingClientRect();
                 };
-                for (const part of slide.querySelectorAll('h1, h2, p, li, pre, math, figure, .answer')) {
+                for (const part of slide.querySelectorAll('h1, h2, p, li, pre, math, figure, figcaption, .answer')) {
                     if (part.closest('.notes')) continue;
                     const { right, bottom } = part.getBoundingClientRect();
                     if (right > innerWidth + 1) say(part.tagName + ' is wider than the screen');
                     if (!upright && bottom > innerHeight - letter * 1.4) say(part.tagName + ' reaches into the row below');
                 }
+                const [number, tools] = ['.slide-number', '.tools.low'].map(what => document.querySelector(what).getBoundingClientRect());
+                if (number.right > tools.left + 1) say('the number runs into the buttons');
                 const [equation, statement, figure] = ['.equation', '.statement', 'figure'].map(box);
                 const row = slide.querySelector('.equation');
                 if (row && !upright && row.scrollWidth > row.clientWidth + 1) say('the equation is cut');
                 if (statement && equation && !upright && statement.top < equation.bottom - letter / 4 &&
                     statement.bottom > equation.top + letter / 4)
                     say('the statement runs into the equation');
+                const words = slide.querySelector('.statement');
+                if (words && !upright && words.scrollHeight > words.clientHeight + letter / 2) say('the statement is higher than its place');
+                for (const code of slide.querySelectorAll('.statement pre code')) {
+                    const lines = code.textContent.trimEnd().split('\n').length, all = document.createRange();
+                    all.selectNodeContents(code);
+                    const rows = new Set([...all.getClientRects()].map(box => Math.round(box.top))).size;
+                    if (!upright && rows > lines) say(`code of ${lines} lines stands in ${rows}`);
+                }
                 if (figure && !upright && figure.height < 0.3 * innerHeight) say('the picture is small');
                 if (slide.querySelectorAll('.equation math').length > 1) say('more than one equation');
                 // all letters but indices, and the tools' signs
@@ -213,6 +223,13 @@ for (const name of decks) {
                 while (!upright && nodes.nextNode()) {
                     const of = nodes.currentNode.parentElement;
                     if (!nodes.currentNode.textContent.trim() || of.closest('.notes, math')) continue;
+                    const place = document.createRange();
+                    place.selectNodeContents(nodes.currentNode);
+                    if (place.getBoundingClientRect().right > innerWidth + 1) say('words are cut');
+                    const block = of.closest('p, li');
+                    place.setEnd(nodes.currentNode, 1);
+                    if (block && !of.closest('code') && /^[,.;:)]/.test(place.toString()) && place.getBoundingClientRect().left <
+                        block.getBoundingClientRect().left + 2) say('a line begins with ' + place.toString());
                     if (parseFloat(getComputedStyle(of).fontSize) * (of.closest('pre, code') ? 0.729 : 0.7) <
                         0.035 * innerHeight) say('letters of ' + getComputedStyle(of).fontSize);
                 }
@@ -302,8 +319,19 @@ for (const name of decks) {
     await page.keyboard.press('z'), await page.keyboard.press('o');
     check('O: all slides', await page.evaluate(() => document.querySelectorAll('#overview[open] button').length ===
         Reveal.getSlides().length));
+    check('each with its name in words', await page.evaluate(() => [...document.querySelectorAll('#overview button')].every(button =>
+        /^\d+ [^\\{}]+$/.test(button.textContent))));
     check('each with its picture', await soon(() => page.evaluate(() => [...document.querySelectorAll(
         '#overview button')].every(button => !button.draws || button.firstChild.src.startsWith('data:')))));
+    for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080]]) {
+        await page.setViewportSize({ width, height });
+        check(`all of them on the screen: ${width} x ${height}`, await soon(() => page.evaluate(() => [...document.querySelectorAll(
+            '#overview button')].every(button => {
+            const { left, right, bottom } = button.getBoundingClientRect();
+            return left >= 0 && right <= innerWidth + 1 && bottom <= innerHeight + 1;
+        }))), await page.evaluate(() => [document.querySelector('#overview').scrollHeight, document.querySelector('#overview').scrollWidth]));
+    }
+    await page.setViewportSize({ width: 1024, height: 768 });
     await page.keyboard.press('o');
     check('the address names the slide', /#\/\d+/.test(page.url()), page.url());
 
@@ -392,6 +420,46 @@ for (const name of decks) {
         return wrong;
     });
     check('values in the plane are cosines', !wrong.length, wrong.slice(0, 5));
+    // no letter lies on a vector, on another letter or beyond the picture, in any figure of the decks
+    const planes = [...new Set(moving.flatMap(({ words }) => words.map(({ hash }) => hash)).filter(hash => /plane=1/.test(hash)))];
+    check('figures of vectors in the decks', planes.length > 15, planes.length);
+    await page.setViewportSize({ width: 520, height: 360 });
+    const lying = await page.evaluate(planes => {
+        document.documentElement.classList.add('slide');
+        document.documentElement.style.fontSize = '40px';
+        const wrong = [];
+        for (const hash of planes) {
+            history.replaceState(null, '', '#' + hash), readAddress();
+            refresh(), refresh();               // once more, beside the controls that it has
+            const whole = $('#plane').getBoundingClientRect();
+            const texts = [...document.querySelectorAll('#plane text')].map(node => {
+                const { left, right, top, bottom } = node.getBoundingClientRect(), tall = bottom - top;
+                return { node, left: left + 1, right: right - 1, top: top + 0.25 * tall, bottom: bottom - 0.3 * tall };
+            });
+            const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+            texts.forEach((a, i) => {
+                const say = what => wrong.push(`${hash.match(/plane.*/)}: ${a.node.textContent} ${what}`);
+                if (a.left < whole.left || a.right > whole.right || a.top < whole.top || a.bottom > whole.bottom) say('is cut');
+                for (const b of texts.slice(i + 1)) if (meet(a, b)) say('lies on ' + b.node.textContent);
+                for (const line of document.querySelectorAll('#plane g line')) {
+                    const m = line.getScreenCTM(), ends = [[line.x1, line.y1], [line.x2, line.y2]].map(([x, y]) =>
+                        new DOMPoint(x.baseVal.value, y.baseVal.value).matrixTransform(m));
+                    for (let k = 0; k <= 60; k++) {
+                        const [x, y] = ['x', 'y'].map(n => ends[0][n] + (ends[1][n] - ends[0][n]) * k / 60);
+                        if (x > a.left && x < a.right && y > a.top && y < a.bottom) { say('lies on ' + line.parentNode.textContent); break; }
+                    }
+                }
+            });
+        }
+        document.documentElement.classList.remove('slide');
+        document.documentElement.style.fontSize = '';
+        return wrong;
+    }, planes);
+    check('letters of vectors and angles lie on nothing', !lying.length, lying);
+    await page.setViewportSize({ width: 1024, height: 768 });
+    await page.evaluate(() => {
+        history.replaceState(null, '', '#bare&plane=1&turn=0&letters=uw&model=1&n=7'), readAddress(), refresh();
+    });
     const text = () => page.evaluate(() => document.querySelector('#plane').textContent);
     const tip = await page.locator('#plane .L polygon').boundingBox();
     const before = await text();

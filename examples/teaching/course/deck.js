@@ -18,8 +18,11 @@ function numberOf(slide) {
     return `${all.indexOf(slide) + 1} / ${all.length}${place ? ' · ' + place : ''}`;
 }
 // What it is called, in words: of a formula its letters
-const nameOf = slide => [...slide.querySelector('h1, h2').childNodes].map(node => node.nodeName === 'math'
-    ? node.querySelector('semantics').firstChild.textContent : node.textContent).join('').trim();
+function nameOf(slide) {
+    const title = slide.querySelector('h1, h2').cloneNode(true);
+    for (const tex of title.querySelectorAll('annotation')) tex.remove();
+    return title.textContent.trim();
+}
 
 function begin() {
     Reveal.initialize({
@@ -152,7 +155,7 @@ async function all() {
         button.draws = live && live.dataset.first.split('#')[1];
         list.append(make('li', {}, button));
     });
-    overview.replaceChildren(...[...parts].map(([part, list]) => make('div', {}, make('h2', {}, part), list)));
+    overview.replaceChildren(make('div', {}, ...[...parts].flatMap(([part, list]) => [make('h2', {}, part), list])));
     overview.showModal(), place();
     (overview.querySelector('[aria-current]') || overview).scrollIntoView({ block: 'center' });
     overview.querySelector('[aria-current]').focus();

@@ -31,7 +31,7 @@ local function spoken(inlines)
         :gsub('\\,', ' '):gsub('[\\{}]', ''):gsub('^ +', ''))
 end
 -- MathML of pandoc, in which each term of k_e, k_a, k_d or k_s has the class of its colour, to the next sign,
--- comma or bracket; fences grow, as MathML Core wants it.
+-- comma or bracket; fences grow and bars are borders, as MathML Core wants it.
 local FENCES = { ['+'] = true, ['='] = true, [','] = true, [']'] = true, ['}'] = true, ['<'] = true }
 local function term_end(text, at)
     local depth = 0
@@ -61,6 +61,9 @@ local function mathml(math)
     if not body then return nil end
     body = body:gsub('minsize="[%d.]+" maxsize="[%d.]+" stretchy="false"', 'minsize="2.4em" stretchy="true" symmetric="true"')
     body = body:gsub('<mtable>', '<mtable displaystyle="true">')
+    body = body:gsub('<mover>(.-)<mo accent="true">¯</mo></mover>', '<mrow class="over">%1</mrow>')
+    if body:match('∝') then body = body:gsub('(</?)mtext', '%1mi') end          -- words beside a sign take its room
+    body = body:gsub('<mo>∝</mo>', '<mo lspace="0.28em" rspace="0.28em">∝</mo>')
     return pandoc.RawInline('html', coloured(body) .. note)
 end
 
@@ -295,7 +298,8 @@ local function glued(inlines)
     local out = pandoc.List()
     for _, inline in ipairs(inlines) do
         local before = out[#out]
-        if before and before.t == 'Math' and inline.t == 'Str' and inline.text:match('^[,.;:)?]') then
+        local formula = before and (before.t == 'Link' and #before.content == 1 and before.content[1] or before)
+        if formula and formula.t == 'Math' and inline.t == 'Str' and inline.text:match('^[,.;:)?]') then
             out[#out] = pandoc.Span({ before, inline }, { class = 'glued' })
         else out:insert(inline) end
     end

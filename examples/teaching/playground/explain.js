@@ -143,7 +143,7 @@ function pointLines(k, q, panel, used, out) {
         const brings = [b.lampAmbient, b.lampDiffuse, b.lampSpecular].some(rgb => !dark(rgb));
         if (!brings && !gooch) for (const line of out.slice(from)) line.idle = j;
         for (const line of out.slice(from))
-            if (/^(ambient|diffuse|specular)_/.test(line.c)) parts.push([line.c, line.tex, line.value]);
+            if (/^(ambient|diffuse|specular)_/.test(line.c)) parts.push([line.c, line.tex, line.value, line.idle]);
         if (gooch && used & 4) {
             const tone = ['tone' + (q && '_' + q), `\\text{tone}${q && '_' + q}`];
             out.push(lineOf(tone[0], tone[1], `\\text{cool} + \\frac{1 + ${N[1]} \\cdot \\mathbf{L}_{${j}${q && ',' + q}}}{2} ` +
@@ -153,8 +153,9 @@ function pointLines(k, q, panel, used, out) {
         }
     }
     const value = [0, 1, 2].map(c => parts.reduce((all, part) => all + part[2][c], 0));
-    out.push(lineOf(sum[0], sum[1], parts.map(part => part[1]).join(' + ') || '0',
-        parts.map(part => triad(part[2])).join(' + '),
+    const brought = parts.filter(part => !part[3]);      // what folded lamps add is 0
+    out.push(lineOf(sum[0], sum[1], brought.map(part => part[1]).join(' + ') || '0',
+        brought.map(part => triad(part[2])).join(' + '),
         parts.map(part => part[0]).reduce((all, part) => all ? `add(${all}, ${part})` : part, '') || 'zero', value));
     return sum;
 }
@@ -242,6 +243,7 @@ function explain() {
             setTimeout(() => { $(id).textContent = label; }, 1500);
         };
     dialog.show();
+    showFromSide(found);
     dialog.querySelector('form').lastElementChild.focus();
 }
 // Formula, numbers and value of a line may stand below each other. Lamps that bring nothing are folded; the
@@ -266,10 +268,38 @@ function writeLines(found) {
     result.className = 'result';
     $('#lines').replaceChildren(...nodes, result);
 }
+// The vectors at the point as one sees them along the surface, across N and L: both have their whole length,
+// and so has R; V and H are shorter as they lean out of the picture.
+function showFromSide({ panel }) {
+    const svg = $('#from-side'), rem = parseFloat(getComputedStyle(svg).fontSize), on = S['on' + S.lamp];
+    const a = (probeMark(), answerAt(wasm.page_factors(0, S.lamp - 1))), lobe = on && usedTerms() & 8;
+    const inner = (u, v) => u.reduce((sum, w, i) => sum + w * v[i], 0), N = a.unitN, leads = on ? a.unitL : a.unitV;
+    const across = minus(leads, N.map(v => v * inner(N, leads))), scale = Math.hypot(...across) || 1;
+    const vectors = [['N', N], ['V', a.unitV], ...(on ? [['L', a.unitL]] : []), ...(lobe ? [['H', a.unitH]] : [])].map(([css, v]) => {
+        const [X, Y] = [-inner(v, across) / scale, -inner(v, N)];
+        return { css, X, Y, long: Math.hypot(X, Y), angle: Math.atan2(X, -Y) * 180 / Math.PI };
+    });
+    // of a vector's length what is drawn below the surface
+    const sinks = Math.max(0, ...vectors.map(({ Y }) => Y)), far = (svg.clientHeight - 2.8 * rem) / (1 + sinks);
+    const x = far + 1.5 * rem, y = far + 1.6 * rem, place = setApart(vectors.map(({ angle }) => angle), 70 * rem / far);
+    const letter = css => bare(`\\mathbf{${css === 'H' && panel.model === 1 ? 'R' : css}}`);
+    const degrees = v => Math.round(Math.acos(limit(v, -1, 1)) * 180 / Math.PI), dot = (u, v) => `${letter(u)} · ${letter(v)}`;
+    const lines = !on ? [`lamp ${S.lamp} is off`] : [`lamp ${S.lamp}`, `${bare('\\theta')} = ${degrees(a.nl)}°`, `${dot('N', 'L')} = ${figure(a.nl)}`,
+        ...(!lobe ? [] : [`${bare(panel.model === 1 ? '\\phi' : '\\omega')} = ${degrees(a.base)}°`,
+            `${panel.model === 1 ? dot('H', 'V') : dot('N', 'H')} = ${figure(a.base)}`])];
+    const arc = on && turned(degrees(a.nl), 0.42 * far);
+    svg.innerHTML = `<line class="surface" x2="${2 * x}" y1="${y}" y2="${y}"/>` +
+        (on ? `<path class="arc" d="M${x} ${y - 0.42 * far}A${0.42 * far} ${0.42 * far} 0 0 0 ${x - arc[0]} ${y + arc[1]}"/>` : '') +
+        vectors.map(({ css, X, Y, long, angle }) => {
+            const [tx, ty] = turned(place.get(angle), long * far + 0.75 * rem);
+            return `<g class="${css}"><line x1="${x}" y1="${y}" x2="${x + far * X}" y2="${y + far * Y}"/>` +
+                head(css, far * X, far * Y, x + far * X, y + far * Y) + `<text x="${x + tx}" y="${y + ty}">${letter(css)}</text></g>`;
+        }).join('') + lines.map((text, i) => `<text class="values" x="${2 * x + rem}" y="${(1 + 1.5 * i) * rem}">${text.replace('= -', '= −')}</text>`).join('');
+}
 // While it is open it follows the point and the controls.
 function showExplanation() {
     const found = $('#explanation').open && explanation();
-    if (found) writeLines(found);
+    if (found) writeLines(found), showFromSide(found);
 }
 function buildExplain() {
     $('#models').append(make('button', { type: 'button', id: 'explain', 'data-name': 'explain',

@@ -22,8 +22,8 @@ const FIELDS = {
     mark: [-20, 20, ...MARK], part: [0, 1, 0], panel: [0, 2, 1],
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
-    // the vectors in a plane: degrees from N to L and to V; rays: 1 for R, 2 for H
-    plane: [0, 1, 0], toL: [-180, 180, -40], toV: [-180, 180, 20], rays: [0, 3, 3],
+    // the vectors in a plane: degrees from N to L and to V; rays: 1 for R, 2 for H, 4 for a bent surface, 8 for -R
+    plane: [0, 1, 0], toL: [-180, 180, -40], toV: [-180, 180, 20], rays: [0, 15, 3],
     simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
     // the stepper of the rasterizer; a triangle is three corners of x, y and w
     raster: [0, 1, 0], order: [0, 1, 0], step: [0, 576, 0], count: [1, 3, 2], hand: [1, 3, 1],
@@ -369,7 +369,7 @@ function buildControls() {
             slider(of('c'), 'c', 'quadratic attenuation'),
             slider(of('beta'), '\\beta', 'cutoff in degrees, 180 for no cone', { step: 1 }),
             slider(of('e'), 'e', 'exponent of the cone', { curve: 2 })),
-        group('Shading', choice('shading', 'Shading', ['By fragment', 'By vertex', 'By face'])),
+        group('Shading by', choice('shading', 'Shading by', ['Pixel', 'Vertex', 'Face'])),
         group('Flags', flags));
     controls.append($('#links').content);
     buildEquation();
@@ -509,17 +509,17 @@ function head(name, dx, dy, X, Y, large = 1) {
 function showVectors(answer, last) {
     const svg = $('#arrows'), ratio = canvas.clientWidth / canvas.width;
     const at = p => p.map(v => (v * ratio).toFixed(1));
-    const large = Math.max(1, innerWidth / (S.lecture ? 1400 : 1920));
+    const large = Math.max(1, innerWidth / (S.lecture ? 1400 : 1920)), rem = parseFloat(getComputedStyle(svg).fontSize);
     let html = '';
     if (answer.hit) {
         const [x, y] = at(answer.point);
         if (S.vectors && !S.view) for (const name of ['V', 'H', 'L', 'N']) {
-            const [X, Y] = at(answer[name]);
-            if (name === 'L' && !S['on' + S.lamp]) continue;
-            const label = Math.hypot(X - x, Y - y) < 20 ? '' : bare(`\\mathbf{${name === 'H' ? last : name}}`);
-            html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/>` +
-                head(name, X - x, Y - y, X, Y, large) + '<text ' +
-                `x="${X}" y="${Y}" dx="${name === 'H' ? -22 : 6}" dy="-4">${label}</text></g>`;
+            const [X, Y] = at(answer[name]), far = Math.hypot(X - x, Y - y);
+            if (name === 'L' && !S['on' + S.lamp] || name === 'H' && !(usedTerms() & 8)) continue;
+            const label = far < 20 ? '' : bare(`\\mathbf{${name === 'H' ? last : name}}`);
+            const [tx, ty] = [X - x, Y - y].map(v => 0.5 * rem * v / far);
+            html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/>` + head(name, X - x, Y - y, X, Y, large) +
+                (label && `<text x="${X}" y="${Y}" dx="${tx}" dy="${ty}">${label}</text>`) + '</g>';
         }
         html += `<circle cx="${x}" cy="${y}" r="${4 * large}"/>`;
     }

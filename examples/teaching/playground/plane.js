@@ -1,35 +1,67 @@
-// plane.js - the vectors at a point in one plane: L and V are dragged, R and H follow, angles are arcs with
-// their degrees, and the lobe says how bright the point is from each side. Values are the module's.
+// plane.js - the vectors at a point in one plane: L and V are dragged, R and H follow, angles are arcs, their
+// degrees and cosines stand below, and the lobe says how bright the point is from each side. Values are the module's.
 
 const turned = (angle, far) => [far * Math.sin(angle * Math.PI / 180), -far * Math.cos(angle * Math.PI / 180)];
 const planeAt = (toL, toV, model) => answerAt(wasm.page_plane(toL, toV, model));
 const degrees = ([x, y]) => Math.atan2(x, y) * 180 / Math.PI;
-
+// Angles, each with one beside it that is so far from its neighbours
+function setApart(angles, apart) {
+    const from = [...angles].sort((a, b) => a - b), to = [...from];
+    for (let round = 0; round < 40; round++) for (let i = 1; i < to.length; i++) {
+        const short = (apart - to[i] + to[i - 1]) / 2;
+        if (short > 0) to[i - 1] -= short, to[i] += short;
+    }
+    return new Map(from.map((angle, i) => [angle, to[i]]));
+}
 function showPlane() {
     document.body.classList.toggle('plane', !!S.plane);
     if (!S.plane) return;
     const svg = $('#plane'), wide = svg.clientWidth, tall = svg.clientHeight, rem = parseFloat(getComputedStyle(svg).fontSize);
-    // the values stand in the corner or, where it is narrow, below
-    const high = Math.max(tall - 2.4 * rem, 1), corner = wide > 1.5 * high + 13 * rem;
-    const far = Math.max(Math.min(wide / 2 - 1.4 * rem, corner ? high : high - 2.2 * rem), 1), x = wide / 2;
-    const y = (tall + far + (corner ? 1 : -1.4) * rem) / 2;
     const by = { phong: planeAt(S.toL, S.toV, 1), blinn: planeAt(S.toL, S.toV, 0) };
     const [toR, toH] = [by.phong, by.blinn].map(answer => degrees(answer.unitH)), blinn = S.model !== 1;
     const shown = blinn ? by.blinn : by.phong, lit = shown.gate, seen = Math.abs(S.toV) < 90;
+    // where L = -V there is no H
+    const mirror = S.rays & 1, slip = S.rays & 8, half = S.rays & 2 && Math.hypot(...by.blinn.unitH) > 0.5;
+    const name = letter => bare(`\\mathbf{${letter}}`), dot = (a, b) => `${name(a)} · ${name(b)}`;
+
+    // what the values are; they stand in the corner or, where it is narrow, below
+    const angle = (sign, value) => `${bare(sign)} = ${Math.round(Math.abs(value))}°&emsp;`;
+    const raised = `<tspan dy="-.5em" font-size="75%">${bare('n')}</tspan>`;
+    const lobed = (factor, { base, power }, own) => S.terms & 8 && own ? `(${factor})${raised}<tspan dy=".38em"> = ${figure(power)}</tspan>`
+        : `${factor} = ${figure(base)}`;
+    const line = [`${angle('\\theta', S.toL)}${dot('N', 'L')} = ${figure(shown.nl)}`];
+    if (!lit) line.push(course && course !== 'uw' ? `max(0, ${dot('N', 'L')}) = 0` : 'B = 0');
+    else if (!seen) line.push(`${name('V')} is behind the surface`);
+    else {
+        if (mirror) line.push(angle('\\phi', toR - S.toV) + lobed(dot('R', 'V'), by.phong, !blinn));
+        if (half) line.push(angle('\\omega', toH) + lobed(dot('N', 'H'), by.blinn, blinn));
+    }
+    const high = Math.max(tall - 2.4 * rem, 1), corner = wide > 1.5 * high + 13 * rem;
+    const values = corner ? rem : (0.3 + 1.3 * line.length) * rem;
+    // of a vector's length what is drawn below the surface
+    const sinks = Math.max(0, ...[S.toL, S.toV, ...(slip ? [toR + 180] : [])].map(v => -Math.cos(v * Math.PI / 180)));
+    const far = Math.max(Math.min(wide / 2 - 1.4 * rem, (tall - values - 1.4 * rem - (S.rays & 4 && 0.14 * wide)) / (1 + sinks) - 0.8 * rem * !!sinks), 1);
+    const deep = Math.max(sinks && sinks * far + 0.8 * rem, S.rays & 4 && 0.14 * wide), x = wide / 2, y = (tall + far + 1.4 * rem - values - deep) / 2;
     const at = (angle, length) => turned(angle, length).map((v, i) => (v + [x, y][i]).toFixed(1));
-    const name = letter => bare(`\\mathbf{${letter}}`), size = value => Math.round(Math.abs(value)) + '°';
-    const ray = (letter, angle, css, grip = '') => {
-        const [X, Y] = turned(angle, far), [tx, ty] = at(angle, far + 0.75 * rem);
+
+    const drawn = [0, S.toL, S.toV, ...(mirror ? [toR] : []), ...(half ? [toH] : []), ...(slip ? [toR + 180] : [])];
+    // a letter that would touch another stands farther to its side
+    const place = setApart(drawn, 1.35 * rem / (far + 0.75 * rem) * 180 / Math.PI);
+    const ray = (letter, angle, css, grip = '', sign = '') => {
+        const [X, Y] = turned(angle, far), [tx, ty] = at(place.get(angle), far + 0.75 * rem);
         return `<g class="${css}"${grip}>${grip && `<circle class="grip" cx="${x + X}" cy="${y + Y}" r="${1.2 * rem}"/>`}` +
             `<line x1="${x}" y1="${y}" x2="${x + X * 0.97}" y2="${y + Y * 0.97}"/>` +
-            head(css, X, Y, x + X, y + Y, rem / 14) + `<text x="${tx}" y="${ty}">${name(letter)}</text></g>`;
+            head(css, X, Y, x + X, y + Y, rem / 14) + `<text x="${tx}" y="${ty}">${sign}${name(letter)}</text></g>`;
     };
-    // an arc between two directions, its letter and degrees in its middle
+    // an arc between two directions; its letter stands in the widest gap between vectors, if that has room
     const arc = (from, to, share, sign, css) => {
-        const [ax, ay] = at(from, share * far), [bx, by] = at(to, share * far), middle = (from + to) / 2;
-        const [tx, ty] = at(middle, share * far + 1.1 * rem);
+        const [ax, ay] = at(from, share * far), [bx, by] = at(to, share * far), [low, high] = [from, to].sort((a, b) => a - b);
+        const stops = drawn.filter(v => v >= low && v <= high).sort((a, b) => a - b);
+        const [gap, middle] = stops.slice(1).map((v, i) => [v - stops[i], (v + stops[i]) / 2]).sort((a, b) => b[0] - a[0])[0] || [0, 0];
+        const away = Math.max(share * far + 0.6 * rem, 0.5 * rem / Math.sin(Math.min(gap, 180) * Math.PI / 360));
+        const [tx, ty] = at(middle, away);
         return `<g class="${css}"><path class="arc" d="M${ax} ${ay}A${share * far} ${share * far} 0 0 ${+(to > from)} ${bx} ${by}"/>` +
-            (sign ? `<text class="degrees" x="${tx}" y="${ty}">${bare(sign)} ${size(to - from)}</text>` : '') + '</g>';
+            (sign && away < 0.95 * far ? `<text class="degrees" x="${tx}" y="${ty}">${bare(sign)}</text>` : '') + '</g>';
     };
     // iteration three without colours: the light that leaves toward each side; a term that is alone has k = 1
     const k = bit => S.terms & bit && (S.terms & 12 ^ bit ? luminance(bit === 4 ? S.kd : S.ks) : 1);
@@ -44,23 +76,19 @@ function showPlane() {
             lobe += `<circle class="value" cx="${cx}" cy="${cy}" r="${rem / 5}"/>`;
         }
     }
-    const [mirror, half] = [S.rays & 1, S.rays & 2], slip = (angle, way) => ` tabindex="0" role="slider" data-to="${way}" ` +
+    const grip = (angle, way) => ` tabindex="0" role="slider" data-to="${way}" ` +
         `aria-label="${way[2]}, degrees from N" aria-valuemin="-180" aria-valuemax="180" aria-valuenow="${Math.round(angle)}"`;
-    const dot = (a, b) => `${name(a)} · ${name(b)}`, raised = `<tspan dy="-.5em" font-size="75%">${bare('n')}</tspan>`;
-    const line = [`${dot('N', 'L')} = ${figure(shown.nl)}`];
-    if (!lit) line.push('B = 0');
-    else if (!seen) line.push(`${name('V')} is behind the surface`);
-    else if (S.rays & 3 && !(S.terms & 8)) line.push(`${blinn ? dot('N', 'H') : dot('R', 'V')} = ${figure(shown.base)}`);
-    else if (S.rays & 3) line.push(`(${blinn ? dot('N', 'H') : dot('R', 'V')})${raised}<tspan dy=".38em"> = ${figure(shown.power)}</tspan>`);
-    svg.innerHTML = `<rect class="below" x="0" y="${y}" width="${wide}" height="${0.5 * rem}"/>` +
+    svg.innerHTML = (S.rays & 4 ? `<circle class="below bent" cx="${x}" cy="${y + wide}" r="${wide}"/>` +
+            `<text class="degrees tangent" x="0" y="${0.7 * rem}">tangent</text><text class="degrees tangent" x="0" y="${1.9 * rem}">plane</text>`
+        : `<rect class="below" x="0" y="${y}" width="${wide}" height="${0.5 * rem}"/>`) +
         `<line class="surface" x2="${wide}" y1="${y}" y2="${y}"/>` +
         `<clipPath id="above"><rect width="${wide}" height="${Math.max(y, 0)}"/></clipPath><g clip-path="url(#above)" class="${S.terms & 8 ? 'H' : 'N'}">${lobe}</g>` +
         arc(0, S.toL, 0.42, '\\theta', 'L') + (mirror ? arc(0, toR, 0.42, '', 'L') + arc(toR, S.toV, 0.62, '\\phi', 'H') : '') +
         (half && lit ? arc(0, toH, 0.8, '\\omega', 'H') : '') +
-        ray('N', 0, 'N') + (mirror ? ray('R', toR, 'H') : '') + (half ? ray('H', toH, 'H') : '') +
-        ray('V', S.toV, 'V', slip(S.toV, 'toV')) + ray('L', S.toL, 'L', slip(S.toL, 'toL')) +
+        ray('N', 0, 'N') + (mirror ? ray('R', toR, 'H') : '') + (half ? ray('H', toH, 'H') : '') + (slip ? ray('R', toR + 180, 'H', '', '−') : '') +
+        ray('V', S.toV, 'V', grip(S.toV, 'toV')) + ray('L', S.toL, 'L', grip(S.toL, 'toL')) +
         line.map((text, i) => `<text class="values ${corner ? 'corner' : ''}" x="${corner ? wide : x}" ` +
-            `y="${(corner ? 0.8 : y / rem + 1.1) * rem + 1.3 * i * rem}">${text}</text>`).join('');
+            `y="${(corner ? 0.8 * rem : y + deep + 1.1 * rem) + 1.3 * i * rem}">${text.replace(/= -/, '= −')}</text>`).join('');
     svg.dataset.centre = [x, y];
 }
 function buildPlane() {

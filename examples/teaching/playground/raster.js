@@ -15,9 +15,12 @@ const SCENES = {
     Crossing: [[1, 1, 2, 3, 11, 2, 14, 5, 6], [15, 1, 2, 2, 6.5, 6, 13, 11, 2]],
     Perspective: [[1, 11, 1, 15, 11, 1, 8, 1, 9]],
     Slivers: [[1, 1, 3, 15, 2, 3, 15, 3, 3], [1, 11, 3, 15, 3, 3, 15, 3.5, 3]] };
+// how bright a triangle's colour is at its corners (raster_fragment of raster.h), interpolated between them
+const BRIGHT = [1.5, 0.7, 0.2];
 const INKS = ['E', 'F', 'G'];           // edges are E_0 E_1 E_2; these name their colours
 
 let running = 0, cellFrom = '', rasterSteps = 0;
+let tabbed = true;                      // keys belong to a control that was reached by Tab, not to one that was clicked
 const triangles = () => Array.from({ length: S.count }, (_, t) => t);
 const corners = t => S['t' + (t + 1)];
 
@@ -106,6 +109,7 @@ function edgeFormula(t, k, { x, y }) {
     const [X, Y, U, V] = [c[i], c[i + 1], c[j], c[j + 1]].map(short);
     return a.area ? mathml(`E_${k} = (${U} - ${X})(${y + 0.5} - ${Y}) - (${V} - ${Y})(${x + 0.5} - ${X}) = ${short(a.edge[k])}`) : '';
 }
+const brightness = a => a.weight.reduce((sum, w, k) => sum + w * BRIGHT[k], 0);
 function edgeText(a, k, t, cell) {
     const e = a.edge[k], sign = e > 0 ? '+' : e < 0 ? '−' : a.owns[k] ? '0, top or left' : '0, neither top nor left';
     const good = e > 0 || (e === 0 && a.owns[k]);
@@ -127,6 +131,8 @@ function showNumbers() {
         row('inside', a => td(a.covered ? '<b>yes</b>' : 'no')) +
         row(mathml('E / \\sum E'), covered(a => three(a.share))) +
         row(mathml('\\alpha\\,\\beta\\,\\gamma'), covered(a => three(a.weight))) +
+        row(mathml(`${short(BRIGHT[0])}\\alpha + ${short(BRIGHT[1])}\\beta + ${short(BRIGHT[2])}\\gamma`),
+            covered(a => `${toPlaces(brightness(a), 3)} <small>of its colour</small>`)) +
         row(mathml('1 / w'), covered(a => toPlaces(a.rw))) +
         row(mathml('z'), (a, t) => td(a.covered ? toPlaces(a.z) + nextPixel(t, cell, a => a.covered ? a.z : null) : '–')) +
         row('depth before', (a, t) => td(toPlaces(before(a, t)))) +
@@ -292,15 +298,13 @@ function buildRaster() {
     for (const [id, on] of [['#stepper', 1], ['#to-light', 0]])
         $(id).addEventListener('click', () => { S.raster = on, changed(); });
     addEventListener('keydown', rasterKey);
-    // what a finger or a mouse has let go of leaves keys to the steps
-    $('#raster').addEventListener('pointerup', ({ target }) => {
-        if (target.closest('button, input, label')) setTimeout(() => document.activeElement.blur());
-    });
+    addEventListener('pointerdown', () => { tabbed = false; }, true);
     shown.push(showRaster);
 }
 function rasterKey(event) {
     if (!S.raster || modified(event)) return;
-    const own = event.target.closest?.('button, input, a, .corner'), { key } = event;
+    if (event.key === 'Tab') tabbed = true;
+    const own = tabbed && event.target.closest?.('button, input, a, .corner'), { key } = event;
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
     if (key === 'Escape' && !S.bare) S.raster = 0, changed();
     else if (own) return;
