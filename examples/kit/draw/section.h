@@ -5,7 +5,7 @@
    outline.  The cut is filled in rows along the lines of the hatch, between the heights at which
    pieces of the outline begin and end: in a row no two pieces cross, and the part lies where they
    wind around a point.  Open or ill-turned meshes are filled between every second pair of
-   crossings. */
+   crossings, and a line says so. */
 #ifndef MODEL_SECTION_H
 #define MODEL_SECTION_H
 
@@ -110,7 +110,6 @@ static inline void section_outline(section *s, uint32_t from, uint32_t to)
     if (s->failed) return;
     section_flatten(s, from, e.low);
     section_flatten(s, to, e.high);
-    if (!(e.low[1] < e.high[1]) && !(e.high[1] < e.low[1])) return;
     if (e.low[1] > e.high[1]) {
         e.way = -1;
         section_flatten(s, to, e.low);
@@ -213,6 +212,35 @@ static inline double section_at(const section_edge *e, double height)
     const double t = (height - e->low[1]) / (e->high[1] - e->low[1]);
     if (t >= 1) return e->high[0];
     return t > 0 ? e->low[0] + (e->high[0] - e->low[0]) * t : e->low[0];
+}
+
+/* How far the outline is open along a line through the plane.  Where it is closed each of its parts
+   ends where another begins, so that ends and beginnings in the order of the line are the same.
+   Huge: out of memory */
+static inline double section_gap(const section *s, double x, double y)
+{
+    const size_t n = s->edges;
+    double *at = (double *)malloc((2 * n + 1) * sizeof *at), sum = 0;
+    if (!at) return HUGE_VAL;
+    for (size_t i = 0; i < n; i++) {
+        const section_edge *e = &s->edge[i];
+        const size_t low = e->way > 0 ? i : n + i, high = e->way > 0 ? n + i : i;
+        at[low] = x * e->low[0] + y * e->low[1];
+        at[high] = x * e->high[0] + y * e->high[1];
+    }
+    qsort(at, n, sizeof *at, section_number);
+    qsort(at + n, n, sizeof *at, section_number);
+    for (size_t i = 0; i < n; i++) sum += fabs(at[i] - at[n + i]);
+    free(at);
+    return sum;
+}
+
+/* 1: the outline is open by more than a thousandth of the model, and than what rounding makes of
+   edges that meet in the middle of others.  The lines are along the sides of few parts. */
+static inline int section_is_open(const section *s, double extent)
+{
+    const double least = (1e-3 + 3e-7 * (double)s->edges) * extent;
+    return section_gap(s, 1, 0.382) > least || section_gap(s, -0.382, 1) > least;
 }
 
 /* How many rows the edges cross */
@@ -422,8 +450,11 @@ static inline int section_cut(section *s, model *m, const model_options *o)
     int failed = !m->normals_given && mesh_crease(&m->mesh, 0);
     m->normals_given = 1;
     for (int i = 0; i < 3; i++) extent = fmax(extent, s->high[i] - s->low[i]);
-    failed = failed || section_clip(s) || section_fill(s, 2 * extent / SECTION_LINES) ||
-             section_join(s, m, o);
+    failed = failed || section_clip(s);
+    if (!failed && !o->quiet && section_is_open(s, extent))
+        complain("--section: the mesh is open, or turned both ways, where it is cut: the cut is "
+                 "filled between each second pair of its lines");
+    failed = failed || section_fill(s, 2 * extent / SECTION_LINES) || section_join(s, m, o);
     if (!failed) section_hand_over(s, m);
     section_free(s);
     return failed;
