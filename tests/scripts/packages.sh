@@ -10,6 +10,24 @@ cc -O1 -I. examples/embed/meson/*.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
 check "the ball" grep -q '@@' "$T/ball.txt"
 is_ball() { "$@" >"$T/drawn.txt" && cmp "$T/drawn.txt" "$T/ball.txt"; }
 
+# ---- the pages of PyPI and npm
+page() {                        # package, command that installs it, a line of its news
+    python3 .ci/page.py "$1" "$V" >"$T/page" || return 1
+    same "$(sed -n 3p "$T/page")" "    $2 install shade-h" && grep -qx "## New in ${V%.*}" "$T/page" &&
+        grep -q "$3" "$T/page" && no grep -q '^[*].*assignments' "$T/page" &&
+        grep -oE '\]\([^)]*\)' "$T/page" | tr -d '])(' >"$T/links" && [ "$(wc -l <"$T/links")" -gt 2 ] &&
+        no grep -v "^https://example.org/shade/\(blob\|raw\)/v$V/\|^#" "$T/links" &&
+        for path in $(sed "s,.*/v$V/,,; s/#.*//" "$T/links"); do [ -e "$path" ] || { echo "$path"; return 1; }; done
+}
+check "the page of PyPI" page python pip "Python and Node refuse"
+check "the page of npm" page node npm "Textures of glTF and 3MF repeat"
+check "which show a picture" grep -q "^!.*/raw/v$V/examples/packages/python/picture.png" "$T/page"
+check "package.json" python3 -c "
+import json
+told = json.load(open('examples/packages/node/package.json'))
+assert told['author'] and len(told['keywords']) > 7 and told['homepage'] == 'https://example.org/shade'
+assert told['repository'] == {'type': 'git', 'url': 'git+https://example.org/shade.git', 'directory': 'examples/packages/node'}"
+
 # ---- vcpkg and Conan
 check "vcpkg.json" python3 -m json.tool "$P/vcpkg/vcpkg.json"
 check "Conan's Python" python3 -c "

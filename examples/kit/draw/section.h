@@ -452,8 +452,9 @@ static inline int section_cut(section *s, model *m, const model_options *o)
     for (int i = 0; i < 3; i++) extent = fmax(extent, s->high[i] - s->low[i]);
     failed = failed || section_clip(s);
     if (!failed && !o->quiet && section_is_open(s, extent))
-        complain("--section: the mesh is open, or turned both ways, where it is cut: the cut is "
-                 "filled between each second pair of its lines");
+        complain(
+            "--section: the mesh is open, or turned both ways, where it is cut: the cut is "
+            "filled between each second pair of its lines");
     failed = failed || section_fill(s, 2 * extent / SECTION_LINES) || section_join(s, m, o);
     if (!failed) section_hand_over(s, m);
     section_free(s);

@@ -3,7 +3,6 @@ import json
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -212,9 +211,8 @@ def test_mujocos_refusals_are_those_of_its_class():
     ('{"id": 1, "method": ["ping"]}', -32600), ('{"id": [1], "method": "nothing"}', -32601),
     ('[' * 100000, -32700), ('7', -32700)])
 def test_the_server_outlives_params_of_any_kind(line, code):
-    server = Path(__file__).resolve().parents[1] / "mcp_server.py"
     ping = '{"id": 2, "method": "ping"}'
-    got = subprocess.run([sys.executable, server], input=f"{line}\n{ping}\n", capture_output=True, text=True)
+    got = subprocess.run([sys.executable, "-m", "shade_h.mcp_server"], input=f"{line}\n{ping}\n", capture_output=True, text=True)
     assert got.returncode == 0, got.stderr
     first, second = (json.loads(row) for row in got.stdout.splitlines())
     assert first["error"]["code"] == code and second == {"jsonrpc": "2.0", "id": 2, "result": {}}
