@@ -204,7 +204,7 @@ static int compare_into(FILE *file, const void *data)
     int failed;
     if (!c->png) fprintf(file, "P6\n%d %d\n255\n", c->width, c->height);
     failed = compare_rows(file, data);
-    return failed || !c->png ? failed : portrait_write_png(file, c->drawn, c->width, c->height, 3);
+    return failed || !c->png ? failed : picture_write_png(file, c->drawn, c->width, c->height, 3);
 }
 
 /* ---- command line --------------------------------------------------------------------------- */
@@ -237,7 +237,7 @@ static int take_count(void *to, const char *value)
 
 static int take_difference(void *to, const char *value)
 {
-    static const char *const endings[] = { "ppm", PORTRAIT_PNG NULL };
+    static const char *const endings[] = { "ppm", PICTURE_PNG NULL };
     *(const char **)to = value;
     return save_is_device(value) || save_ends_in(value, endings);
 }
@@ -274,7 +274,7 @@ static int read_options(options *o, int argc, char **argv)
 static int take_pixels(picture *p, const shade_target *drawn, int clear)
 {
     const size_t n = 4 * (size_t)drawn->width * (size_t)drawn->height;
-    uint8_t *bytes = portrait_bytes(drawn, 4);
+    uint8_t *bytes = picture_bytes(drawn, 4);
     p->whole = (uint16_t *)malloc(n * sizeof *p->whole);
     for (size_t i = 0; bytes && p->whole && i < n; i++)
         p->whole[i] = (uint16_t)(257 * (i % 4 == 3 && !clear ? 255 : bytes[i]));

@@ -65,9 +65,9 @@ static int read_options(options *o, int argc, char **argv)
 static int save_picture(const shade_target *picture, const options *o)
 {
     const int clear = o->picture.background == PORTRAIT_NONE;
-    const portrait_file f = { picture, o->png, clear ? 4 : 3 };
+    const picture_file f = { picture, o->png, clear ? 4 : 3 };
     guard_doing = "writing the picture";
-    return save_bytes(o->output, portrait_write, &f);
+    return save_bytes(o->output, picture_write, &f);
 }
 
 /* Returns 1, with a line on stderr, where a result would replace a file that has been read. */
