@@ -65,20 +65,22 @@ static const scene_choice scene_choices[CHOICES] = {
     { "ground", { "shadow", "none" }, 2, 'g' },
 };
 
-static const char *const scene_help[] = {
-    "arrows mouse   turn",
-    "shift + these  move; the other buttons too",
-    "+ - wheel      zoom",
-    "space          turn by itself, or not",
-    "m s l t        material, shading, lamp, terms",
-    "e f            model, flag",
-    "b w g          background, wires, ground",
-    "capitals       step back",
-    "r              as at first",
-    "p              save the picture",
-    "h ?            this help",
-    "q              quit",
-};
+/* What keys do, from the sixteenth character on: for a list on the screen and the usage */
+#define SCENE_KEYS(KEY)                                                                            \
+    KEY("arrows mouse   turn")                                                                     \
+    KEY("shift + these  move; the other buttons too")                                              \
+    KEY("+ - wheel      zoom")                                                                     \
+    KEY("space          turn by itself, or not")                                                   \
+    KEY("m s l t        material, shading, lamp, terms")                                           \
+    KEY("e f            model, flag")                                                              \
+    KEY("b w g          background, wires, ground")                                                \
+    KEY("capitals       step back")                                                                \
+    KEY("r              as at first")                                                              \
+    KEY("p              save the picture")                                                         \
+    KEY("h ?            this help")                                                                \
+    KEY("q              quit")
+#define SCENE_HELP_LINE(keys) keys,
+static const char *const scene_help[] = { SCENE_KEYS(SCENE_HELP_LINE) };
 enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
 
 #define SCENE_PITCH 0.36f /* the camera looks down by this angle, in radians, */

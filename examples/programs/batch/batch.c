@@ -28,7 +28,10 @@ static const char usage[] =
     "  --rate N              frames a second of the film, 1 .. 240 (30)\n"
     "  --piece K             only this one, 0 .. N-1\n"
     "  --missing             only prints the numbers of those that are not there\n"
-    "  --help, --version     prints this text; the version\n";
+    "  --help, --version     prints this text; the version\n" MODEL_FORMATS
+    "examples:\n"
+    "  shade-batch bolt.stl --film bolt.mp4 --frames 90 --size 640x360\n"
+    "  shade-batch bolt.stl --strips 8 --piece 3 --size 8000x6000     on one of eight machines\n";
 
 typedef struct batch {
     scene_request request;

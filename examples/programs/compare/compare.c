@@ -28,7 +28,10 @@ static const char usage[] =
     "  --max-seconds N       gives up after N seconds of processor time, or 4 N by the clock,\n"
     "                        0 .. 1000000000 (0: no limit)\n"
     "Colours count as much as they cover: with alpha 0 any two are the same.\n"
-    "exit status: 0 the same within limit and count, 1 different, 2 error\n";
+    "exit status: 0 the same within limit and count, 1 different, 2 error\n" MODEL_FORMATS
+    "examples:\n"
+    "  shade-compare golden.png drawn.png --limit 2 --difference apart.png\n"
+    "  shade-compare golden.png bolt.stl --quiet || echo bolt.stl has changed\n";
 
 enum { SAME, DIFFERENT, ERROR };
 typedef struct picture {

@@ -32,6 +32,7 @@ typedef struct view_options {
     char **words;     /* of the command line */
 } view_options;
 
+#define VIEW_USAGE_LINE(keys) "  " keys "\n"
 static const char view_usage[] =
     "usage: view [model] [options]                    without a model: the teapot\n"
     "  --window              in a window instead of the terminal\n"
@@ -44,7 +45,9 @@ static const char view_usage[] =
         MODEL_USAGE
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
     "  --help, --version     prints this text; the version\n"
-    "The key ? lists the others.\n";
+    MODEL_FORMATS "keys:\n" SCENE_KEYS(VIEW_USAGE_LINE) "examples:\n"
+    "  shade-view bolt.stl\n"
+    "  shade-view --window car.glb --view=30,20\n";
 
 static inline int view_take_show(void *to, const char *value)
 {
