@@ -538,7 +538,7 @@ static void test_again(void)
         for (int i = random_below(40); i > 0; i--) {
             const int key = random_below(CHOICES);
             scene_key(&a, scene_choices[key].key - (random_below(2) ? 'a' - 'A' : 0));
-            scene_turn(&a, 0.01f * (float)random_below(100), 0.01f * (float)random_below(9) - 0.04f);
+            scene_turn(&a, 0.01f * (float)random_below(99), 0.01f * (float)random_below(9) - 0.04f);
             scene_move(&a, 0.01f * (float)random_below(9) - 0.04f, 0.01f * (float)random_below(9));
             scene_zoom(&a, 0.8f + 0.05f * (float)random_below(9));
         }

@@ -180,6 +180,13 @@ keys q
 restored 0
 check "the same bytes" sh -c "cmp '$T'/it*-1.p* '$T'/it*-3.p*"
 
+start_command 80 24 sh -c "mkdir gone && cd gone && rmdir ../gone && exec env $full '$VIEW' --still"
+soon has_color 2
+keys p
+check "a folder that takes no files is told of" soon shows "not saved: No such file"
+keys q
+check "and no command is printed" sh -c "! tmux -S '$T/tmux.$server' capture-pane -p | grep again"
+
 # ---- what is sent -------------------------------------------------------------------------------
 cost() { sed -n "s/.*the $1 of \([0-9]*\).*/\1/p" "$T/err"; }
 for kind in "plain --ascii" "256 --colors=256" "true"; do
