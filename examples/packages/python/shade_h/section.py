@@ -89,12 +89,16 @@ def _between(c: Doubles, s: Doubles, k: int) -> Doubles:
     return np.asarray(a + (b - a) * (-low / (high - low))[:, None])
 
 
-def _is_open(cuts: Doubles, extent: float) -> bool:
-    """Whether outlines (m, 2, 2) are open by more than a thousandth of the mesh: as section_is_open in
-    section.h."""
+def _state(cuts: Doubles, extent: float) -> str:
+    """"" of closed outlines (m, 2, 2), "torn" or "open", as section_state in section.h says."""
     least = (1e-3 + 3e-7 * len(cuts)) * extent
-    ends = (np.sort(cuts @ np.array(way), axis=0) for way in ((1, 0.382), (-0.382, 1)))
-    return any(float(np.abs(at[:, 0] - at[:, 1]).sum()) > least for at in ends)
+    ends = [cuts @ np.array(way) for way in ((1, 0.382), (-0.382, 1))]
+    pairs = [np.sort(at, axis=None).reshape(-1, 2) for at in ends]
+    gap, turned = (max(float(np.abs(at[:, 0] - at[:, 1]).sum()) for at in of)
+                   for of in (pairs, [np.sort(at, axis=0) for at in ends]))
+    if gap > max(least, 0.05 * float(np.linalg.norm(cuts[:, 1] - cuts[:, 0], axis=1).sum())):
+        return "open"
+    return "torn" if max(gap, turned) > least else ""
 
 
 def _filled(cuts: Doubles) -> Doubles:
@@ -159,10 +163,13 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     v = np.cross(normal, u)
     flat = np.stack([(cuts - point) @ u, (cuts - point) @ v], 2)
     extent = float(np.ptp(corners[:, :, :3].reshape(-1, 3), 0).max()) if len(corners) else 1.0
-    if _is_open(flat, extent):
-        warnings.warn("section: the mesh is open, or turned both ways, where it is cut: the cut is filled "
-                      "between each second pair of its lines", stacklevel=5)
-    quads = _filled(flat)
+    state = _state(flat, extent)
+    if state:
+        warnings.warn("section: the mesh is open" + (
+            " where it is cut: the cut is not filled" if state == "open" else
+            ", or turned both ways, where it is cut: the cut is filled between each second pair of its lines"),
+            stacklevel=5)
+    quads = _filled(flat if state != "open" else flat[:0])
     cap = (quads[..., :1] * u + quads[..., 1:] * v + point)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3)
     size = (extent or 1.0) / LINES
     at = [3]

@@ -91,9 +91,15 @@ def test_a_section_beside_the_part_is_refused_and_of_an_open_mesh_told():
         with pytest.raises(shade.Error, match="section does not cut the parts"):
             shade.render(vertices, faces, size=32, section=("x", where))
     tube = faces[np.ptp(vertices[faces][:, :, 2], axis=1) > 0]    # which all lines across it cross twice
-    for missing in (faces[:-1], tube):
-        with pytest.warns(UserWarning, match="section: the mesh is open, or turned both ways, where it is cut"):
-            shade.render(vertices, missing, size=32, section="x")
+    for sheet in (tube, faces[:-2]):
+        with pytest.warns(UserWarning, match="section: the mesh is open where it is cut: the cut is not filled"):
+            hollow = shade.render(vertices, sheet, size=64, section="x", view="right", color="red")
+        assert (hollow.rgba[20:44, 20:44, 1] < 90).all()    # red: the cut is grey and white
+    turned = np.array(faces)
+    first = np.ptp(vertices[faces][:, :, 0], axis=1).argmax()    # which the plane crosses
+    turned[first] = turned[first, ::-1]
+    with pytest.warns(UserWarning, match="open, or turned both ways, where it is cut: the cut is filled between"):
+        shade.render(vertices, turned, size=32, section="x")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         picture = shade.render(vertices, faces, size=64, section="z")
