@@ -199,7 +199,7 @@ static inline void window_press(window *w, int key)
     else if (key == '?' || key == 'h') {
         w->help = !w->help;
         w->changed = 1;
-    } else if (key == 'p' && w->scene->model.mesh.view.index_count) {
+    } else if (key == 'p' && w->scene->model.mesh.view.index_count && window_fit(w)) {
         keep_picture(&w->kept, w->scene, w->width, w->height);
         keep_tell(&w->kept);
         w->changed = 1;
