@@ -574,6 +574,7 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     gone = display_run(&d, &mask);
     terminal_leave();
     keep_tell(&d.kept);
+    free(d.kept.told.bytes);
     if (o->frames) display_tell_cost(&d, clock_now() - begin);
     display_free(&d);
     return gone ? complain("the terminal takes no more") : 0;

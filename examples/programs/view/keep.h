@@ -2,61 +2,48 @@
 #ifndef VIEW_KEEP_H
 #define VIEW_KEEP_H
 
-#include "../../kit/image/written.h"
 #include "../../kit/scene/scene.h"
+#include "pixels.h"
 
 enum { KEEP_HEIGHT = 720, KEEP_SAMPLES = 7000000 };
-#ifdef MODEL_STB
-enum { KEEP_PNG = 1 };
-#else
-enum { KEEP_PNG = 0 };
-#endif
 
 typedef struct keep {
-    char **words;    /* of the command line, up to a NULL */
-    char told[8000]; /* commands of pictures that have been saved, and are to be printed */
-    size_t size;
+    char **words;     /* of the command line, up to a NULL */
+    pixel_bytes told; /* commands of pictures that have been saved, and are to be printed */
 } keep;
 
 /* Adds a word as a shell reads it: between quotes, where it has more than letters and signs that
    mean nothing to a shell. */
-static inline void keep_word(keep *k, const char *word)
+static inline void keep_word(keep *k, const char *word, char end)
 {
     static const char plain[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
         "_-./,=+:%@";
     const int quoted = !*word || word[strspn(word, plain)];
-    const size_t least = strlen(word) + 4, begin = k->size;
-    if (least > sizeof k->told - k->size) return;
-    if (begin && k->told[begin - 1] != '\n') k->told[k->size++] = ' ';
-    if (quoted) k->told[k->size++] = '\'';
-    for (; *word && k->size + 8 < sizeof k->told; word++) {
+    if (quoted) pixels_put(&k->told, "'", 1);
+    for (; *word; word++) {
         const char *as = *word == '\'' ? "'\\''" : word; /* one quote: end, quote, begin */
-        const size_t n = as == word ? 1 : 4;
-        memcpy(k->told + k->size, as, n);
-        k->size += n;
+        pixels_put(&k->told, as, as == word ? 1 : 4);
     }
-    if (quoted) k->told[k->size++] = '\'';
-    k->told[k->size] = 0;
+    if (quoted) pixels_put(&k->told, "'", 1);
+    pixels_put(&k->told, &end, 1);
 }
 
 /* Adds the command: that of this program with the state before its own words. */
 static inline void keep_command(keep *k, const scene *s)
 {
     char **word = k->words;
-    keep_word(k, *word++);
-    keep_word(k, "--still");
-    keep_word(k, "--again");
-    keep_word(k, scene_again(s).text);
+    keep_word(k, *word++, ' ');
+    keep_word(k, "--still", ' ');
+    keep_word(k, "--again", ' ');
+    keep_word(k, scene_again(s).text, ' ');
     for (; *word; word++) {
-        if (!strcmp(*word, "--still") || !strncmp(*word, "--again=", 8)) continue;
-        if (strcmp(*word, "--again") != 0)
-            keep_word(k, *word);
-        else if (word[1])
+        if (!strcmp(*word, "--again") && word[1])
             word++;
+        else if (strcmp(*word, "--still") != 0 && strncmp(*word, "--again=", 8) != 0)
+            keep_word(k, *word, ' ');
     }
-    if (k->size + 1 < sizeof k->told) k->told[k->size++] = '\n';
-    k->told[k->size] = 0;
+    k->told.bytes[k->told.size - 1] = '\n';
 }
 
 /* A name that no file in this folder has: that of the model with a number */
@@ -68,7 +55,7 @@ static inline void keep_name(const scene *s, char *name, size_t room)
     for (int n = 1; n == 1 || there; n++) {
         if (there) fclose(there);
         snprintf(name, room, "%.*s-%d.%s", length < 200 ? length : 200, title, n,
-                 KEEP_PNG ? "png" : "ppm");
+                 PIXELS_PNG ? "png" : "ppm");
         there = path_open(name, "rb");
     }
 }
@@ -107,7 +94,7 @@ static inline void keep_picture(keep *k, scene *s, int width, int height)
 {
     char name[240];
     const shade_target picture = keep_draw(s, width, height);
-    const picture_file file = { &picture, KEEP_PNG, 3 };
+    const picture_file file = { &picture, PIXELS_PNG, 3 };
     FILE *out;
     errno = 0;
     keep_name(s, name, sizeof name);
@@ -126,9 +113,8 @@ static inline void keep_picture(keep *k, scene *s, int width, int height)
 /* Prints the commands, once the terminal takes lines. */
 static inline void keep_tell(keep *k)
 {
-    fputs(k->told, stdout);
+    if (k->told.size) fwrite(k->told.bytes, 1, k->told.size, stdout);
     fflush(stdout);
-    k->size = 0;
-    *k->told = 0;
+    k->told.size = 0;
 }
 #endif

@@ -386,6 +386,7 @@ static inline int show_in_window(scene *s, const view_options *o)
     w.picked = -1;
     failed = window_open(&w) || window_load(&w) || window_run(&w);
     if (!failed && o->frames) fprintf(stderr, "%d frames\n", w.frames);
+    free(w.kept.told.bytes);
     window_close(&w);
     scene_close(s);
     return failed;
