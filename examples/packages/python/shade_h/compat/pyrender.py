@@ -104,7 +104,7 @@ class _Slot(_Attribute):
 
 
 class _Colour(_Attribute):
-    """A colour of so many channels."""
+    """A colour of 3 or 4 channels."""
 
     def __init__(self, channels: int) -> None:
         self.channels = channels
