@@ -184,13 +184,13 @@ for wheel in win_amd64 win_arm64; do
         check "the runtime in the wheel for $wheel" holds $wheel.whl NOTICES.txt mingw-w64 "Zope Public License"
 done
 [ ! -f "$D/shade-h-$V.tgz" ] || check "wasi-libc in the npm package" holds .tgz NOTICES.txt wasi-libc "wasi-libc contributors"
-[ ! -f "$D/shade-$V-pages.zip" ] || ! python3 -m zipfile -l "$D/shade-$V-pages.zip" | grep -q reveal.js ||
+[ ! -f "$D/shade-$V-pages.zip" ] || ! python3 -m zipfile -l "$D/shade-$V-pages.zip" | grep reveal.js >/dev/null ||
     check "reveal.js in the pages" holds -pages.zip NOTICES.txt reveal.js "Hakim El Hattab"
 
 # ---- the pages of the registries in what is uploaded
 linked() {                      # archive, file in it: every link is absolute
     tar -xzOf "$1" "$2" >"$T/page" && grep -q '^## New in ' "$T/page" && grep -q '](https://' "$T/page" &&
-        no grep -oE '\]\([^)]*\)' "$T/page" | grep -v '](https://\|](#'
+        same "$(grep -oE '\]\([^)]*\)' "$T/page" | grep -v '](https://\|](#')" ""
 }
 [ ! -f "$D/shade_h-$V.tar.gz" ] || check "the page of PyPI" linked "$D/shade_h-$V.tar.gz" "shade_h-$V/README.md"
 [ ! -f "$D/shade-h-$V.tgz" ] || check "the page of npm" linked "$D/shade-h-$V.tgz" package/README.md
