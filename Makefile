@@ -17,7 +17,8 @@
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader of the assignments: solutions, wrong answers, cheats
 # make dist          the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
-# make install       header and programs below PREFIX in DESTDIR; make uninstall removes them;
+# make install       header, programs, man pages, completions for bash, thumbnailer and types
+#                    below PREFIX in DESTDIR; make uninstall removes them;
 #                    make install-header: the header alone, for pkg-config and CMake
 # make vector-report loops over lanes that the compiler left scalar: none
 
@@ -84,7 +85,7 @@ build/19_threads $(PROGRAMS): EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ZLIB) $(ASSIMP)
 build/thumbnail build/batch build/compare: LIBRARIES = $(STB) $(ZLIB) $(ASSIMP)
-build/sheets.1: build/thumbnail
+build/sheets.1 build/sheets.bash: build/thumbnail
 build/sheets: examples/programs/batch/sheets.sh
 	@mkdir -p build
 	cp $< $@ && chmod +x $@
@@ -181,7 +182,9 @@ HEADER    = include/shade.h share/pkgconfig/shade.pc share/cmake/shade/shade-con
             share/cmake/shade/shade-config-version.cmake
 FILES     = $(HEADER) share/thumbnailers/shade.thumbnailer share/mime/packages/shade.xml
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
-            share/man/man1/shade-$p.1)
+            share/man/man1/shade-$p.1 share/bash-completion/completions/shade-$p)
+build/%.bash: build/% $(BESIDE)/completion.sh
+	THUMBNAIL=build/thumbnail sh $(BESIDE)/completion.sh build/$* shade-$* >$@
 build/%.1: build/% $(BESIDE)/man.sh
 	THUMBNAIL=build/thumbnail sh $(BESIDE)/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
 install-header:
@@ -196,11 +199,14 @@ install: programs install-header
 	sh $(BESIDE)/thumbnailer.sh "$(PREFIX)" >build/shade.thumbnailer
 	for f in $(INSTALLED); do $(INSTALL) -d "$(PLACE)/$${f%/*}" || exit 1; done
 	for p in $(notdir $(PROGRAMS)); do \
-	    $(MAKE) -s build/$$p.1 && \
+	    $(MAKE) -s build/$$p.1 build/$$p.bash && \
 	    $(INSTALL) -m 755 build/$$p "$(PLACE)/bin/shade-$$p" && \
-	    $(INSTALL) -m 644 build/$$p.1 "$(PLACE)/share/man/man1/shade-$$p.1" || exit 1; done
+	    $(INSTALL) -m 644 build/$$p.1 "$(PLACE)/share/man/man1/shade-$$p.1" && \
+	    $(INSTALL) -m 644 build/$$p.bash "$(PLACE)/share/bash-completion/completions/shade-$$p" || \
+	    exit 1; done
 	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
 	$(INSTALL) -m 644 $(BESIDE)/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
+	@echo "for thumbnails in file managers: update-mime-database $(PREFIX)/share/mime"
 uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 

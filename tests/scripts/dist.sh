@@ -20,7 +20,10 @@ repeats $E/cmake/CMakeLists.txt 's/.*GIT_TAG v\([0-9.]*\)).*/\1/p'
 repeats $E/meson/subprojects/shade.wrap 's/^revision = v//p'
 repeats $E/meson/subprojects/packagefiles/shade/meson.build "s/.* version: '\(.*\)')/\1/p"
 repeats $P/vcpkg/vcpkg.json 's/^ *"version": "\(.*\)",/\1/p'
-repeats $P/conan/conanfile.py 's/^ *version = "\(.*\)"/\1/p'
+repeats $P/conan/config.yml 's/^  "\(.*\)":/\1/p'
+repeats $P/conan/all/conandata.yml 's/^  "\(.*\)":/\1/p'
+repeats $P/conan/all/conandata.yml 's/.*shade-\(.*\)\.tar\.gz"/\1/p'
+repeats $P/README.md 's/.*conan\/all --version \([0-9.]*\)`.*/\1/p'
 repeats $P/esp-idf/idf_component.yml 's/^version: "\(.*\)"/\1/p'
 repeats $P/zig/build.zig.zon 's/^ *\.version = "\(.*\)",/\1/p'
 repeats $P/xmake/xmake.lua 's/.*add_versions("\([^"]*\)".*/\1/p'
@@ -35,10 +38,11 @@ git rev-parse --is-inside-work-tree >/dev/null 2>&1 || [ -f .ci/files ] ||
 made() { sh .ci/dist.sh "$@" >"$T/made" 2>&1 || { cat "$T/made"; return 1; }; }
 check "make dist" made "$D"
 A=$D/shade-$V.tar.gz
-check "all but the pages again" sh .ci/dist.sh "$T/again" source python npm windows
+check "all of it again" sh .ci/dist.sh "$T/again"
 for file in "$T"/again/*.gz "$T"/again/*.whl "$T"/again/*.tgz "$T"/again/*.zip; do
     [ ! -f "$file" ] || check "the same bytes: ${file##*/}" cmp "$file" "$D/${file##*/}"
 done
+check "nothing else, and no file less" cmp "$T/again/SHA256SUMS" "$D/SHA256SUMS"
 check "pip tells the tarball and the sdist apart" no ls "$D/shade-h-$V.tar.gz"
 mkdir "$T/own" && tar -C "$T/own" -xzf "$A"
 check "a tarball of the tarball" sh "$T/own/shade-$V/.ci/dist.sh" "$T/third" source
@@ -148,6 +152,48 @@ if [ -f "$Z" ] && [ "$wine" ]; then
     check "the picture and the model agree" first compare
     check "the program tells its version" sh -c "'$wine' '$T/shade-$V-windows/shade-thumbnail.exe' --version | grep -q '$V'"
 else left_out "the zip for Windows: no wine, or no zip"; fi
+
+# ---- what of others is in it: the SBOM tells of it, and its notice is there
+holds() {                       # end of a file's name, file in it, name, words of its notice
+    python3 - "$D" "$@" <<'END'
+import fnmatch, json, pathlib, sys, tarfile, zipfile
+folder, end, notices, name, words = sys.argv[1:]
+path, = pathlib.Path(folder).glob(f"*{end}")
+if path.suffix == ".tgz":
+    text = tarfile.open(path).extractfile(f"package/{notices}").read()
+else:
+    with zipfile.ZipFile(path) as file:
+        found, = [n for n in file.namelist() if n.endswith(notices)]
+        text = file.read(found)
+assert words in text.decode(), words
+told = json.loads(next(pathlib.Path(folder).glob("*.spdx.json")).read_text())
+one, = [p for p in told["packages"] if p["name"] == name]
+assert one["licenseDeclared"] != "NOASSERTION" and one["versionInfo"] not in ("", "unknown"), one
+file, = [p["SPDXID"] for p in told["packages"] if p.get("packageFileName") == path.name]
+assert {"spdxElementId": file, "relationshipType": "CONTAINS", "relatedSpdxElement": one["SPDXID"]} in told["relationships"]
+END
+}
+zip=-windows.zip
+if [ -f "$D/shade-$V$zip" ]; then
+    check "stb in the programs for Windows" holds $zip NOTICES.txt stb "Copyright (c) 2017 Sean Barrett"
+    check "zlib" holds $zip NOTICES.txt zlib "Jean-loup Gailly and Mark Adler"
+    check "their runtime" holds $zip NOTICES.txt mingw-w64 "Zope Public License"
+fi
+for wheel in win_amd64 win_arm64; do
+    [ ! -f "$D/shade_h-$V-py3-none-$wheel.whl" ] ||
+        check "the runtime in the wheel for $wheel" holds $wheel.whl NOTICES.txt mingw-w64 "Zope Public License"
+done
+[ ! -f "$D/shade-h-$V.tgz" ] || check "wasi-libc in the npm package" holds .tgz NOTICES.txt wasi-libc "wasi-libc contributors"
+[ ! -f "$D/shade-$V-pages.zip" ] || ! python3 -m zipfile -l "$D/shade-$V-pages.zip" | grep reveal.js >/dev/null ||
+    check "reveal.js in the pages" holds -pages.zip NOTICES.txt reveal.js "Hakim El Hattab"
+
+# ---- the pages of the registries in what is uploaded
+linked() {                      # archive, file in it: every link is absolute
+    tar -xzOf "$1" "$2" >"$T/page" && grep -q '^## New in ' "$T/page" && grep -q '](https://' "$T/page" &&
+        same "$(grep -oE '\]\([^)]*\)' "$T/page" | grep -v '](https://\|](#')" ""
+}
+[ ! -f "$D/shade_h-$V.tar.gz" ] || check "the page of PyPI" linked "$D/shade_h-$V.tar.gz" "shade_h-$V/README.md"
+[ ! -f "$D/shade-h-$V.tgz" ] || check "the page of npm" linked "$D/shade-h-$V.tgz" package/README.md
 
 # ---- the bill of materials, its ids, relations and checksums
 check "SBOM: a version, and a sum for each file" python3 -c "

@@ -17,6 +17,11 @@ files='-rwxr-xr-x ./bin/shade-batch
 -rwxr-xr-x ./bin/shade-thumbnail
 -rwxr-xr-x ./bin/shade-view
 -rw-r--r-- ./include/shade.h
+-rw-r--r-- ./share/bash-completion/completions/shade-batch
+-rw-r--r-- ./share/bash-completion/completions/shade-compare
+-rw-r--r-- ./share/bash-completion/completions/shade-sheets
+-rw-r--r-- ./share/bash-completion/completions/shade-thumbnail
+-rw-r--r-- ./share/bash-completion/completions/shade-view
 -rw-r--r-- ./share/cmake/shade/shade-config-version.cmake
 -rw-r--r-- ./share/cmake/shade/shade-config.cmake
 -rw-r--r-- ./share/man/man1/shade-batch.1
@@ -30,9 +35,10 @@ files='-rwxr-xr-x ./bin/shade-batch
 
 # ---- into a prefix ------------------------------------------------------------------------------
 P=$T/prefix
-strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P"); }
+strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P") >"$T/said"; }
 check "make install" strict_umask
-check "sixteen files, readable by all" same "$(modes "$P")" "$files"
+check "tells what file managers need" grep -qx "for thumbnails in file managers: update-mime-database $P/share/mime" "$T/said"
+check "these files, readable by all" same "$(modes "$P")" "$files"
 check "in directories open to all" same "$(find "$P" -type d ! -perm -755)" ""
 check "the header is this one" cmp shade.h "$P/include/shade.h"
 export THUMBNAIL="$P/bin/shade-thumbnail"    # which sheets calls
@@ -45,11 +51,17 @@ for p in thumbnail view batch sheets compare; do
     for option in $("$P/bin/shade-$p" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p'); do
         check "its page has $option" grep -q "^[.]B $(echo "$option" | sed 's/-/\\\\-/g')" "$page"
     done
+    check "its page has examples" grep -q '^[.]SH EXAMPLES' "$page"
+    [ $p = sheets ] || check "and formats" sh -c "grep -A1 '^[.]SH FORMATS' '$page' | grep -q 'OBJ with MTL, STL, PLY'"
     if command -v man >/dev/null 2>&1 && command -v groff >/dev/null 2>&1; then
         check "its page without a warning" same \
             "$(LC_ALL=C MANROFFOPT='' man --warnings -l "$page" 2>&1 >/dev/null)" ""
     fi
 done
+sed -n 's/^    KEY("\(.*\)").*/\1/p' examples/kit/scene/scene.h >"$T/keys"
+check "keys are known" test "$(wc -l <"$T/keys")" -gt 9
+check "the page of view has each" same "$(sed -n '/^[.]SH KEYS/,/^[.]SH EX/p' "$P/share/man/man1/shade-view.1" |
+    grep -A1 '^[.]B' | grep -v '^--$' | sed 's/^[.]B //; s/\\-/-/g' | paste -d ' ' - - | tr -s ' ')" "$(tr -s ' ' <"$T/keys")"
 command -v man >/dev/null 2>&1 || echo "install: no man: warnings about pages left out"
 if command -v update-mime-database >/dev/null 2>&1; then
     cp -r "$P/share/mime" "$T/mime"
@@ -59,6 +71,32 @@ if command -v update-mime-database >/dev/null 2>&1; then
     done
 else echo "install: no shared-mime-info: types left out"
 fi
+
+# ---- completion of bash --------------------------------------------------------------------------
+# program, words: what is offered for the last word
+offered() {
+    bash -c 'source "$1/share/bash-completion/completions/$2" && shift || exit 1
+        COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); "_${1//-/_}"; echo "${COMPREPLY[*]}"' bash "$P" "$@"
+}
+if command -v bash >/dev/null 2>&1; then
+    for p in thumbnail view batch compare sheets; do
+        check "all options of $p" same "$(offered shade-$p -- | tr ' ' '\n' | sort)" \
+            "$("$P/bin/shade-$p" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p' | { cat; echo --version; } | sort -u)"
+        [ $p = sheets ] && continue
+        values=0
+        for option in $(offered shade-$p --); do
+            for value in $(offered shade-$p $option ''); do
+                values=$((values + 1))
+                check "$p $option $value is taken" "$P/bin/shade-$p" $option "$value" --help
+            done
+        done
+        check "values of $p" test $values -gt 20
+    done
+    check "the begin of a value" same "$(offered shade-view --show s)" "sextants sixel"
+    check "names of files are left to bash" same "$(offered shade-thumbnail --depth '')" ""
+    check "it is the program's" same "$(bash -c "source '$P/share/bash-completion/completions/shade-view'; complete -p shade-view")" \
+        "complete -o default -F _shade_view shade-view"
+else left_out "completion: no bash"; fi
 
 # ---- a client -----------------------------------------------------------------------------------
 cat >"$T/client.c" <<'END'
@@ -254,6 +292,7 @@ else left_out "sheets: no parallel"; fi
 check "a group and its three keys" same "$(sed 's/=.*//' "$P/share/thumbnailers/shade.thumbnailer" |
     tr '\n' ' ')" "[Thumbnailer Entry] TryExec Exec MimeType "
 check "TryExec is a program" test -x "$(entry TryExec)"
+check "it has bounds" sh -c "grep -q '^Exec=.* --max-seconds [0-9]* --max-memory [0-9]* ' '$P/share/thumbnailers/shade.thumbnailer'"
 check "Exec is the same" same "$(entry Exec | cut -d ' ' -f 1)" "$(entry TryExec)"
 check "types, each with a semicolon" same "$(entry MimeType | tr -d 'a-z0-9+./-' | tr -s ';')" ";"
 for type in $(entry MimeType | tr ';' ' '); do
@@ -272,6 +311,25 @@ for type in $(entry MimeType | tr ';' ' '); do
     fi
 done
 [ -f /usr/share/mime/globs2 ] || echo "install: no shared-mime-info: names of types left out"
+
+# ---- what the programs' help shows as examples ---------------------------------------------------
+mkdir -p "$T/shown/parts"
+cp "$input.glb" "$T/shown/car.glb"
+cp "$input.stl" "$T/shown/part.stl"
+cp "$input.stl" "$T/shown/bolt.stl"
+cp "$input.obj" "$T/shown/parts"
+shown() { (cd "$T/shown" && PATH="$P/bin:$PATH" sh -c "$1"); }
+shown "shade-thumbnail bolt.stl golden.png && cp golden.png drawn.png" 2>/dev/null || left_out "PNG: no stb"
+if [ -f "$T/shown/golden.png" ] && there ffmpeg && there parallel; then
+    for p in thumbnail compare batch sheets; do
+        # fewer and smaller pictures than they show
+        "$P/bin/shade-$p" --help | sed -n '/^examples:/,$s/^  //p' |
+            sed 's/     .*//; s/8000x6000/800x600/; s/--frames 90/--frames 3/' >"$T/examples"
+        check "$p has examples" test -s "$T/examples"
+        while read -r line; do check "$line" shown "$line"; done <"$T/examples"
+    done
+    check "they have drawn" test -s "$T/shown/sheet.png" -a -s "$T/shown/bolt.mp4" -a -s "$T/shown/apart.png"
+else left_out "the examples of the programs: no stb, ffmpeg or parallel"; fi
 
 # ---- for a package, and away --------------------------------------------------------------------
 S="$T/stage of a package"

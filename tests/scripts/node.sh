@@ -28,7 +28,7 @@ check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/p
 check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
 P=$T/use/node_modules/shade-h
 check "no file but what runs" same "$(LC_ALL=C ls "$P" | tr '\n' ' ')" \
-    "LICENSE README.md arguments.js camera.js index.cjs index.d.cts index.d.ts index.js model.js module.js mujoco.js package.json picture.js renderer.js "
+    "LICENSE NOTICES.txt README.md arguments.js camera.js index.cjs index.d.cts index.d.ts index.js model.js module.js mujoco.js package.json picture.js renderer.js "
 awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside = 0 }
     inside { print > (out n ".mjs") }' "$N/README.md"
 { sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"

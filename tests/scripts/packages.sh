@@ -10,12 +10,79 @@ cc -O1 -I. examples/embed/meson/*.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
 check "the ball" grep -q '@@' "$T/ball.txt"
 is_ball() { "$@" >"$T/drawn.txt" && cmp "$T/drawn.txt" "$T/ball.txt"; }
 
+# ---- the pages of PyPI and npm
+page() {                        # package, command that installs it, a line of its news
+    python3 .ci/page.py "$1" "$V" >"$T/page" || return 1
+    same "$(sed -n 3p "$T/page")" "    $2 install shade-h" && grep -qx "## New in ${V%.*}" "$T/page" &&
+        grep -q "$3" "$T/page" && no grep -q '^[*].*assignments' "$T/page" &&
+        grep -oE '\]\([^)]*\)' "$T/page" | tr -d '])(' >"$T/links" && [ "$(wc -l <"$T/links")" -gt 2 ] &&
+        no grep -v "^https://example.org/shade/\(blob\|raw\)/v$V/\|^#" "$T/links" &&
+        for path in $(sed "s,.*/v$V/,,; s/#.*//" "$T/links"); do [ -e "$path" ] || { echo "$path"; return 1; }; done
+}
+check "the page of PyPI" page python pip "Python and Node refuse"
+check "the page of npm" page node npm "Textures of glTF and 3MF repeat"
+check "which show a picture" grep -q "^!.*/raw/v$V/examples/packages/python/picture.png" "$T/page"
+check "package.json" python3 -c "
+import json
+told = json.load(open('examples/packages/node/package.json'))
+assert told['author'] and len(told['keywords']) > 7 and told['homepage'] == 'https://example.org/shade'
+assert told['repository'] == {'type': 'git', 'url': 'git+https://example.org/shade.git', 'directory': 'examples/packages/node'}"
+
 # ---- vcpkg and Conan
 check "vcpkg.json" python3 -m json.tool "$P/vcpkg/vcpkg.json"
-check "Conan's Python" python3 -c "
-import ast, pathlib
-for f in pathlib.Path('$P/conan').rglob('*.py'): ast.parse(f.read_text())"
-check "Conan's files are at the top" sh -c "cd '$P/conan/../../../..' && test -f shade.h && test -f LICENSE"
+check "its test's Python" python3 -c "import ast; ast.parse(open('$P/conan/all/test_package/conanfile.py').read())"
+# what of Conan the recipe calls
+mkdir -p "$T/conan/conan/tools"
+cat >"$T/conan/conan/__init__.py" <<'END'
+class ConanFile:
+    pass
+END
+cat >"$T/conan/conan/tools/files.py" <<'END'
+import shutil, tarfile
+from pathlib import Path
+def get(recipe, url, sha256, strip_root):
+    assert strip_root and len(sha256) == 64 and url.endswith(f"/shade-{recipe.version}.tar.gz")
+    with tarfile.open(recipe.tarball) as tar:
+        for one in tar:
+            one.name = one.name.partition("/")[2]
+            if one.isfile(): tar.extract(one, recipe.source_folder)
+def copy(recipe, pattern, src, dst):
+    for path in Path(src).glob(pattern):
+        Path(dst).mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, dst)
+END
+echo 'def basic_layout(recipe, src_folder): assert src_folder' >"$T/conan/conan/tools/layout.py"
+cat >"$T/conan/run.py" <<'END'
+import sys, yaml
+from pathlib import Path
+from types import SimpleNamespace
+from unittest.mock import MagicMock
+recipe, version, tarball, top = sys.argv[1:]
+sys.path.insert(0, recipe)
+from conanfile import ShadeHConan
+folder = Path(recipe).parent
+assert yaml.safe_load((folder / "config.yml").read_text()) == {"versions": {version: {"folder": "all"}}}
+made = ShadeHConan()
+made.version, made.tarball = version, tarball
+made.source_folder, made.package_folder = f"{top}/source", f"{top}/package"
+made.conan_data = yaml.safe_load((folder / "all/conandata.yml").read_text())
+made.settings, made.info = SimpleNamespace(os="Linux"), MagicMock()
+made.cpp_info = MagicMock(system_libs=[])
+for step in (made.layout, made.source, made.package, made.package_id, made.package_info):
+    step()
+assert made.cpp_info.bindirs == made.cpp_info.libdirs == [] and made.cpp_info.system_libs == ["m"]
+assert not hasattr(made, "export_sources") and not hasattr(ShadeHConan, "version")
+told = {call.args for call in made.cpp_info.set_property.mock_calls}
+assert told == {("cmake_file_name", "shade"), ("cmake_target_name", "shade::shade"), ("pkg_config_name", "shade")}
+END
+if python3 -c 'import yaml' 2>/dev/null; then
+    check "the tarball" sh .ci/dist.sh "$T/dist" source
+    check "Conan's recipe" env PYTHONPATH="$T/conan" PYTHONDONTWRITEBYTECODE=1 \
+        python3 "$T/conan/run.py" "$P/conan/all" "$V" "$T/dist/shade-$V.tar.gz" "$T/conan"
+    check "it packs the header and the licence" same "$(cd "$T/conan/package" && find . -type f | sort | tr '\n' ' ')" \
+        "./include/shade.h ./licenses/LICENSE "
+else left_out "Conan's recipe: no python3-yaml"; fi
+check "what make install lays out" ${MAKE:-make} -s install-header PREFIX="$T/installed"
 if there cmake; then
     cat >"$T/port.cmake" <<END
 function(vcpkg_download_distfile out)
@@ -33,14 +100,22 @@ set(CURRENT_PACKAGES_DIR "$T/port")
 include("$P/vcpkg/portfile.cmake")
 END
     check "the port of vcpkg" cmake -P "$T/port.cmake"
-    for f in include/shade.h share/shade/shade-config.cmake share/shade-h/usage share/shade-h/LICENSE; do
-        check "it installs $f" test -s "$T/port/$f"
-    done
-    # Conan's test_package finds what the port installed
-    check "find_package" cmake -S "$P/conan/test_package" -B "$T/found" -DCMAKE_PREFIX_PATH="$T/port" \
+    check "it installs the header, usage and the licence" same "$(cd "$T/port" && find . -type f | sort | tr '\n' ' ')" \
+        "./include/shade.h ./share/shade-h/LICENSE ./share/shade-h/usage "
+    mkdir "$T/used"
+    { echo 'cmake_minimum_required(VERSION 3.15)'
+      echo 'project(ball C)'
+      echo "add_executable(main $TOP/examples/embed/meson/ball.c $TOP/examples/embed/meson/shade.c)"
+      echo 'target_link_libraries(main PRIVATE m)'
+      grep '^    ' "$P/vcpkg/usage"; } >"$T/used/CMakeLists.txt"
+    check "as usage says" cmake -S "$T/used" -B "$T/used/build" -DCMAKE_PREFIX_PATH="$T/port" \
         -DCMAKE_BUILD_TYPE=MinSizeRel
-    check "a program with shade::shade" cmake --build "$T/found"
-    check "draws the ball" is_ball "$T/found/ball"
+    check "a program" cmake --build "$T/used/build"
+    check "draws the ball" is_ball "$T/used/build/main"
+    check "test_package of Conan" cmake -S "$P/conan/all/test_package" -B "$T/found" \
+        -DCMAKE_PREFIX_PATH="$T/installed" -DCMAKE_BUILD_TYPE=MinSizeRel
+    check "is built" cmake --build "$T/found"
+    check "and runs" same "$("$T/found/test_package")" "shade.h $(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h): 1"
 
     # ---- ESP-IDF: the component in a project of the desktop
     mkdir "$T/idf"
@@ -92,7 +167,7 @@ else left_out "xmake.lua: no luac5.4"; fi
 # ---- Debian: from the tarball of the release to three packages, unpacked and used
 if there dpkg-buildpackage && there dh_python3 && there lintian && [ -f /usr/include/assimp/cimport.h ]; then
     PATH=/usr/sbin:/usr/bin:/sbin:/bin
-    check "the tarball" sh .ci/dist.sh "$T/deb" source
+    check "the tarball for Debian" sh .ci/dist.sh "$T/deb" source
     mkdir "$T/deb/tree"
     mv "$T/deb/shade-$V.tar.gz" "$T/deb/shade-h_$V.orig.tar.gz"
     tar -C "$T/deb/tree" --strip-components=1 -xzf "$T/deb/shade-h_$V.orig.tar.gz"

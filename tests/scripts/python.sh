@@ -31,12 +31,29 @@ cd "$T" || exit 1
 check "it is the wheel that is imported" \
     $python -c "import shade_h; assert shade_h.__file__.startswith('$T/env'), shade_h.__file__"
 
+# what the wheel says of itself, and the commands that it installs
+told() { $python -c "
+import importlib.metadata as m
+print('\n'.join(f'{k}: {v}' for k, v in m.metadata('shade-h').items()))" >"$T/told"; }
+check "the wheel's description" told
+for line in "Author-email: \"The authors of shade.h\" <" "Keywords: 3d,rendering" \
+    "Classifier: License :: OSI Approved :: MIT License" "Classifier: Intended Audience :: Developers" \
+    "Project-URL: Repository, https://" "Project-URL: Changelog, https://" "Requires-Python: >=3.9"; do
+    check "it has ${line%%:*}" grep -q "^$line" "$T/told"
+done
+check "shade-h draws" sh -c "printf 'v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n' >'$T/one.obj' &&
+    '$T/env/bin/shade-h' '$T/one.obj' '$T/one.png' --size 32x32 && test -s '$T/one.png'"
+check "shade-h without a model: how it is used" sh -c "'$T/env/bin/shade-h' 2>&1 | grep -q '^usage: shade-h '"
+for server in "$T/env/bin/shade-h-mcp" "$python -m shade_h.mcp_server"; do
+    check "${server##*/} answers" same "$(echo '{"id": 7, "method": "ping"}' | $server)" \
+        '{"jsonrpc": "2.0", "id": 7, "result": {}}'
+done
+
 # the tests, beside the tree but not beside its sources
 mkdir -p "$T/run/examples/packages/python" "$T/run/tests"
 ln -s "$OLDPWD/tests/scripts" "$T/run/tests/scripts"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
-cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" \
-    "$P/mcp_server.py" "$T/run/examples/packages/python"
+cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/packages/python"
 check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/tests"
 check "the scenes of bench/python.py are drawn" sh -c "
     $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"

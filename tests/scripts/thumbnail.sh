@@ -554,6 +554,42 @@ sections() {
     printf 'v 500000000 0 0\nv 500000002 0 0\nv 500000000 2 0\nv 500000000 0 2
 f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >"$T/survey.obj"
     check "in the file's coordinates" draw survey.obj a.ppm --section x=500000000.5
+    check "a closed mesh is cut without a word" test ! -s "$T/err"
+    open_sections
+}
+
+# A box without its lid, and one without both ends, which each line across it crosses twice, have no
+# inside; one has two triangles that are turned in, one a small hole.  Closed are a box with edges that
+# end in the middle of others, and a whole one.
+open_sections() {
+    corners='v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n'
+    around='f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n' floor='f 4 3 2 1\n' lid='f 5 6 7 8\n'
+    box() { name=$1; shift; printf "$corners$*" >"$T/$name.obj"; }
+    box lidless "$around$floor"
+    box tube "$around"
+    box closed "$around$floor$lid"
+    box turned "${around}${lid}f 1 2 3 4\n"
+    box hole "v 1 .1 2\n${around}${floor}f 6 7 9\nf 7 8 9\nf 8 5 9\n"
+    for k in "lidless x" "lidless y" "tube x" "tube y"; do
+        check "$k is cut" draw "${k% *}.obj" a.ppm --up z --section "${k#* }"
+        check "$k: that is told" grep -q "^thumbnail: --section: the mesh is open where it is cut: the cut is not" "$T/err"
+    done
+    inside="--up z --section x=1.06 --view right --no-shadow"
+    check "a whole box" draw closed.obj b.ppm $inside
+    check "one without a lid" draw lidless.obj c.ppm $inside
+    check "has no hatch" no "$T/look" same "$T/c.ppm" "$T/b.ppm" 50
+    for k in turned hole; do
+        check "$k is cut" draw $k.obj a.ppm $inside
+        check "$k: that is told" grep -q "open, or turned both ways, where it is cut: the cut is filled between" "$T/err"
+    done
+    check "the one with a hole is filled" no "$T/look" same "$T/a.ppm" "$T/c.ppm" 50
+    check "quietly" draw tube.obj a.ppm --up z --section x --quiet
+    check "no line" test ! -s "$T/err"
+    box middle "v .7 .3 2\nv 2 .7123 2\n${around}${floor}f 5 6 9\nf 6 10 9\nf 10 7 9\nf 7 8 9\nf 8 5 9\n"
+    for k in "middle x=.9" "middle y=.9" "middle x=1.3" "closed x" "closed y" "closed z" "tube z" "lidless z"; do
+        check "$k is cut" draw "${k% *}.obj" a.ppm --up z --section "${k#* }"
+        check "$k: without a word" test ! -s "$T/err"
+    done
 }
 
 # Points without faces are small balls, and a line says so: of PLY and OBJ the same.

@@ -16,7 +16,7 @@ cleanup() {
 trap cleanup EXIT
 ulimit -c 0
 
-${MAKE:-make} -s build/view || { echo "0 passed, 1 failed"; exit 1; }
+${MAKE:-make} -s build/view build/batch build/compare || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$VIEW" ] || { echo "view: left out, it needs POSIX"; finish; }
 $CC -std=c99 -O1 -pthread -I. -DSHADE__IMPLEMENTED tests/view/check.c build/shade.o -lm \
     -o "$T/check" || { echo "0 passed, 1 failed"; exit 1; }
@@ -35,6 +35,7 @@ check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicat
 check "option without a value" refused "rate needs a value" "$VIEW" --rate
 for bad in "--frames 0" "--rate 241" "--colors 16: true or 256" "--threads 0: 1 .. 256" "--threads 257" \
     "--up w: x, y, z, -x, -y or -z" "--show x: halves, quadrants, sextants, kitty, iterm2 or sixel" \
+    "--again 1,2" "--again 1,2,1,0" "--again 1,2,1,0,2" "--again 1,91,1,0,0" "--again 1,2,1,0,0,q" "--again x" \
     "--color redd" "--material x" "--model x" "--shading x" \
     "--max-triangles -1" "--max-memory 31"; do
     check "$bad" refused "$bad" "$VIEW" ${bad%%:*}

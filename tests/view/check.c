@@ -476,6 +476,10 @@ static void test_keys(void)
     test_key("\033[B", (input){ INPUT_KEY, KEY_DOWN, 0, 0, 0 });
     test_key("\033OC", (input){ INPUT_KEY, KEY_RIGHT, 0, 0, 0 });
     test_key("\033[1;5D", (input){ INPUT_KEY, KEY_LEFT, 0, 0, 0 });
+    test_key("\033[1;2A", (input){ INPUT_KEY, KEY_MOVE_UP, 0, 0, 0 });
+    test_key("\033[1;2B", (input){ INPUT_KEY, KEY_MOVE_DOWN, 0, 0, 0 });
+    test_key("\033[1;6C", (input){ INPUT_KEY, KEY_MOVE_RIGHT, 0, 0, 0 });
+    test_key("\033[1;2D", (input){ INPUT_KEY, KEY_MOVE_LEFT, 0, 0, 0 });
     test_key("\033[<64;10;3M", (input){ INPUT_MOUSE, 0, 64, 10, 3 });
     test_key("\033[<32;100;200M", (input){ INPUT_MOUSE, 0, 32, 100, 200 });
     test_key("\033[M`+#", (input){ INPUT_MOUSE, 0, 64, 11, 3 });
@@ -486,6 +490,72 @@ static void test_keys(void)
     check(terminal_asked == 0, "reports owed", terminal_asked, 0);
     test_key("\033[0n", (input){ INPUT_NONE, 0, 0, 0, 0 });
     check(terminal_asked == 0, "reports owed after one too many", terminal_asked, 0);
+}
+
+/* ---- the state ------------------------------------------------------------------------------ */
+
+/* Where the middle of the model is in the picture, -1 .. 1 */
+static shade_vec2 middle_of(const scene *s, float aspect)
+{
+    const scene_camera c = scene_place_camera(s, aspect);
+    const shade_vec4 at = shade_mat4_transform(
+        shade_mat4_mul(c.projection, shade_mat4_mul(c.view, c.model)), shade_v4(0, 0, 0, 1));
+    return shade_v2(at.x / at.w, at.y / at.w);
+}
+
+/* Moved by parts of the half height, however large the model is shown */
+static void test_move(void)
+{
+    static scene s;
+    const scene_request teapot = { .still = 1, .how = model_options_new() };
+    if (scene_load(&s, &teapot, NULL, NULL)) exit(1);
+    for (float zoom = 0.5f; zoom < 5; zoom *= 2) {
+        shade_vec2 before, after;
+        scene_go_home(&s);
+        scene_zoom(&s, zoom);
+        before = middle_of(&s, 1.6f);
+        scene_move(&s, 0.4f, -0.3f);
+        after = middle_of(&s, 1.6f);
+        check(fabsf(after.x - before.x - 0.25f) < 1e-5f, "moved right", (int)(1e6f * after.x),
+              (int)(1e6f * before.x) + 250000);
+        check(fabsf(after.y - before.y + 0.3f) < 1e-5f, "moved down", (int)(1e6f * after.y),
+              (int)(1e6f * before.y) - 300000);
+        scene_move(&s, 1e9f, -1e9f);
+        check(s.place.x == SCENE_FAR && s.place.y == -SCENE_FAR, "no farther", 0, 1);
+    }
+    scene_close(&s);
+    memset(&s, 0, sizeof s);
+}
+
+/* Whatever keys and mouse have done, --again leads there from the same beginning, to the bit. */
+static void test_again(void)
+{
+    static scene a, b;
+    scene_request request = { .still = 1, .how = model_options_new() };
+    scene_state_words told;
+    if (scene_load(&a, &request, NULL, NULL)) exit(1);
+    for (int k = 0; k < 300; k++) {
+        for (int i = random_below(40); i > 0; i--) {
+            const int key = random_below(CHOICES);
+            scene_key(&a, scene_choices[key].key - (random_below(2) ? 'a' - 'A' : 0));
+            scene_turn(&a, 0.01f * (float)random_below(99), 0.01f * (float)random_below(9) - 0.04f);
+            scene_move(&a, 0.01f * (float)random_below(9) - 0.04f, 0.01f * (float)random_below(9));
+            scene_zoom(&a, 0.8f + 0.05f * (float)random_below(9));
+        }
+        told = scene_again(&a);
+        request.again = told.text;
+        check(scene_take_again(&request.again, told.text), "the state is an option", 0, 1);
+        if (k % 20 == 0) {
+            if (scene_load(&b, &request, NULL, NULL)) exit(1);
+            check(a.yaw == b.yaw && a.pitch == b.pitch && a.zoom == b.zoom, "turned alike", 0, 1);
+            check(a.place.x == b.place.x && a.place.y == b.place.y, "in the same place", 0, 1);
+            check(!memcmp(a.choice, b.choice, sizeof a.choice), "with the same choices", 0, 1);
+            scene_close(&b);
+            memset(&b, 0, sizeof b);
+        }
+    }
+    scene_close(&a);
+    memset(&a, 0, sizeof a);
 }
 
 /* A sequence without an end does not hold up what follows for ever. */
@@ -584,10 +654,10 @@ static char *read_all(size_t *size)
     return text;
 }
 
-/* The cells of a scene at rest after some keys; < > ^ v are the arrows */
+/* The cells of a scene at rest after some keys; < > ^ v are the arrows, 8 2 4 6 those with shift */
 static void draw_wanted(display *d, const view_options *o, const char *keys)
 {
-    static const char arrows[] = "^v<>";
+    static const char arrows[] = "^v<>8246";
     static scene s;
     terminal_size size = { d->screen.columns, d->screen.rows, 1, 10, 20, 1 };
     const scene_request request = view_request(o);
@@ -734,6 +804,8 @@ int main(int argc, char **argv)
     test_teapot(40, 60);
     test_teapot(120, 10);
     test_keys();
+    test_move();
+    test_again();
     test_endless();
     for (int k = 0; k < 20000; k++) test_bytes();
     printf("%d passed, %d failed\n", passed, failed);

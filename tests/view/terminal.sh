@@ -113,7 +113,7 @@ done
 keys r
 check "r: as at first" soon drawn true 80 24 ""
 check "what a key did is shown for some seconds" soon lacks "none"
-for step in "Left <" "Right >" "Up ^" "Down v" "+ +" "- -"; do
+for step in "Left <" "Right >" "Up ^" "Down v" "+ +" "- -" "S-Left 4" "S-Right 6" "S-Up 8" "S-Down 2"; do
     keys "${step% *}"
     check "key ${step% *}" soon drawn true 80 24 "${step#* }"
     keys r
@@ -133,6 +133,10 @@ send '\033[<0;40;12M\033[<32;46;12M'
 check "dragging turns" soon no drawn true 80 24 ""
 send '\033[<32;40;12M\033[<0;40;12m'
 check "and back" soon drawn true 80 24 "v^"
+send '\033[<2;40;12M\033[<34;46;12M\033[<34;46;14M'
+check "dragging with the right button moves" soon no drawn true 80 24 ""
+send '\033[<36;40;14M\033[<36;40;12M\033[<0;40;12m'
+check "and back with shift" soon drawn true 80 24 ""
 keys '?'
 check "? shows the keys" soon shows "this help"
 keys h
@@ -145,6 +149,43 @@ turning() { capture; cp "$T/pane" "$T/one"; sleep 0.3; capture; ! cmp -s "$T/one
 check "it turns" soon turning
 keys q
 check "q: status 0" restored 0
+
+# ---- pictures that are kept ---------------------------------------------------------------------
+cp "$T/two.obj" "$T/it's two.obj"
+start 80 24 "$full" "$T/it's two.obj" --still --up z --color orange
+soon has_color 2
+keys Left Left S-Up + m M l g p
+check "p saves the picture" soon shows "saved it's two-1[.]p"
+keys L p
+check "and another" soon shows "saved it's two-2[.]p"
+keys q
+check "q then" restored 0
+# the options that the program has printed, as a shell reads them, drawn by batch
+tm capture-pane -p -J | grep -e "view --still --again" | sed 's/ *$//' >"$T/commands"
+check "each is printed" same "$(wc -l <"$T/commands")" 2
+redrawn() {                     # number, pixels of 255 by which few may differ
+    eval "set -- $1 $2 $(sed -n "$1s/.* --still/--still/p" "$T/commands")" && number=$1 limit=$2 && shift 3
+    kept=$(ls "$T/it's two-$number".p*) && rm -rf "$T/strips" &&
+        build/batch "$@" --strips 1 --size 1200x720 --samples 4 --out "$T/strips" --quiet &&
+        build/compare "$T/strips/00000.ppm" "$kept" --limit "$limit" --count 0.5%
+}
+for number in 1 2; do check "picture $number is drawn again" redrawn $number 12; done
+check "they are two pictures" no build/compare "$T"/it*-1.p* "$T"/it*-2.p* --limit 12 --count 0.5%
+eval "set -- $(sed -n 1p "$T/commands")"; shift
+start 80 24 "$full" "$@"
+soon has_color 2
+keys p
+check "the command shows it again" soon shows "saved it's two-3[.]p"
+keys q
+restored 0
+check "the same bytes" sh -c "cmp '$T'/it*-1.p* '$T'/it*-3.p*"
+
+start_command 80 24 sh -c "mkdir gone && cd gone && rmdir ../gone && exec env $full '$VIEW' --still"
+soon has_color 2
+keys p
+check "a folder that takes no files is told of" soon shows "not saved: No such file"
+keys q
+check "and no command is printed" sh -c "! tmux -S '$T/tmux.$server' capture-pane -p | grep again"
 
 # ---- what is sent -------------------------------------------------------------------------------
 cost() { sed -n "s/.*the $1 of \([0-9]*\).*/\1/p" "$T/err"; }

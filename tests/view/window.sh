@@ -42,7 +42,7 @@ look() {
         [ "$(echo "$found" | cut -d ' ' -f 3)" -gt 100 ]
 }
 picture() { look 000000; }
-open() { "$VIEW" --window "$@" & window=$!; soon picture; }
+open() { (cd "$T" && exec "$VIEW" --window "$@" >"$T/told") & window=$!; soon picture; }
 more() { look "$2" && [ "${found##* }" -gt "$1" ]; }
 size() { picture && same "${found% * *}" "$1"; }
 # Keeps the picture once it has been the same for a second: at rest it is drawn again, finer.
@@ -78,8 +78,18 @@ xdotool key h r
 keep
 xdotool mousemove 400 400 mousedown 1 mousemove 500 420 mouseup 1 mousemove 999 799
 check "dragging turns" soon changed
+keep
+xdotool mousemove 400 400 mousedown 3 mousemove 500 420 mouseup 3 mousemove 999 799
+check "dragging with the right button moves" soon changed
+keep
+xdotool key shift+Left
+check "so does shift with an arrow" soon changed
 xdotool windowsize "$(number .)" 500 300
 check "resized: a picture of that size" soon size "500 300"
+xdotool key p
+check "p prints the command" soon grep -q "view --still --again .* --window " "$T/told"
+check "and saves a picture of that size" same \
+    "$(build/compare "$T"/two-1.p* "$T"/two-1.p* --json | grep -o '"width": *[0-9]*\|"height": *[0-9]*' | tr -dc '0-9\n' | tr '\n' ' ')" "500 300 "
 xdotool key q
 check "q closes the window" closed
 open

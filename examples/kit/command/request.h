@@ -30,6 +30,15 @@
     "  --quiet               prints errors only, no progress and no warnings\n"                    \
     "  --verbose             says which axis was guessed to be upright\n"
 
+/* After all options: what is read, as this program is built */
+#ifdef MODEL_ASSIMP
+#define MODEL_FORMATS                                                                              \
+    "formats: OBJ with MTL, STL, PLY, OFF, glTF, GLB, 3MF; by assimp FBX, 3DS, DAE, BLEND and "    \
+    "more\n"
+#else
+#define MODEL_FORMATS "formats: OBJ with MTL, STL, PLY, OFF, glTF, GLB, 3MF\n"
+#endif
+
 typedef struct model_options {
     int up;                                 /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */

@@ -4,8 +4,8 @@
    Triangles are clipped, and each of those that the plane crosses leaves a piece of the cut's
    outline.  The cut is filled in rows along the lines of the hatch, between the heights at which
    pieces of the outline begin and end: in a row no two pieces cross, and the part lies where they
-   wind around a point.  Open or ill-turned meshes are filled between every second pair of
-   crossings. */
+   wind around a point.  Meshes with holes or turned both ways are filled between every second
+   pair of crossings, sheets are not; a line says so. */
 #ifndef MODEL_SECTION_H
 #define MODEL_SECTION_H
 
@@ -110,7 +110,6 @@ static inline void section_outline(section *s, uint32_t from, uint32_t to)
     if (s->failed) return;
     section_flatten(s, from, e.low);
     section_flatten(s, to, e.high);
-    if (!(e.low[1] < e.high[1]) && !(e.high[1] < e.low[1])) return;
     if (e.low[1] > e.high[1]) {
         e.way = -1;
         section_flatten(s, to, e.low);
@@ -213,6 +212,49 @@ static inline double section_at(const section_edge *e, double height)
     const double t = (height - e->low[1]) / (e->high[1] - e->low[1]);
     if (t >= 1) return e->high[0];
     return t > 0 ? e->low[0] + (e->high[0] - e->low[0]) * t : e->low[0];
+}
+
+/* How far the outline is open along a line through the plane: where it is closed an even number of
+   its parts end in each point, and in the order of the line two and two ends are the same.  With
+   directed it is also wrong where parts do not begin where others end.  Huge: out of memory */
+static inline double section_gap(const section *s, double x, double y, int directed)
+{
+    const size_t n = s->edges, step = directed ? 1 : 2, apart = directed ? n : 1;
+    double *at = (double *)malloc((2 * n + 1) * sizeof *at), sum = 0;
+    if (!at) return HUGE_VAL;
+    for (size_t i = 0; i < n; i++) {
+        const section_edge *e = &s->edge[i];
+        const size_t low = e->way > 0 ? i : n + i, high = e->way > 0 ? n + i : i;
+        at[low] = x * e->low[0] + y * e->low[1];
+        at[high] = x * e->high[0] + y * e->high[1];
+    }
+    qsort(at, directed ? n : 2 * n, sizeof *at, section_number);
+    if (directed) qsort(at + n, n, sizeof *at, section_number);
+    for (size_t i = 0; i < n; i++) sum += fabs(at[step * i] - at[step * i + apart]);
+    free(at);
+    return sum;
+}
+
+/* The larger gap along two lines that few parts have sides along */
+static inline double section_gaps(const section *s, int directed)
+{
+    return fmax(section_gap(s, 1, 0.382, directed), section_gap(s, -0.382, 1, directed));
+}
+
+/* 0: the outline is closed; SECTION_TORN: it is open by more than a thousandth of the model, and
+   than what rounding makes of edges that meet in the middle of others, or turned both ways;
+   SECTION_OPEN: by so much of its length that it is one of sheets, which have no inside */
+enum { SECTION_TORN = 1, SECTION_OPEN };
+static inline int section_state(const section *s, double extent)
+{
+    const double least = (1e-3 + 3e-7 * (double)s->edges) * extent;
+    const double gap = section_gaps(s, 0);
+    double length = 0;
+    for (size_t i = 0; i < s->edges; i++)
+        length +=
+            hypot(s->edge[i].high[0] - s->edge[i].low[0], s->edge[i].high[1] - s->edge[i].low[1]);
+    if (gap > least && gap > 0.05 * length) return SECTION_OPEN;
+    return gap > least || section_gaps(s, 1) > least ? SECTION_TORN : 0;
 }
 
 /* How many rows the edges cross */
@@ -419,11 +461,18 @@ static inline double section_side(int axis, int up, float turn, shade_vec3 eye)
 static inline int section_cut(section *s, model *m, const model_options *o)
 {
     double extent = 0;
-    int failed = !m->normals_given && mesh_crease(&m->mesh, 0);
+    int state = 0, failed = !m->normals_given && mesh_crease(&m->mesh, 0);
     m->normals_given = 1;
     for (int i = 0; i < 3; i++) extent = fmax(extent, s->high[i] - s->low[i]);
-    failed = failed || section_clip(s) || section_fill(s, 2 * extent / SECTION_LINES) ||
-             section_join(s, m, o);
+    failed = failed || section_clip(s);
+    if (!failed) state = section_state(s, extent);
+    if (state && !o->quiet)
+        complain("--section: the mesh is open%s where it is cut: the cut is %s",
+                 state == SECTION_OPEN ? "" : ", or turned both ways,",
+                 state == SECTION_OPEN ? "not filled"
+                                       : "filled between each second pair of its lines");
+    if (!failed && state != SECTION_OPEN) failed = section_fill(s, 2 * extent / SECTION_LINES);
+    failed = failed || section_join(s, m, o);
     if (!failed) section_hand_over(s, m);
     section_free(s);
     return failed;

@@ -11,10 +11,7 @@
 #include "../../shared/canvas.h"
 #include "look.h"
 #include "../read/read.h"
-#ifdef MODEL_STB
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb/stb_image_write.h>
-#endif
+#include "../image/written.h"
 
 #define PORTRAIT_USAGE                                                                             \
     "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                  \
@@ -214,88 +211,7 @@ static inline shade_result portrait_draw(const canvas *c, const model *m, const 
     return result;
 }
 
-/* Converts to bytes; divides by alpha, by which the canvas has multiplied colours. */
-static inline uint8_t *portrait_bytes(const shade_target *picture, int channels)
-{
-    size_t n = (size_t)picture->width * (size_t)picture->height;
-    const float *from = (const float *)picture->color;
-    uint8_t *bytes = (uint8_t *)malloc(n * (size_t)channels), *to = bytes;
-    if (bytes && picture->format == SHADE_FORMAT_RGBA8) { /* holds what is wanted */
-        for (size_t i = 0; i < n; i++)
-            memcpy(to + (size_t)channels * i, (const uint8_t *)picture->color + 4 * i,
-                   (size_t)channels);
-        return bytes;
-    }
-    for (size_t i = 0; bytes && i < n; i++, from += 4) {
-        float a = from[3], k = channels == 4 && a > 0 ? 1 / a : 1;
-        shade_vec3 c = shade_srgb_from_linear(shade_v3(k * from[0], k * from[1], k * from[2]));
-        *to++ = (uint8_t)(255 * c.x + 0.5f);
-        *to++ = (uint8_t)(255 * c.y + 0.5f);
-        *to++ = (uint8_t)(255 * c.z + 0.5f);
-        if (channels == 4) *to++ = (uint8_t)(255 * a + 0.5f);
-    }
-    return bytes;
-}
-
 /* ---- its file -------------------------------------------------------------------------------- */
-
-typedef struct portrait_file {
-    const shade_target *picture;
-    int png, channels; /* channels: 4 with alpha, which only PNG has */
-} portrait_file;
-
-static inline int portrait_sink(void *user, const void *bytes, size_t size)
-{
-    return fwrite(bytes, 1, size, (FILE *)user) != size;
-}
-
-#ifdef MODEL_STB
-typedef struct portrait_png {
-    FILE *file;
-    int failed;
-} portrait_png;
-
-static inline void portrait_png_sink(void *user, void *bytes, int size)
-{
-    portrait_png *s = (portrait_png *)user;
-    s->failed |= portrait_sink(s->file, bytes, (size_t)size);
-}
-
-#define PORTRAIT_PNG "png", /* among the endings of pictures */
-
-static inline int portrait_write_png(FILE *file, const uint8_t *bytes, int width, int height,
-                                     int channels)
-{
-    portrait_png sink = { file, 0 };
-    sink.failed |= !stbi_write_png_to_func(portrait_png_sink, &sink, width, height, channels, bytes,
-                                           width * channels);
-    return sink.failed;
-}
-#else
-#define PORTRAIT_PNG
-static inline int portrait_write_png(FILE *file, const uint8_t *bytes, int width, int height,
-                                     int channels)
-{
-    return (void)file, (void)bytes, (void)width, (void)height, (void)channels, 1;
-}
-#endif
-
-/* A save_writer of a portrait_file */
-static inline int portrait_write(FILE *file, const void *data)
-{
-    const portrait_file *f = (const portrait_file *)data;
-    uint8_t *bytes;
-    int failed;
-    errno = 0;
-    if (f->png) {
-        bytes = portrait_bytes(f->picture, f->channels);
-        failed = !bytes || portrait_write_png(file, bytes, f->picture->width, f->picture->height,
-                                              f->channels);
-        free(bytes);
-        return failed;
-    }
-    return shade_encode_ppm(portrait_sink, file, f->picture) != SHADE_OK;
-}
 
 /* 1: a file may become a PNG whose name does not say so, as file managers ask for with names of
    their own: it is new or empty, or is one. */

@@ -13,8 +13,17 @@
 #include "../draw/outline.h"
 #include "../read/read.h"
 
-/* Keys beyond characters */
-enum { KEY_UP = 256, KEY_DOWN, KEY_LEFT, KEY_RIGHT };
+/* Keys beyond characters: the arrows, and with shift */
+enum {
+    KEY_UP = 256,
+    KEY_DOWN,
+    KEY_LEFT,
+    KEY_RIGHT,
+    KEY_MOVE_UP,
+    KEY_MOVE_DOWN,
+    KEY_MOVE_LEFT,
+    KEY_MOVE_RIGHT
+};
 
 /* The choices that keys step through: a small letter forward, its capital back */
 enum {
@@ -56,27 +65,36 @@ static const scene_choice scene_choices[CHOICES] = {
     { "ground", { "shadow", "none" }, 2, 'g' },
 };
 
-static const char *const scene_help[] = {
-    "arrows mouse   turn",
-    "+ - wheel      zoom",
-    "space          turn by itself, or not",
-    "m s l t        material, shading, lamp, terms",
-    "e f            model, flag",
-    "b w g          background, wires, ground",
-    "capitals       step back",
-    "r              as at first",
-    "h ?            this help",
-    "q              quit",
-};
+/* What keys do, from the sixteenth character on: for a list on the screen and the usage */
+#define SCENE_KEYS(KEY)                                                                            \
+    KEY("arrows mouse   turn")                                                                     \
+    KEY("shift + these  move; the other buttons too")                                              \
+    KEY("+ - wheel      zoom")                                                                     \
+    KEY("space          turn by itself, or not")                                                   \
+    KEY("m s l t        material, shading, lamp, terms")                                           \
+    KEY("e f            model, flag")                                                              \
+    KEY("b w g          background, wires, ground")                                                \
+    KEY("capitals       step back")                                                                \
+    KEY("r              as at first")                                                              \
+    KEY("p              save the picture")                                                         \
+    KEY("h ?            this help")                                                                \
+    KEY("q              quit")
+#define SCENE_HELP_LINE(keys) keys,
+static const char *const scene_help[] = { SCENE_KEYS(SCENE_HELP_LINE) };
 enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
 
 #define SCENE_PITCH 0.36f /* the camera looks down by this angle, in radians, */
 #define SCENE_LENS 0.42f  /* and sees this vertical angle */
+#define SCENE_FAR 1.5f    /* the farthest place of the model, in half heights of the picture */
+#define SCENE_USAGE                                                                                \
+    "  --again STATE         as the key p of view has said: AZIMUTH,ELEVATION,ZOOM,RIGHT,UP and\n" \
+    "                        keys; what --view frames and cuts stays\n"
 
 typedef struct scene {
     model model; /* about the origin, the farthest point at distance 1 */
     model_options how;
     float yaw, pitch, zoom;
+    shade_vec2 place; /* of the model, right and up in half heights of the picture, at zoom 1 */
     int turning, choice[CHOICES];
     int flat; /* the model has the normals of its faces */
     int turning_at_home, home[CHOICES];
@@ -101,6 +119,7 @@ typedef struct scene_request {
     const char *model; /* its file; NULL: the teapot */
     int pieces;        /* of the teapot along each edge of a patch; 0: 20 */
     int still, dark;   /* does not turn by itself; has a black background */
+    const char *again; /* the state that scene_again has told; NULL: as at first */
     model_options how;
 } scene_request;
 
@@ -151,6 +170,7 @@ static inline void scene_go_home(scene *s)
     s->yaw = scene_home_yaw(s);
     s->pitch = scene_home_pitch(s);
     s->zoom = s->how.zoom;
+    s->place = shade_v2(0, 0);
     s->turning = s->turning_at_home;
     memcpy(s->choice, s->home, sizeof s->choice);
 }
@@ -187,26 +207,6 @@ static inline void scene_choose(scene *s, const scene_request *o)
                                                                          : 0;
     s->flat = o->how.shading == SHADE_SHADING_PER_FACE;
     scene_go_home(s);
-}
-
-/* Loads a model into a zeroed scene.  Returns 1 with a line on stderr. */
-static inline int scene_load(scene *s, const scene_request *o, mesh_progress *progress, void *user)
-{
-    int failed;
-    s->how = o->how;
-    s->title = o->model ? scene_title(o->model) : "teapot";
-    guard_begin(o->how.max_memory);
-    failed = o->model ? model_open(o->model, &o->how, &s->model, progress, user)
-                      : scene_teapot(&s->model, o->pieces);
-    guard_doing = "preparing the model";
-    failed = failed || model_cut(&s->model, &o->how, 1, scene_home_yaw(s), scene_home_eye(s)) ||
-             model_prepare(&s->model, &o->how, 0);
-    guard_done();
-    if (failed) return 1;
-    if (s->model.part_count == 1) s->model.mesh.view = model_part_mesh(&s->model, 0);
-    scene_choose(s, o);
-    ground_cast(&s->shadow, &s->model.mesh.view);
-    return 0;
 }
 
 static inline void scene_close(scene *s)
@@ -303,6 +303,13 @@ static inline void scene_zoom(scene *s, float factor)
     s->zoom = fmaxf(0.2f, fminf(20, s->zoom * factor));
 }
 
+/* Moves the model in the picture by parts of its half height. */
+static inline void scene_move(scene *s, float right, float up)
+{
+    s->place.x = fmaxf(-SCENE_FAR, fminf(SCENE_FAR, s->place.x + right / s->zoom));
+    s->place.y = fmaxf(-SCENE_FAR, fminf(SCENE_FAR, s->place.y + up / s->zoom));
+}
+
 /* Gives a scene that began with a black background the usual one. */
 static inline void scene_lighten(scene *s)
 {
@@ -320,6 +327,10 @@ static inline int scene_key(scene *s, int key)
     case KEY_DOWN: scene_turn(s, 0, step); return 1;
     case KEY_LEFT: scene_turn(s, -step, 0); return 1;
     case KEY_RIGHT: scene_turn(s, step, 0); return 1;
+    case KEY_MOVE_UP: scene_move(s, 0, step); return 1;
+    case KEY_MOVE_DOWN: scene_move(s, 0, -step); return 1;
+    case KEY_MOVE_LEFT: scene_move(s, -step, 0); return 1;
+    case KEY_MOVE_RIGHT: scene_move(s, step, 0); return 1;
     case '+':
     case '=': scene_zoom(s, 1.1f); return 1;
     case '-':
@@ -332,6 +343,91 @@ static inline int scene_key(scene *s, int key)
         scene_step(s, k, key == scene_choices[k].key ? 1 : -1);
         return 1;
     }
+    return 0;
+}
+
+/* ---- the state as an option, and loading ----------------------------------------------------- */
+
+typedef struct scene_state_words {
+    char text[240];
+} scene_state_words;
+
+/* What --again takes: how the model stands in degrees, its zoom and place, and the keys that lead
+   from the first choices to these. */
+static inline scene_state_words scene_again(const scene *s)
+{
+    const double degree = 57.295779513082321;
+    const double turned = -(double)s->yaw * degree, raised = (double)s->pitch * degree;
+    scene_state_words w;
+    size_t n = (size_t)snprintf(w.text, sizeof w.text, "%.9g,%.9g,%.9g,%.9g,%.9g", turned, raised,
+                                (double)s->zoom, (double)s->place.x, (double)s->place.y);
+    int keys = 0;
+    for (int k = 0; k < CHOICES; k++) {
+        const scene_choice *c = &scene_choices[k];
+        const int ahead = (s->choice[k] - s->home[k] + c->count) % c->count;
+        const int back = 2 * ahead > c->count ? c->count - ahead : 0;
+        for (int i = 0; i < (back ? back : ahead) && n + 2 < sizeof w.text; i++) {
+            if (!keys++) w.text[n++] = ',';
+            w.text[n++] = (char)(back ? c->key - 'a' + 'A' : c->key);
+        }
+    }
+    w.text[n] = 0;
+    return w;
+}
+
+/* Reads the five numbers of a state.  Returns where its keys begin, or NULL. */
+static inline const char *scene_again_read(const char *state, double number[5])
+{
+    static const double low[5] = { -36000, -90, 0.05, (double)-SCENE_FAR, (double)-SCENE_FAR };
+    static const double high[5] = { 36000, 90, 20, (double)SCENE_FAR, (double)SCENE_FAR };
+    for (int k = 0; k < 5; k++)
+        if (!view_number(&state, low[k], high[k], &number[k]) || (!*state && k < 4)) return NULL;
+    for (const char *c = state; *c; c++) {
+        int known = 0;
+        for (int k = 0; k < CHOICES; k++) known |= (*c | 32) == scene_choices[k].key;
+        if (!known) return NULL;
+    }
+    return state;
+}
+
+/* Takes the option --again. */
+static inline int scene_take_again(void *to, const char *value)
+{
+    double number[5];
+    *(const char **)to = value;
+    return scene_again_read(value, number) != NULL;
+}
+
+static inline void scene_again_take(scene *s, const char *state)
+{
+    double number[5];
+    const char *key = scene_again_read(state, number);
+    s->yaw = (float)(number[0] * -0.017453292519943295);
+    s->pitch = (float)(number[1] * 0.017453292519943295);
+    s->zoom = (float)number[2];
+    s->place = shade_v2((float)number[3], (float)number[4]);
+    for (; *key; key++) scene_key(s, *key);
+    *s->said = 0;
+}
+
+/* Loads a model into a zeroed scene.  Returns 1 with a line on stderr. */
+static inline int scene_load(scene *s, const scene_request *o, mesh_progress *progress, void *user)
+{
+    int failed;
+    s->how = o->how;
+    s->title = o->model ? scene_title(o->model) : "teapot";
+    guard_begin(o->how.max_memory);
+    failed = o->model ? model_open(o->model, &o->how, &s->model, progress, user)
+                      : scene_teapot(&s->model, o->pieces);
+    guard_doing = "preparing the model";
+    failed = failed || model_cut(&s->model, &o->how, 1, scene_home_yaw(s), scene_home_eye(s)) ||
+             model_prepare(&s->model, &o->how, 0);
+    guard_done();
+    if (failed) return 1;
+    if (s->model.part_count == 1) s->model.mesh.view = model_part_mesh(&s->model, 0);
+    scene_choose(s, o);
+    if (o->again) scene_again_take(s, o->again);
+    ground_cast(&s->shadow, &s->model.mesh.view);
     return 0;
 }
 
@@ -376,6 +472,8 @@ static inline scene_camera scene_place_camera(const scene *s, float aspect)
         shade_mat4_perspective(SCENE_LENS, aspect, fmaxf(0.02f, distance - 2.2f), distance + 2.2f);
     c.projection.col[0].x *= s->zoom;
     c.projection.col[1].y *= s->zoom;
+    c.projection.col[2].x -= s->zoom * s->place.x / aspect; /* of which w is -1 */
+    c.projection.col[2].y -= s->zoom * s->place.y;
     c.top = 0;
     c.bottom = 1;
     return c;

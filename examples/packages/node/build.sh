@@ -1,7 +1,7 @@
 #!/bin/sh
 # build.sh [folder] - compiles module.c for WebAssembly with SIMD and writes it as module.js, which
 # index.js imports: no file is read and nothing is fetched when the package runs.  Where there is
-# node, index.cjs for require follows, with its types and the licence.
+# node, index.cjs for require follows, with its types and the licences.
 cd "$(dirname "$0")" || exit 1
 out=${1:-.}
 CLANG=${CLANG:-clang}
@@ -22,4 +22,7 @@ $CLANG $FLAGS module.c -o "$out/module.wasm" || exit 1
     printf 'export default "%s";\n' "$(base64 "$out/module.wasm" | tr -d '\n')"
 } >"$out/module.js" && rm "$out/module.wasm" && echo "node: $out/module.js"
 [ "$out" = . ] && command -v node >/dev/null || exit 0
+# of the C library that the module is linked to; Debian has it there
+wasi=/usr/share/doc/wasi-libc/copyright
+[ ! -f $wasi ] || cp $wasi NOTICES.txt
 cp index.d.ts index.d.cts && cp ../../../LICENSE . && node commonjs.js index.cjs

@@ -20,7 +20,7 @@ static const char usage[] =
     "  --frames N            one turn in N pictures (of a film 360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
-    "  --samples 1|2|4       samples along each edge of a pixel (2)\n" MODEL_USAGE
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n" SCENE_USAGE MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips); pieces that are\n"
     "                        there stay, and must be of this model and these options\n"
     "  --pipe                to standard output instead, one behind the other\n"
@@ -28,7 +28,10 @@ static const char usage[] =
     "  --rate N              frames a second of the film, 1 .. 240 (30)\n"
     "  --piece K             only this one, 0 .. N-1\n"
     "  --missing             only prints the numbers of those that are not there\n"
-    "  --help, --version     prints this text; the version\n";
+    "  --help, --version     prints this text; the version\n" MODEL_FORMATS
+    "examples:\n"
+    "  shade-batch bolt.stl --film bolt.mp4 --frames 90 --size 640x360\n"
+    "  shade-batch bolt.stl --strips 8 --piece 3 --size 8000x6000     on one of eight machines\n";
 
 typedef struct batch {
     scene_request request;
@@ -37,6 +40,7 @@ typedef struct batch {
     int piece, pipe, missing, rate;            /* piece -1: all; count 0: not said */
     FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
+    float begin; /* the yaw of the first piece */
     sheet sheet;
 } batch;
 
@@ -77,7 +81,9 @@ static int take_strips(void *to, const char *value)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(batch *b, int argc, char **argv)
 {
-    static const option own[] = { { "--frames", take_frames, 0, 0, 0 },
+    static const option own[] = { { "--again", scene_take_again, offsetof(batch, request.again), 0,
+                                    0 },
+                                  { "--frames", take_frames, 0, 0, 0 },
                                   { "--strips", take_strips, 0, 0, 0 },
                                   { "--film", take_film, offsetof(batch, film), 0, 0 },
                                   { "--out", take_folder, offsetof(batch, out), 0, 0 },
@@ -140,9 +146,8 @@ static int write_piece(batch *b, int k, const batch_piece *p)
     FILE *file = b->sink ? b->sink : save_begin(p->path);
     int failed;
     if (!file) return 1;
-    if (!b->strips)
-        b->scene.yaw = scene_home_yaw(&b->scene) + 6.2831853f * (float)k / (float)b->count;
-    if (!b->request.how.quick) sheet_light(&b->sheet, &b->scene);
+    if (!b->strips) b->scene.yaw = b->begin + 6.2831853f * (float)k / (float)b->count;
+    sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
     if (!b->sink) return save_end(file, p->path, failed);
     failed = failed || fflush(file);
@@ -155,7 +160,9 @@ static int load(batch *b)
 {
     b->request.pieces = 20;
     while ((float)b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
-    return scene_load(&b->scene, &b->request, NULL, NULL);
+    if (scene_load(&b->scene, &b->request, NULL, NULL)) return 1;
+    b->begin = b->scene.yaw;
+    return 0;
 }
 
 /* Gets memory, before the first piece is drawn.  Returns 1 with a line on stderr. */
@@ -174,9 +181,13 @@ static void describe(const batch *b, char *line, size_t room)
     const model_options *o = &b->scene.how;
     const int words[] = { o->up,    o->plain,   o->no_shadow,      o->quick,        o->viewed,
                           o->model, o->section, o->section_placed, (int)o->shading, o->outside };
-    const float numbers[] = { o->azimuth, o->elevation, o->zoom, (float)o->section_at };
+    const scene *s = &b->scene;
+    const float numbers[] = { o->azimuth, o->elevation, o->zoom, (float)o->section_at,
+                              b->begin,   s->pitch,     s->zoom, s->place.x,
+                              s->place.y };
     uint64_t mark = mark_of_model(&b->scene.model);
     mark = mark_words(mark, words, sizeof words / sizeof *words);
+    mark = mark_words(mark, s->choice, CHOICES);
     mark = mark_words(mark, numbers, sizeof numbers / sizeof *numbers);
     mark = mark_words(mark, &o->material, sizeof o->material / 4);
     snprintf(line, room,

@@ -99,10 +99,11 @@ static inline size_t sheet_pack(const sheet *p, int rows)
     return 3 * pixels;
 }
 
-/* Lights the studio for the picture, as the scene stands now. */
+/* Chooses the wires and lights the studio for the picture, as the scene stands now. */
 static inline void sheet_light(const sheet *p, scene *s)
 {
     const scene_camera camera = scene_place_camera(s, (float)p->width / (float)p->height);
+    scene_trace(s, &camera, p->height);
     scene_light(s, &camera, p->width > p->height ? p->width : p->height);
 }
 

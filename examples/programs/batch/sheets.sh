@@ -16,6 +16,9 @@ usage: shade-sheets FOLDER SHEETS [options of shade-thumbnail]
 the sheet of FOLDER/a/bolt.stl is SHEETS/a/bolt.stl.png; a sheet that is newer than its model stays.
 a model that cannot be read is one line on stderr, and the status is not 0.
 the environment: THUMBNAIL names the program (shade-thumbnail), JOBS the jobs at a time.
+exit status: 0 every model has its sheet; others: models that could not be read, no GNU parallel
+examples:
+  shade-sheets parts sheets --edges --hidden --dimensions
 END
 }
 case $1 in

@@ -28,7 +28,10 @@ static const char usage[] =
     "  --max-seconds N       gives up after N seconds of processor time, or 4 N by the clock,\n"
     "                        0 .. 1000000000 (0: no limit)\n"
     "Colours count as much as they cover: with alpha 0 any two are the same.\n"
-    "exit status: 0 the same within limit and count, 1 different, 2 error\n";
+    "exit status: 0 the same within limit and count, 1 different, 2 error\n" MODEL_FORMATS
+    "examples:\n"
+    "  shade-compare golden.png drawn.png --limit 2 --difference apart.png\n"
+    "  shade-compare golden.png bolt.stl --quiet || echo bolt.stl has changed\n";
 
 enum { SAME, DIFFERENT, ERROR };
 typedef struct picture {
@@ -204,7 +207,7 @@ static int compare_into(FILE *file, const void *data)
     int failed;
     if (!c->png) fprintf(file, "P6\n%d %d\n255\n", c->width, c->height);
     failed = compare_rows(file, data);
-    return failed || !c->png ? failed : portrait_write_png(file, c->drawn, c->width, c->height, 3);
+    return failed || !c->png ? failed : picture_write_png(file, c->drawn, c->width, c->height, 3);
 }
 
 /* ---- command line --------------------------------------------------------------------------- */
@@ -237,7 +240,7 @@ static int take_count(void *to, const char *value)
 
 static int take_difference(void *to, const char *value)
 {
-    static const char *const endings[] = { "ppm", PORTRAIT_PNG NULL };
+    static const char *const endings[] = { "ppm", PICTURE_PNG NULL };
     *(const char **)to = value;
     return save_is_device(value) || save_ends_in(value, endings);
 }
@@ -274,7 +277,7 @@ static int read_options(options *o, int argc, char **argv)
 static int take_pixels(picture *p, const shade_target *drawn, int clear)
 {
     const size_t n = 4 * (size_t)drawn->width * (size_t)drawn->height;
-    uint8_t *bytes = portrait_bytes(drawn, 4);
+    uint8_t *bytes = picture_bytes(drawn, 4);
     p->whole = (uint16_t *)malloc(n * sizeof *p->whole);
     for (size_t i = 0; bytes && p->whole && i < n; i++)
         p->whole[i] = (uint16_t)(257 * (i % 4 == 3 && !clear ? 255 : bytes[i]));

@@ -1,6 +1,7 @@
 #!/bin/sh
 # man.sh PROGRAM NAME SENTENCE - prints the man page of a program, made from what its --help says:
-# a usage line, lines of options ("  --name VALUE   text") with what continues them, other lines.
+# a usage line, lines of options ("  --name VALUE   text") with what continues them, other lines, and
+# at the end lines that begin with "exit status:" and "formats:", and lists below "keys:" and "examples:".
 # NAME is the name that the program is installed under.
 program=$1 name=$2 sentence=$3
 version=$("$program" --version) || exit 1
@@ -26,6 +27,27 @@ NR == 1 {
     print ".SH OPTIONS"
     next
 }
+function status(text)
+{
+    if (!told) print ".SH \"EXIT STATUS\"\n" text
+    told = 1
+}
+/^[^ ]/ { list = "" }
+/^exit status: / { sub(/^exit status: /, ""); status(roff($0)); next }
+/^formats: / {
+    status("0: all was done.\n1: it was not, and a line on standard error tells why.")
+    sub(/^formats: /, "")
+    print ".SH FORMATS\n" roff($0) "."
+    next
+}
+/^(keys|examples):$/ { list = toupper($0); sub(/:/, "", list); print ".SH " list; next }
+list == "KEYS" {
+    keys = substr($0, 3, 14)
+    sub(/ +$/, "", keys)
+    print ".TP\n.B " roff(keys) "\n" roff(substr($0, 18))
+    next
+}
+list == "EXAMPLES" { sub(/^ +/, ""); print ".PP\n.nf\n.B " roff($0) "\n.fi"; next }
 /^  --/ {
     option = $0
     sub(/^  /, "", option)
@@ -37,12 +59,11 @@ NR == 1 {
     next
 }
 /^    / { sub(/^ +/, ""); print roff($0); next }
-/^exit status: / {
-    sub(/^exit status: /, "")
-    print ".SH \"EXIT STATUS\"\n" roff($0)
-    told = 1
-    next
-}
 NF { print ".PP\n" toupper(substr($0, 1, 1)) roff(substr($0, 2)) }
-END { if (!told) print ".SH \"EXIT STATUS\"\n0: all was done.\n1: it was not, and a line on standard error tells why." }
+END {
+    n = split("batch compare sheets thumbnail view", all, " ")
+    print ".SH \"SEE ALSO\""
+    for (k = 1; k <= n; k++)
+        if ("shade-" all[k] != name) print ".BR shade\\-" all[k] " (1)" (++others < n - 1 ? "," : "")
+}
 '

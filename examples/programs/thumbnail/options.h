@@ -12,7 +12,11 @@ static const char thumbnail_usage[] =
     "                        not say so\n" MODEL_USAGE
     "  --max-seconds N       gives up after N seconds of processor time, or 4 N by the clock,\n"
     "                        0 .. 1000000000 (0: no limit)\n"
-    "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
+    "  --help, --version     prints this text; the version\n" DRAWING_USAGE MODEL_FORMATS
+    "examples:\n"
+    "  shade-thumbnail bolt.stl bolt.png --size 256x256\n"
+    "  shade-thumbnail car.glb car.png --background none --view=30,20\n"
+    "  shade-thumbnail part.stl sheet.png --views front,right,top,iso --edges --dimensions\n";
 
 typedef struct options {
     const char *files[2], *input, *output;
@@ -65,9 +69,9 @@ static int read_options(options *o, int argc, char **argv)
 static int save_picture(const shade_target *picture, const options *o)
 {
     const int clear = o->picture.background == PORTRAIT_NONE;
-    const portrait_file f = { picture, o->png, clear ? 4 : 3 };
+    const picture_file f = { picture, o->png, clear ? 4 : 3 };
     guard_doing = "writing the picture";
-    return save_bytes(o->output, portrait_write, &f);
+    return save_bytes(o->output, picture_write, &f);
 }
 
 /* Returns 1, with a line on stderr, where a result would replace a file that has been read. */

@@ -8,6 +8,7 @@
 #include "cells.h"
 #include "pixels.h"
 #include "words.h"
+#include "keep.h"
 
 /* ---- what the terminal can --------------------------------------------------------------- */
 
@@ -89,6 +90,7 @@ typedef struct display {
     int at_rest;               /* the picture is as good as it gets */
     int paced;                 /* frames wait for reports of the terminal */
     int mouse_column, mouse_row;
+    keep kept;
     double next, said_until, sent_at, asked_at;
     frame_rate rate;
     int frames;
@@ -397,18 +399,34 @@ static inline int display_frame(display *d, double now)
 
 /* ---- keys, mouse, signals -------------------------------------------------------------------- */
 
-/* Dragging turns, the wheel zooms. */
+/* Dragging turns or, with shift or another button, moves; the wheel zooms. */
 static inline void display_mouse(display *d, input in)
 {
-    float step = 4.0f / (float)d->size.columns;
+    const float across = (float)(in.column - d->mouse_column);
+    const float down = (float)(in.row - d->mouse_row), row = 2 / (float)d->size.rows;
+    const float step = 4.0f / (float)d->size.columns;
     if (in.button & MOUSE_WHEEL)
         scene_zoom(d->scene, in.button & 1 ? 1 / 1.1f : 1.1f);
+    else if (in.button & MOUSE_MOVED && in.button & (MOUSE_OTHER | MOUSE_SHIFT))
+        scene_move(d->scene, d->size.shape / 2 * row * across, -row * down);
     else if (in.button & MOUSE_MOVED)
-        scene_turn(d->scene, step * (float)(in.column - d->mouse_column),
-                   2 * step * (float)(in.row - d->mouse_row));
+        scene_turn(d->scene, step * across, 2 * step * down);
     d->mouse_column = in.column;
     d->mouse_row = in.row;
     d->changed = d->dragged = 1;
+}
+
+/* Saves the picture as it is at rest; where characters show it, as one of KEEP_HEIGHT rows. */
+static inline void display_keep(display *d)
+{
+    float aspect = (float)d->size.columns * d->size.shape / (float)(2 * d->size.rows);
+    int width = d->width, height = d->height;
+    if (d->show == SHOW_CELLS) {
+        height = KEEP_HEIGHT;
+        width = (int)fmaxf(1, fminf(4 * KEEP_HEIGHT, aspect * (float)height + 0.5f));
+    }
+    keep_picture(&d->kept, d->scene, width, height);
+    d->at_rest = 0;
 }
 
 /* Returns 1 where the user ends the program. */
@@ -417,6 +435,8 @@ static inline int display_key(display *d, int key)
     if (key == 'q' || key == 'Q') return 1;
     if (key == '?' || key == 'h')
         d->help = !d->help;
+    else if (key == 'p')
+        display_keep(d);
     else if (!scene_key(d->scene, key))
         return 0;
     d->said_until = clock_now() + 3;
@@ -543,6 +563,7 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     int gone;
     d.scene = s;
     d.options = o;
+    d.kept.words = o->words;
     d.paced = 1;
     d.said_until = begin + 6;
     atexit(terminal_leave);
@@ -552,6 +573,8 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     if (terminal_can_answer(o)) terminal_ask();
     gone = display_run(&d, &mask);
     terminal_leave();
+    keep_tell(&d.kept);
+    free(d.kept.told.bytes);
     if (o->frames) display_tell_cost(&d, clock_now() - begin);
     display_free(&d);
     return gone ? complain("the terminal takes no more") : 0;

@@ -29,8 +29,10 @@ typedef struct view_options {
     view_show show;
     int window;
     int rate, frames; /* frames 0: until the user ends it */
+    char **words;     /* of the command line */
 } view_options;
 
+#define VIEW_USAGE_LINE(keys) "  " keys "\n"
 static const char view_usage[] =
     "usage: view [model] [options]                    without a model: the teapot\n"
     "  --window              in a window instead of the terminal\n"
@@ -39,10 +41,13 @@ static const char view_usage[] =
     "                        the terminal says it can): parts of characters, or pixels\n"
     "  --ascii               plain characters, no colors\n"
     "  --still               the model does not turn by itself\n"
-    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n" MODEL_USAGE
+    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n" SCENE_USAGE
+        MODEL_USAGE
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
     "  --help, --version     prints this text; the version\n"
-    "The key ? lists the others.\n";
+    MODEL_FORMATS "keys:\n" SCENE_KEYS(VIEW_USAGE_LINE) "examples:\n"
+    "  shade-view bolt.stl\n"
+    "  shade-view --window car.glb --view=30,20\n";
 
 static inline int view_take_show(void *to, const char *value)
 {
@@ -72,6 +77,7 @@ static inline int view_read_options(view_options *o, int argc, char **argv)
 {
     static const option own[] = {
         { "--window", NULL, offsetof(view_options, window), 1, 0 },
+        { "--again", scene_take_again, offsetof(view_options, scene.again), 0, 0 },
         { "--still", NULL, offsetof(view_options, scene.still), 1, 0 },
         { "--ascii", NULL, offsetof(view_options, colors), VIEW_PLAIN, 0 },
         { "--colors", view_take_colors, offsetof(view_options, colors), 0, 0 },
@@ -86,6 +92,7 @@ static inline int view_read_options(view_options *o, int argc, char **argv)
     static const command view = { "view", view_usage, groups, offsetof(view_options, scene.model),
                                   0,      1,          "",     NULL };
     int end = options_read(&view, o, argc, argv);
+    o->words = argv;
     if (!o->rate) o->rate = o->window ? 60 : 30;
     return end;
 }

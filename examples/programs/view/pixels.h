@@ -10,13 +10,11 @@
 #define VIEW_PIXELS_H
 
 #include "../../shared/mesh.h"
+#include "../../kit/image/written.h"
 #include "options.h"
 #include <string.h>
 
 #ifdef MODEL_STB
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb/stb_image_write.h>
 enum { PIXELS_PNG = 1 };
 #else
 enum { PIXELS_PNG = 0 };

@@ -34,7 +34,8 @@ typedef enum input_kind {
     INPUT_ANSWERS, /* the terminal has answered all questions, or will not */
     INPUT_END
 } input_kind;
-enum { MOUSE_MOVED = 32, MOUSE_WHEEL = 64 }; /* bits of button, in xterm's count */
+/* bits of button, in xterm's count: of the middle and the right one, of shift, of motion */
+enum { MOUSE_OTHER = 3, MOUSE_SHIFT = 4, MOUSE_MOVED = 32, MOUSE_WHEEL = 64 };
 typedef struct input {
     input_kind kind;
     int key;                 /* a character, or KEY_... */
@@ -69,6 +70,7 @@ static inline input terminal_sequence(const unsigned char *begin, const unsigned
         static const int arrow[4] = { KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT };
         in.kind = INPUT_KEY;
         in.key = arrow[*end - 'A'];
+        if (number[1] && (number[1] - 1) & 1) in.key += KEY_MOVE_UP - KEY_UP; /* with shift */
     } else if (*end == 'M' && begin < end && *begin == '<') {
         in.kind = INPUT_MOUSE;
         in.button = number[0];

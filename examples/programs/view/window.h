@@ -6,6 +6,7 @@
 #define SDL_MAIN_HANDLED
 #include <SDL.h>
 #include "words.h"
+#include "keep.h"
 
 typedef struct window {
     SDL_Window *window;
@@ -23,6 +24,7 @@ typedef struct window {
     int picked; /* triangle under the mouse; -1: none */
     frame_rate rate;
     int frames;
+    keep kept;
 } window;
 
 /* ---- the window ------------------------------------------------------------------------------ */
@@ -197,25 +199,35 @@ static inline void window_press(window *w, int key)
     else if (key == '?' || key == 'h') {
         w->help = !w->help;
         w->changed = 1;
+    } else if (key == 'p' && w->scene->model.mesh.view.index_count && window_fit(w)) {
+        keep_picture(&w->kept, w->scene, w->width, w->height);
+        keep_tell(&w->kept);
+        w->changed = 1;
     } else if (w->scene->model.mesh.view.index_count && scene_key(w->scene, key))
         w->changed = 1;
 }
 
 /* Keys of characters come as text events. */
-static inline void window_arrow(window *w, SDL_Keycode key)
+static inline void window_arrow(window *w, SDL_Keycode key, int shift)
 {
     static const SDL_Keycode arrow[4] = { SDLK_UP, SDLK_DOWN, SDLK_LEFT, SDLK_RIGHT };
     for (int k = 0; k < 4; k++)
-        if (key == arrow[k]) window_press(w, KEY_UP + k);
+        if (key == arrow[k]) window_press(w, (shift ? KEY_MOVE_UP : KEY_UP) + k);
 }
 
+/* Dragging turns or, with shift or another button, moves. */
 static inline void window_mouse(window *w, const SDL_MouseMotionEvent *e)
 {
+    const Uint32 other = SDL_BUTTON_MMASK | SDL_BUTTON_RMASK;
+    const float half = 2 * w->scale / (float)w->height;
     w->mouse_inside = 1;
     w->mouse_x = e->x;
     w->mouse_y = e->y;
-    w->dragging = (e->state & SDL_BUTTON_LMASK) != 0;
-    if (w->dragging) scene_turn(w->scene, 0.008f * (float)e->xrel, 0.008f * (float)e->yrel);
+    w->dragging = (e->state & (SDL_BUTTON_LMASK | other)) != 0;
+    if (w->dragging && (e->state & other || SDL_GetModState() & KMOD_SHIFT))
+        scene_move(w->scene, half * (float)e->xrel, -half * (float)e->yrel);
+    else if (w->dragging)
+        scene_turn(w->scene, 0.008f * (float)e->xrel, 0.008f * (float)e->yrel);
     w->changed = 1;
 }
 
@@ -223,7 +235,9 @@ static inline void window_event(window *w, const SDL_Event *e)
 {
     switch (e->type) {
     case SDL_QUIT: w->closed = 1; break;
-    case SDL_KEYDOWN: window_arrow(w, e->key.keysym.sym); break;
+    case SDL_KEYDOWN:
+        window_arrow(w, e->key.keysym.sym, (e->key.keysym.mod & KMOD_SHIFT) != 0);
+        break;
     case SDL_TEXTINPUT: window_press(w, (unsigned char)e->text.text[0]); break;
     case SDL_MOUSEMOTION: window_mouse(w, &e->motion); break;
     case SDL_MOUSEBUTTONUP:
@@ -368,9 +382,11 @@ static inline int show_in_window(scene *s, const view_options *o)
     int failed;
     w.scene = s;
     w.options = o;
+    w.kept.words = o->words;
     w.picked = -1;
     failed = window_open(&w) || window_load(&w) || window_run(&w);
     if (!failed && o->frames) fprintf(stderr, "%d frames\n", w.frames);
+    free(w.kept.told.bytes);
     window_close(&w);
     scene_close(s);
     return failed;

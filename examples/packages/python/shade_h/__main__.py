@@ -1,4 +1,4 @@
-"""python -m shade_h part.stl sheet.png --views front,right,top,iso"""
+"""shade-h part.stl sheet.png --views front,right,top,iso; python -m shade_h is the same."""
 from __future__ import annotations
 
 import argparse
@@ -20,7 +20,7 @@ def viewpoint(words: str) -> Any:
 
 def main(words: list[str] | None = None) -> int:
     """Draws a file of a model.  Returns the status of the process."""
-    parser = argparse.ArgumentParser(prog="python -m shade_h", description=main.__doc__)
+    parser = argparse.ArgumentParser(prog="shade-h", description=main.__doc__)
     parser.add_argument("model", help="STL, OBJ, PLY, OFF, GLB, glTF or 3MF")
     parser.add_argument("picture", help="a name that ends in .png or .ppm")
     parser.add_argument("--views", default="iso", help="front,right,back,left,top,bottom,iso")
@@ -42,7 +42,7 @@ def main(words: list[str] | None = None) -> int:
     if more or not o.picture.lower().endswith((".png", ".ppm")):
         models = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
         several = more or o.picture.lower().endswith(models)
-        print("shade_h: " + (
+        print("shade-h: " + (
             "one model and one picture: shade_h.sheet([...]) draws several" if several else
             f"the picture must end in .png or .ppm, not {o.picture!r}"), file=sys.stderr)
         return 2
@@ -64,7 +64,7 @@ def main(words: list[str] | None = None) -> int:
                             section=section, light=o.light)
         picture.save(o.picture)
     except (Error, OSError, ValueError) as why:
-        print(f"shade_h: {why}", file=sys.stderr)
+        print(f"shade-h: {why}", file=sys.stderr)
         return 1
     return 0
 

@@ -89,6 +89,18 @@ def _between(c: Doubles, s: Doubles, k: int) -> Doubles:
     return np.asarray(a + (b - a) * (-low / (high - low))[:, None])
 
 
+def _state(cuts: Doubles, extent: float) -> str:
+    """"" of closed outlines (m, 2, 2), "torn" or "open", as section_state in section.h says."""
+    least = (1e-3 + 3e-7 * len(cuts)) * extent
+    ends = [cuts @ np.array(way) for way in ((1, 0.382), (-0.382, 1))]
+    pairs = [np.sort(at, axis=None).reshape(-1, 2) for at in ends]
+    gap, turned = (max(float(np.abs(at[:, 0] - at[:, 1]).sum()) for at in of)
+                   for of in (pairs, [np.sort(at, axis=0) for at in ends]))
+    if gap > max(least, 0.05 * float(np.linalg.norm(cuts[:, 1] - cuts[:, 0], axis=1).sum())):
+        return "open"
+    return "torn" if max(gap, turned) > least else ""
+
+
 def _filled(cuts: Doubles) -> Doubles:
     """Quadrangles, (n, 4, 2), that fill the outlines (m, 2, 2): rows between the heights of all
     ends, cut where an outline crosses them, and filled where the outlines wind around."""
@@ -114,10 +126,7 @@ def _filled(cuts: Doubles) -> Doubles:
     way = np.where(rising, 1, -1)[which][order]
     winding = np.cumsum(way)
     total = np.add.reduceat(way, np.flatnonzero(np.r_[True, row[1:] != row[:-1]]))
-    if total.any():
-        warnings.warn("section: the mesh is open where it is cut: the cut is filled between each second "
-                      "pair of its lines", stacklevel=6)
-        # an open or ill-turned mesh: between each second pair of crossings
+    if total.any():    # an open or ill-turned mesh: between each second pair of crossings
         rank = np.arange(len(row)) - np.searchsorted(row, row)
         winding = (rank + 1) % 2
     fill = np.flatnonzero((winding[:-1] != 0) & (row[1:] == row[:-1]))
@@ -153,9 +162,15 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     u /= np.linalg.norm(u)
     v = np.cross(normal, u)
     flat = np.stack([(cuts - point) @ u, (cuts - point) @ v], 2)
-    quads = _filled(flat)
-    cap = (quads[..., :1] * u + quads[..., 1:] * v + point)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3)
     extent = float(np.ptp(corners[:, :, :3].reshape(-1, 3), 0).max()) if len(corners) else 1.0
+    state = _state(flat, extent)
+    if state:
+        warnings.warn("section: the mesh is open" + (
+            " where it is cut: the cut is not filled" if state == "open" else
+            ", or turned both ways, where it is cut: the cut is filled between each second pair of its lines"),
+            stacklevel=5)
+    quads = _filled(flat if state != "open" else flat[:0])
+    cap = (quads[..., :1] * u + quads[..., 1:] * v + point)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3)
     size = (extent or 1.0) / LINES
     at = [3]
     for p in parts[1:]:

@@ -1,18 +1,15 @@
-"""The MCP server of the examples, by its protocol over a pipe."""
+"""The MCP server, by its protocol over a pipe."""
 import base64
 import io
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from shapes import box
 
 import shade_h as shade
-
-SERVER = Path(__file__).resolve().parents[1] / "mcp_server.py"
 
 
 @pytest.fixture
@@ -22,7 +19,7 @@ def ask(tmp_path):
         (tmp_path / f"{name}.obj").write_text(
             "".join("v {} {} {}\n".format(*p) for p in vertices.tolist()) +
             "".join("f {} {} {} {}\n".format(*f) for f in (faces + 1).tolist()), "utf-8")
-    process = subprocess.Popen([sys.executable, SERVER], cwd=tmp_path, stdin=subprocess.PIPE,
+    process = subprocess.Popen([sys.executable, "-m", "shade_h.mcp_server"], cwd=tmp_path, stdin=subprocess.PIPE,
                                stdout=subprocess.PIPE, text=True)
 
     def send(method, number=1, **given):

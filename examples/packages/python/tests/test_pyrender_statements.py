@@ -183,6 +183,162 @@ STATEMENTS = {
         ValueError: s.remove_node(n)
         TypeError: s.add(None)
     """,
+    "IntrinsicsCamera": """
+        TypeError: IntrinsicsCamera()
+        c = IntrinsicsCamera(fx=100.0, fy=80.0, cx=50.0, cy=40.0)
+        assert c.znear == 0.05
+        assert c.zfar == 100.0
+        TypeError: c.fx = None
+        ValueError: c.fx = 0.0
+        TypeError: c.fy = None
+        ValueError: c.fy = -1.0
+        c.cx = 30.0
+        assert np.allclose(c.get_projection_matrix(100, 80)[:2], [[2, 0, 0.4, 0], [0, 2, 0, 0]])
+    """,
+    "materials": """
+        x = MetallicRoughnessMaterial()
+        assert np.all(x.baseColorFactor == 1.0)
+        assert np.all(x.emissiveFactor == 0.0)
+        assert x.metallicFactor == 1.0
+        assert x.roughnessFactor == 1.0
+        assert x.alphaMode == "OPAQUE"
+        assert x.alphaCutoff == 0.5
+        assert x.doubleSided is False
+        assert x.smooth is True
+        assert x.wireframe is False
+        assert x.normalTexture is None
+        assert x.occlusionTexture is None
+        assert x.emissiveTexture is None
+        assert x.baseColorTexture is None
+        assert x.metallicRoughnessTexture is None
+        assert x.is_transparent is False
+        ValueError: x.metallicFactor = 1.5
+        ValueError: x.roughnessFactor = -1.0
+        ValueError: x.alphaCutoff = 2.0
+        ValueError: x.alphaMode = "GLASS"
+        TypeError: x.doubleSided = 3
+        x.doubleSided = True
+        x.alphaMode = "BLEND"
+        x.baseColorFactor = [1.0, 0.0, 0.0, 0.5]
+        assert np.allclose(x.baseColorFactor, [1, 0, 0, 0.5])
+        assert x.is_transparent is True
+        p = Primitive(np.eye(3), material=x)
+        assert p.is_transparent is True
+        assert Mesh([p]).is_transparent is True
+        assert Mesh([Primitive(np.eye(3))]).is_transparent is False
+    """,
+    "primitives": """
+        p = Primitive([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        assert p.mode == GLTF.TRIANGLES
+        assert p.normals is None
+        assert p.texcoord_0 is None
+        assert p.color_0 is None
+        assert p.poses is None
+        assert p.targets is None
+        assert np.allclose(p.bounds, [[0, 0, 0], [1, 1, 0]])
+        assert np.allclose(p.centroid, [0.5, 0.5, 0])
+        assert np.allclose(p.extents, [1, 1, 0])
+        assert np.isclose(p.scale, np.sqrt(2))
+        ValueError: Primitive(np.eye(3), normals=np.eye(2))
+        ValueError: Primitive(np.eye(3), texcoord_0=np.zeros((2, 2)))
+        ValueError: Primitive(np.eye(3), color_0=np.zeros((2, 3)))
+        ValueError: Mesh.from_points(np.zeros((4, 2)))
+        m = Mesh([p])
+        assert np.allclose(m.bounds, p.bounds)
+        m.is_visible = False
+        assert not m.is_visible
+    """,
+    "poses of nodes": """
+        x = Node(translation=[1, 2, 3])
+        assert np.allclose(x.matrix[:3, 3], [1, 2, 3])
+        ValueError: Node(translation=[1, 2])
+        ValueError: Node(rotation=[1, 2, 3])
+        ValueError: Node(rotation=[1, 1, 1, 1])
+        ValueError: Node(matrix=np.eye(3))
+        ValueError: Node(matrix=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]])
+        x.rotation = [1, 0, 0, 0]
+        assert np.allclose(x.matrix[:3, :3], np.diag([1, -1, -1]))
+        x.scale = [1, 2, 3]
+        assert np.allclose(x.scale, [1, 2, 3])
+        x.matrix = np.diag([2, 2, 2, 1])
+        assert np.allclose(x.scale, 2)
+        assert np.allclose(x.translation, 0)
+    """,
+    "graphs": """
+        n1, n2, n3 = Node(), Node(), Node()
+        s = Scene(nodes=[n1, n2, n3])
+        n1.children.append(n2)
+        s = Scene(nodes=[n1, n2, n3])
+        assert s.nodes == {n1, n2, n3}
+        n3.children.append(n2)
+        ValueError: Scene(nodes=[n1, n2, n3])
+        n3.children = []
+        n2.children.append(n3)
+        n3.children.append(n2)
+        ValueError: Scene(nodes=[n1, n2, n3])
+        ValueError: Scene(nodes=[n2, n3])
+        n1, n2, n3 = Node(name="a"), Node(name="b"), Node(name="b")
+        s = Scene(nodes=[n1], bg_color=[0, 1.0, 0])
+        assert np.allclose(s.bg_color, [0, 1, 0, 1])
+        assert s.has_node(n1)
+        assert not s.has_node(n2)
+        s.add_node(n2, parent_node=n1)
+        assert n2 in n1.children
+        ValueError: s.add_node(n2)
+        ValueError: s.add_node(n3, parent_node=Node())
+        n1.translation = [1, 0, 0]
+        n2.translation = [0, 1, 0]
+        assert np.allclose(s.get_pose(n2)[:3, 3], [1, 1, 0])
+        ValueError: s.get_pose(n3)
+        ValueError: s.set_pose(n3, np.eye(4))
+        s.set_pose(n1, np.eye(4))
+        assert np.allclose(s.get_pose(n2)[:3, 3], [0, 1, 0])
+        assert s.get_nodes(name="b") == {n2}
+        assert s.get_nodes(node=n1) == {n1}
+        assert s.get_nodes(node=n3) == set()
+        assert s.get_nodes(obj=Mesh([])) == set()
+        c = PerspectiveCamera(yfov=1.0, name="eye")
+        x = s.add(c, parent_name="b")
+        assert x in n2.children
+        ValueError: s.add(c, parent_name="nobody")
+        s.add_node(n3)
+        ValueError: s.add(Mesh([]), parent_name="b")
+        assert s.get_nodes(obj=c) == {x}
+        assert s.get_nodes(obj_name="eye") == {x}
+        assert s.main_camera_node is x
+        y = s.add(OrthographicCamera(1.0, 1.0))
+        assert s.main_camera_node is x
+        s.main_camera_node = y
+        assert s.main_camera_node is y
+        ValueError: s.main_camera_node = Node()
+        ValueError: s.main_camera_node = n1
+        s.remove_node(y)
+        assert s.main_camera_node is x
+        s.clear()
+        assert s.main_camera_node is None
+        assert s.nodes == set()
+    """,
+    "pictures": """
+        r = OffscreenRenderer(viewport_width=64, viewport_height=48)
+        assert r.viewport_width == 64
+        r.viewport_height = 32
+        r.point_size = 3.0
+        assert r.point_size == 3.0
+        ValueError: OffscreenRenderer(0, 10)
+        ValueError: r.render(Scene())
+        s = Scene()
+        s.add(PerspectiveCamera(yfov=1.0))
+        color, depth = r.render(s)
+        assert color.shape == (32, 64, 3)
+        assert depth.shape == (32, 64)
+        assert color.dtype == np.uint8
+        assert depth.dtype == np.float32
+        assert np.all(color == 255)
+        assert np.all(depth == 0)
+        assert r.render(s, RenderFlags.RGBA)[0].shape == (32, 64, 4)
+        assert r.render(s, RenderFlags.DEPTH_ONLY).shape == (32, 64)
+        r.delete()
+    """,
 }
 LINES = [(part, line.strip()) for part, text in STATEMENTS.items() for line in text.splitlines() if line.strip()]
 
@@ -203,4 +359,13 @@ def test_statements_of_pyrender(part):
 
 
 def test_how_many_statements():
-    assert len(LINES) == 165
+    assert len(LINES) == 309
+
+
+def test_what_is_not_drawn_of_a_material_is_told():
+    with pytest.warns(UserWarning, match="material: normalTexture, emissiveTexture left out"):
+        pyrender.Material(normalTexture=np.zeros((2, 2, 3)), emissiveTexture=np.zeros((2, 2, 3)))
+    with pytest.warns(UserWarning, match="MASK is drawn as OPAQUE"):
+        pyrender.Material(alphaMode="MASK")
+    with pytest.raises(TypeError):
+        pyrender.Material(colour=1)

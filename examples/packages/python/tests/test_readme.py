@@ -41,11 +41,6 @@ def test_the_blocks_of_the_readme_run(tmp_path, monkeypatch):
             getattr(shade, name).__doc__, name
 
 
-def test_the_server_has_the_lines_that_are_said():
-    lines = (HERE / "mcp_server.py").read_text("utf-8").count("\n")
-    assert f"an MCP server of {lines} lines" in (HERE / "README.md").read_text("utf-8")
-
-
 def test_the_notebook_runs_and_its_pictures_differ():
     nbformat = pytest.importorskip("nbformat")
     book = nbformat.read(HERE / "course.ipynb", 4)

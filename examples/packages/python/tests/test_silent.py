@@ -3,7 +3,6 @@ import json
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -91,8 +90,16 @@ def test_a_section_beside_the_part_is_refused_and_of_an_open_mesh_told():
     for where in (101, -1):
         with pytest.raises(shade.Error, match="section does not cut the parts"):
             shade.render(vertices, faces, size=32, section=("x", where))
-    with pytest.warns(UserWarning, match="section: the mesh is open where it is cut"):
-        shade.render(vertices, faces[:-1], size=32, section="x")
+    tube = faces[np.ptp(vertices[faces][:, :, 2], axis=1) > 0]    # which all lines across it cross twice
+    for sheet in (tube, faces[:-2]):
+        with pytest.warns(UserWarning, match="section: the mesh is open where it is cut: the cut is not filled"):
+            hollow = shade.render(vertices, sheet, size=64, section="x", view="right", color="red")
+        assert (hollow.rgba[20:44, 20:44, 1] < 90).all()    # red: the cut is grey and white
+    turned = np.array(faces)
+    first = np.ptp(vertices[faces][:, :, 0], axis=1).argmax()    # which the plane crosses
+    turned[first] = turned[first, ::-1]
+    with pytest.warns(UserWarning, match="open, or turned both ways, where it is cut: the cut is filled between"):
+        shade.render(vertices, turned, size=32, section="x")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         picture = shade.render(vertices, faces, size=64, section="z")
@@ -210,9 +217,8 @@ def test_mujocos_refusals_are_those_of_its_class():
     ('{"id": 1, "method": ["ping"]}', -32600), ('{"id": [1], "method": "nothing"}', -32601),
     ('[' * 100000, -32700), ('7', -32700)])
 def test_the_server_outlives_params_of_any_kind(line, code):
-    server = Path(__file__).resolve().parents[1] / "mcp_server.py"
     ping = '{"id": 2, "method": "ping"}'
-    got = subprocess.run([sys.executable, server], input=f"{line}\n{ping}\n", capture_output=True, text=True)
+    got = subprocess.run([sys.executable, "-m", "shade_h.mcp_server"], input=f"{line}\n{ping}\n", capture_output=True, text=True)
     assert got.returncode == 0, got.stderr
     first, second = (json.loads(row) for row in got.stdout.splitlines())
     assert first["error"]["code"] == code and second == {"jsonrpc": "2.0", "id": 2, "result": {}}

@@ -34,9 +34,9 @@ class RenderFlags:
 
 
 class GLTF:
-    """The modes of a Primitive that are drawn."""
+    """The modes of a Primitive, of which POINTS and TRIANGLES are drawn and the others refused."""
 
-    POINTS, TRIANGLES = 0, 4
+    POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN = range(7)
 
 
 class Texture:
@@ -60,23 +60,102 @@ def _vector(name: str, value: Any, length: int) -> Array:
     return arguments.doubles(name, whole, (length,), finite=True)
 
 
+class _Attribute:
+    """An attribute of an object that is checked when it is set."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, one: Any, kind: type | None = None) -> Any:
+        return one.__dict__[self.name]
+
+
+class _Number(_Attribute):
+    """A number of an object within bounds, which may be attributes of it; those that are open do not
+    belong to the range.  As in pyrender None is a TypeError, a number out of range a ValueError."""
+
+    def __init__(self, low: float | str, high: float | str, open_low: bool = True, none: bool = False) -> None:
+        self.low, self.high, self.open_low, self.none = low, high, open_low, none
+
+    def __set__(self, one: Any, value: Any) -> None:
+        if value is None and self.none:
+            one.__dict__[self.name] = None
+            return
+        if value is None:
+            raise TypeError(f"{self.name} must be a number, not None")
+        low, high = (one.__dict__.get(end, math.inf) if isinstance(end, str) else end
+                     for end in (self.low, self.high))
+        got = arguments.number(self.name, value, low, high)
+        if self.open_low and got <= low:
+            raise Error(f"{self.name} must be above {low:g}, not {got:g}")
+        one.__dict__[self.name] = got
+
+
+class _Slot(_Attribute):
+    """An object of one kind, or None."""
+
+    def __init__(self, kind: type) -> None:
+        self.kind = kind
+
+    def __set__(self, one: Any, value: Any) -> None:
+        if value is not None and not isinstance(value, self.kind):
+            raise TypeError(f"{self.name} must be a {self.kind.__name__}, not {arguments.shown(value)}")
+        one.__dict__[self.name] = value
+
+
+class _Colour(_Attribute):
+    """A colour of 3 or 4 channels."""
+
+    def __init__(self, channels: int) -> None:
+        self.channels = channels
+
+    def __set__(self, one: Any, value: Any) -> None:
+        if value is None:
+            raise Error(f"{self.name} must be a colour, not None")
+        one.__dict__[self.name] = _vector(self.name, value, self.channels)
+
+
+class _AlphaMode(_Attribute):
+    """A word of glTF."""
+
+    def __set__(self, one: Any, value: Any) -> None:
+        if arguments.choice(self.name, value, ["OPAQUE", "BLEND", "MASK"]) == "MASK":
+            warnings.warn("alphaMode: MASK is drawn as OPAQUE", stacklevel=2)
+        one.__dict__[self.name] = value
+
+
 class MetallicRoughnessMaterial:
     """baseColorFactor is a colour, 0 .. 1, with alpha; baseColorTexture an array of bytes."""
 
-    def __init__(self, name: str | None = None, baseColorFactor: Any = 1.0,
+    baseColorFactor, emissiveFactor, alphaMode = _Colour(4), _Colour(3), _AlphaMode()
+    metallicFactor, roughnessFactor = _Number(0, 1, open_low=False), _Number(0, 1, open_low=False)
+    alphaCutoff, doubleSided = _Number(0, 1, open_low=False), _Slot(bool)
+
+    def __init__(self, name: str | None = None, normalTexture: Any = None, occlusionTexture: Any = None,
+                 emissiveTexture: Any = None, emissiveFactor: Any = 0.0, alphaMode: str = "OPAQUE",
+                 alphaCutoff: float = 0.5, doubleSided: bool = False, smooth: bool = True,
+                 wireframe: bool = False, baseColorFactor: Any = 1.0, baseColorTexture: Any = None,
                  metallicFactor: float = 1.0, roughnessFactor: float = 1.0,
-                 emissiveFactor: Sequence[float] = (0, 0, 0), alphaMode: str = "OPAQUE",
-                 doubleSided: bool = False, baseColorTexture: Any = None, **others: Any) -> None:
-        """Other arguments of pyrender's are taken and not used."""
-        self.name, self.baseColorFactor = name, _vector("baseColorFactor", baseColorFactor, 4).tolist()
-        self.metallicFactor = arguments.number("metallicFactor", metallicFactor, 0, 1)
-        self.roughnessFactor = arguments.number("roughnessFactor", roughnessFactor, 0, 1)
-        self.emissiveFactor, self.alphaMode = emissiveFactor, alphaMode
-        self.doubleSided = bool(doubleSided)
+                 metallicRoughnessTexture: Any = None) -> None:
+        """The order is pyrender's.  A warning names what is given and not drawn."""
+        self.normalTexture, self.occlusionTexture = normalTexture, occlusionTexture
+        self.emissiveTexture, self.metallicRoughnessTexture = emissiveTexture, metallicRoughnessTexture
+        self.smooth, self.wireframe = smooth, wireframe
+        lost = [k for k, v in vars(self).items() if k != "smooth" and v is not None and v is not False]
+        if lost:
+            warnings.warn(f"material: {', '.join(lost)} left out", stacklevel=2)
+        self.name, self.baseColorFactor, self.emissiveFactor = name, baseColorFactor, emissiveFactor
+        self.metallicFactor, self.roughnessFactor = metallicFactor, roughnessFactor
+        self.alphaMode, self.alphaCutoff, self.doubleSided = alphaMode, alphaCutoff, doubleSided
         source = getattr(baseColorTexture, "source", baseColorTexture)
         if hasattr(source, "convert"):    # a picture of Pillow's
             source = source.convert("RGBA")
         self.baseColorTexture = None if source is None else np.asarray(source)
+
+    @property
+    def is_transparent(self) -> bool:
+        """Whether what lies behind shows through."""
+        return bool(self.alphaMode == "BLEND" and self.baseColorFactor[3] < 1)
 
 
 Material = MetallicRoughnessMaterial
@@ -150,6 +229,11 @@ class Primitive(_Bounded):
             return np.array([low, high], float)
         return _bounds_of(_moved(pose, low, high) for pose in self.poses)
 
+    @property
+    def is_transparent(self) -> bool:
+        """Whether its material is."""
+        return bool(self.material.is_transparent)
+
 
 def _moved(pose: Array, low: Any, high: Any) -> Array:
     """The corners of bounds in another place."""
@@ -178,6 +262,11 @@ class Mesh(_Bounded):
     def bounds(self) -> Array:
         """(2, 3): the lowest and the highest coordinates."""
         return _bounds_of(p.bounds for p in self.primitives)
+
+    @property
+    def is_transparent(self) -> bool:
+        """Whether one of its primitives is."""
+        return any(p.is_transparent for p in self.primitives)
 
     @staticmethod
     def from_points(points: Any, colors: Any = None, normals: Any = None, is_visible: bool = True,
@@ -225,37 +314,6 @@ def _primitive(mesh: Any, material: Any, poses: Any, smooth: bool) -> Primitive:
         vertices, faces = corners.reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)
     return Primitive(vertices, normals, texcoord_0=uv, color_0=colors, indices=faces,
                      material=material, poses=poses)
-
-
-class _Attribute:
-    """An attribute of an object that is checked when it is set."""
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    def __get__(self, one: Any, kind: type | None = None) -> Any:
-        return one.__dict__[self.name]
-
-
-class _Number(_Attribute):
-    """A number of an object within bounds, which may be attributes of it; those that are open do not
-    belong to the range.  As in pyrender None is a TypeError, a number out of range a ValueError."""
-
-    def __init__(self, low: float | str, high: float | str, open_low: bool = True, none: bool = False) -> None:
-        self.low, self.high, self.open_low, self.none = low, high, open_low, none
-
-    def __set__(self, one: Any, value: Any) -> None:
-        if value is None and self.none:
-            one.__dict__[self.name] = None
-            return
-        if value is None:
-            raise TypeError(f"{self.name} must be a number, not None")
-        low, high = (one.__dict__.get(end, math.inf) if isinstance(end, str) else end
-                     for end in (self.low, self.high))
-        got = arguments.number(self.name, value, low, high)
-        if self.open_low and got <= low:
-            raise Error(f"{self.name} must be above {low:g}, not {got:g}")
-        one.__dict__[self.name] = got
 
 
 class Camera:
@@ -345,24 +403,13 @@ class OrthographicCamera(Camera):
 class Light:
     """color, 0 .. 1, times intensity."""
 
-    intensity, range = _Number(0, 1e12, open_low=False), _Number(0, 1e12, none=True)
+    color, intensity, range = _Colour(3), _Number(0, 1e12, open_low=False), _Number(0, 1e12, none=True)
 
     def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
                  name: str | None = None) -> None:
         """range is taken and not used."""
         self.color = 1.0 if color is None else color
         self.intensity, self.range, self.name = intensity, range, name
-
-    @property
-    def color(self) -> Array:
-        """Three numbers."""
-        return self._color
-
-    @color.setter
-    def color(self, value: Any) -> None:
-        if value is None:
-            raise Error("color must be a colour, not None")
-        self._color = _vector("color", value, 3)
 
 
 class DirectionalLight(Light):
@@ -398,18 +445,6 @@ def _falloff(inner: float, outer: float) -> float:
     return float(tried[error.argmin()])
 
 
-class _Slot(_Attribute):
-    """An object of one kind, or None."""
-
-    def __init__(self, kind: type) -> None:
-        self.kind = kind
-
-    def __set__(self, one: Any, value: Any) -> None:
-        if value is not None and not isinstance(value, self.kind):
-            raise TypeError(f"{self.name} must be a {self.kind.__name__}, not {arguments.shown(value)}")
-        one.__dict__[self.name] = value
-
-
 class Node:
     """A mesh, a camera or a light in its place, and the nodes that move with it."""
 
@@ -441,6 +476,8 @@ class Node:
     @matrix.setter
     def matrix(self, value: Any) -> None:
         m = arguments.doubles("matrix", value, (4, 4), finite=True).copy()
+        if not np.allclose(m[3], (0, 0, 0, 1)):
+            raise Error("matrix must have 0, 0, 0, 1 in its last row: a translation is the last column")
         self._scale = np.linalg.norm(m[:3, :3], axis=0)
         self._translation = m[:3, 3].copy()
         self._rotation = _quaternion(m[:3, :3] / np.where(self._scale > 0, self._scale, 1))
@@ -522,6 +559,7 @@ class Scene(_Bounded):
         given = list(nodes or ())
         below = {id(child) for node in given for child in node.children}
         self._roots: list[Node] = [node for node in given if id(node) not in below]
+        self._walk(given)
 
     @staticmethod
     def from_trimesh_scene(trimesh_scene: Any, bg_color: Any = None,
@@ -594,7 +632,8 @@ class Scene(_Bounded):
         """Takes all nodes out."""
         self._roots, self._main = [], None
 
-    def _walk(self) -> list[tuple[Node, Array]]:
+    def _walk(self, wanted: Sequence[Node] = ()) -> list[tuple[Node, Array]]:
+        """All nodes with their poses; those that are wanted must be among them."""
         out, left = [], [(n, np.eye(4)) for n in reversed(self._roots)]
         seen: set[int] = set()
         while left:
@@ -606,6 +645,8 @@ class Scene(_Bounded):
             pose = parent @ node.matrix
             out.append((node, pose))
             left += [(child, pose) for child in reversed(node.children)]
+        if any(id(node) not in seen for node in wanted):
+            raise ValueError("a node is below itself")
         return out
 
     @property
@@ -640,9 +681,10 @@ class Scene(_Bounded):
         node = Node(name or obj.name, matrix=pose)
         setattr(node, slot[0], obj)
         if parent_name is not None and parent_node is None:
-            parent_node = next(iter(self.get_nodes(name=parent_name)), None)
-            if parent_node is None:
-                raise ValueError(f"no node is named {parent_name}")
+            named = self.get_nodes(name=parent_name)
+            if len(named) != 1:
+                raise ValueError(f"{len(named) or 'no'} nodes are named {parent_name}")
+            parent_node = named.pop()
         self.add_node(node, parent_node)
         return node
 
@@ -673,6 +715,8 @@ class Scene(_Bounded):
 
     def set_pose(self, node: Node, pose: Any) -> None:
         """Moves a node within its parent."""
+        if not self.has_node(node):
+            raise ValueError("node is not in the scene")
         node.matrix = pose
 
     def get_pose(self, node: Node) -> Array:
@@ -687,7 +731,7 @@ class OffscreenRenderer:
     """Draws scenes into arrays."""
 
     def __init__(self, viewport_width: int, viewport_height: int, point_size: float = 1.0) -> None:
-        """The size of pictures; point_size is taken and not used."""
+        """The size of pictures, and that of points in pixels."""
         self._base: _Renderer | None = None
         self.viewport_width, self.viewport_height = viewport_width, viewport_height
         self.point_size = point_size

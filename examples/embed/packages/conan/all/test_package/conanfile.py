@@ -1,12 +1,12 @@
-"""Builds ball.c of the Meson example against the package, and runs it."""
-from pathlib import Path
+"""Builds a program against the package, and runs it."""
+import os
 
 from conan import ConanFile
 from conan.tools.build import can_run
 from conan.tools.cmake import CMake, cmake_layout
 
 
-class TestShade(ConanFile):
+class TestPackageConan(ConanFile):
     """A program that finds the package by CMake."""
 
     settings = "os", "arch", "compiler", "build_type"
@@ -29,4 +29,4 @@ class TestShade(ConanFile):
     def test(self):
         """Runs the program where the processor can."""
         if can_run(self):
-            self.run(str(Path(self.cpp.build.bindir) / "ball"), env="conanrun")
+            self.run(os.path.join(self.cpp.build.bindir, "test_package"), env="conanrun")

@@ -1,11 +1,16 @@
-#!/usr/bin/env python3
 """An MCP server that lets a language model see the parts that it makes: pictures, and what is in
-them in words.  Register `python3 mcp_server.py` with a client; messages are lines of JSON."""
+them in words.  Register `shade-h-mcp`, or `python3 -m shade_h.mcp_server`, with a client; messages are
+lines of JSON."""
+from __future__ import annotations
+
 import base64
 import json
 import sys
+from typing import Any
 
 import shade_h
+from shade_h.__main__ import viewpoint
+from shade_h.picture import Picture
 
 TEXT = {"type": "string"}
 MODEL = {"model": {**TEXT, "description": "path of an STL, OBJ, PLY, GLB or 3MF file"}}
@@ -13,28 +18,28 @@ VIEW = {"view": {**TEXT, "description": "front, right, back, left, top, bottom, 
                                         "azimuth and elevation in degrees"}}
 
 
-def side(words="iso"):
-    return tuple(float(word) for word in words.split(",")) if "," in words else words
+def render(model: str, view: str = "iso") -> Picture:
+    """A picture of a part."""
+    return shade_h.render(model, view=viewpoint(view), edges=True)
 
 
-def render(model, view="iso"):
-    return shade_h.render(model, view=side(view), edges=True)
-
-
-def sheet(model):
+def sheet(model: str) -> Picture:
+    """Front, right, top and iso of a part."""
     return shade_h.sheet([shade_h.load(model)])
 
 
-def section(model, axis, at=None, view="iso"):
-    plane = axis if at is None else (axis, float(at))
-    return shade_h.render(model, view=side(view), edges=True, section=plane)
+def section(model: str, axis: str, at: float | None = None, view: str = "iso") -> Picture:
+    """A part cut open at a plane, the cut hatched."""
+    plane: Any = axis if at is None else (axis, float(at))
+    return shade_h.render(model, view=viewpoint(view), edges=True, section=plane)
 
 
-def compare(model, other, view="iso"):
+def compare(model: str, other: str, view: str = "iso") -> tuple[Picture, str]:
+    """Where two parts look different."""
     scene = shade_h.Scene()
     scene.add(model)
     scene.add(other)
-    camera = scene.fit(side(view))    # one for both, so that what is alike is in one place
+    camera = scene.fit(viewpoint(view))    # one for both, so that what is alike is in one place
     pictures = [shade_h.Scene() for _ in range(2)]
     for single, path in zip(pictures, (model, other)):
         single.add(path, edges=True)
@@ -44,17 +49,16 @@ def compare(model, other, view="iso"):
     return two, f"{(apart > 16).mean():.1%} of the pixels differ; they are red in {other}."
 
 
-TOOLS = {  # name: function, what it does, its arguments, those that it needs
-    "render": (render, "A picture of a part.", {**MODEL, **VIEW}, ["model"]),
-    "sheet": (sheet, "Front, right, top and iso of a part.", MODEL, ["model"]),
-    "section": (section, "A part cut open at a plane, the cut hatched.",
-                {**MODEL, **VIEW, "axis": {"enum": ["x", "y", "z"]}, "at": {"type": "number"}},
+TOOLS: dict[str, tuple[Any, dict[str, Any], list[str]]] = {  # function, its arguments, those that it needs
+    "render": (render, {**MODEL, **VIEW}, ["model"]),
+    "sheet": (sheet, MODEL, ["model"]),
+    "section": (section, {**MODEL, **VIEW, "axis": {"enum": ["x", "y", "z"]}, "at": {"type": "number"}},
                 ["model", "axis"]),
-    "compare": (compare, "Where two parts look different.", {**MODEL, **VIEW, "other": TEXT},
-                ["model", "other"])}
+    "compare": (compare, {**MODEL, **VIEW, "other": TEXT}, ["model", "other"])}
 
 
-def call(name, arguments):
+def call(name: str, arguments: dict[str, Any]) -> dict[str, Any]:
+    """What a tool gives."""
     got = TOOLS[name][0](**arguments)
     picture, words = got if isinstance(got, tuple) else (got, got.report())
     data = base64.b64encode(picture.png()).decode()
@@ -62,15 +66,16 @@ def call(name, arguments):
                         {"type": "image", "data": data, "mimeType": "image/png"}]}
 
 
-def answer(method, given):
+def answer(method: str, given: dict[str, Any]) -> dict[str, Any] | None:
+    """The result of a method; None: there is no such method."""
     if method == "initialize":
         return {"protocolVersion": given.get("protocolVersion", "2025-06-18"),
                 "capabilities": {"tools": {}},
                 "serverInfo": {"name": "shade-h", "version": shade_h.__version__}}
     if method == "tools/list":
-        return {"tools": [{"name": name, "description": what, "inputSchema": {
+        return {"tools": [{"name": name, "description": tool.__doc__, "inputSchema": {
             "type": "object", "properties": takes, "required": needs}}
-            for name, (_, what, takes, needs) in TOOLS.items()]}
+            for name, (tool, takes, needs) in TOOLS.items()]}
     if method == "tools/call" and isinstance(given.get("name"), str) and given["name"] in TOOLS:
         try:
             return call(given["name"], given.get("arguments") or {})
@@ -79,31 +84,33 @@ def answer(method, given):
     return {} if method == "ping" else None
 
 
-def told(line):
+def told(line: str) -> dict[str, Any] | None:
     """The answer to a line; None to a notification."""
-    number = None
+    number: Any = None
+    result: dict[str, Any] | None = None
     try:
         asked = json.loads(line)
         number, method, given = asked.get("id"), asked.get("method"), asked.get("params") or {}
     except (ValueError, AttributeError, RecursionError):
-        code, result, why = -32700, None, "no JSON of an object"
+        code, why = -32700, "no JSON of an object"
     else:
         if number is None:
             return None
         if not isinstance(number, (int, float, str)):
             number = None
-        code, result, why = -32601, None, f"unknown: {method}"
+        code, why = -32601, f"unknown: {method}"
         if not isinstance(method, str):
             code, why = -32600, "method must be a string"
         elif not isinstance(given, dict) or not isinstance(given.get("arguments") or {}, dict):
             code, why = -32602, "params and their arguments must be objects"
         else:
             result = answer(method, given)
-    words = {"error": {"code": code, "message": why}} if result is None else {"result": result}
+    words: dict[str, Any] = {"error": {"code": code, "message": why}} if result is None else {"result": result}
     return {"jsonrpc": "2.0", "id": number, **words}
 
 
-def main():
+def main() -> None:
+    """Answers standard input, line by line."""
     for line in sys.stdin:
         words = told(line)
         if words is not None:
