@@ -350,12 +350,13 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     const unsigned flags = aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
     static const model empty_model;
     static const tree empty_tree;
-    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, q->most };
+    mesh_reader r = mesh_about(path, q->error, q->error_size);
     model_kind kind = model_kind_of(path);
     struct aiPropertyStore *set = aiCreatePropertyStore();
     tree t = empty_tree;
     int failed;
     *m = empty_model;
+    r.most = q->most;
     if (!set) return mesh_fail(&r, "out of memory");
     errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,

@@ -109,6 +109,7 @@ static inline int faces_finish(mesh_reader *r, faces *f, model *m, size_t vertic
     size_t surfaces = m->surface_count ? (size_t)m->surface_count : 1, sum = 0;
     size_t *first = (size_t *)calloc(surfaces, sizeof *first);
     int failed = 1;
+    if (mesh_stopped(r)) goto done;
     m->part = (model_part *)calloc(surfaces, sizeof *m->part);
     m->mesh.indices = (uint32_t *)malloc(3 * f->triangles * sizeof(uint32_t));
     if (f->object.count) m->object = (uint32_t *)malloc(f->triangles * sizeof(uint32_t));

@@ -63,6 +63,7 @@ static inline int gather_vertex(mesh_reader *r, gather *g, const gather_corner *
 {
     float place[3], uv[2] = { 0, 0 };
     shade_vec3 N = shade_normalize(v->normal);
+    if (g->positions.count % (3 * MESH_TELL) == 0 && mesh_stopped(r)) return 1;
     mesh_relative(&g->origin, v->position, place);
     for (int k = 0; k < 3; k++)
         if (!(fabsf(place[k]) <= 1e30f)) place[k] = NAN;

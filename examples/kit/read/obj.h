@@ -271,13 +271,12 @@ static inline int obj_read(mesh_reader *r, model *m)
     obj_data o = empty;
     int failed = 0;
     model_place(m, &o.origin);
-    while (r->at < r->end && !failed) {
+    for (size_t i = 0; r->at < r->end && !failed; i++) {
         int comment;
-        if (r->progress && r->line % 65536 == 0)
-            r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
         mesh_skip_blanks(r, 1);
         comment = r->at < r->end && *r->at == '#';
-        if (!comment) failed = obj_statement(r, &o, m);
+        failed = mesh_tell(r, i);
+        if (!failed && !comment) failed = obj_statement(r, &o, m);
         if (!failed) mesh_next_line(r, !comment && !(r->at < r->end && *r->at == '#'));
     }
     if (!failed) failed = obj_finish(r, &o, m);

@@ -197,10 +197,11 @@ static inline int off_read(mesh_reader *r, model *m)
     model_place(m, &o.origin);
     failed = off_header(r, &o, m, &vertices, &count);
     for (double i = 0; i < vertices + count && !failed; i++) {
-        if (off_line(r))
+        failed = mesh_tell(r, (size_t)i);
+        if (!failed && off_line(r))
             failed = mesh_fail(r, "ends after %lu of %lu vertices and %lu faces", (unsigned long)i,
                                (unsigned long)vertices, (unsigned long)count);
-        else
+        else if (!failed)
             failed = i < vertices ? off_vertex(r, &o) : off_face(r, &o, vertices);
     }
     if (!failed) failed = off_finish(r, &o, m);
@@ -214,7 +215,7 @@ static inline int off_read(mesh_reader *r, model *m)
 /* 1: the bytes begin as OFF does, behind blanks and comments. */
 static inline int off_begins(const unsigned char *bytes, size_t size)
 {
-    mesh_reader r = { bytes, bytes, bytes + size, "", 1, NULL, 0, NULL, NULL, 0 };
+    mesh_reader r = mesh_of(bytes, size, "", NULL, 0);
     mesh_skip_lines(&r);
     while (r.at < r.end && *r.at == '#') off_line(&r);
     if (r.end - r.at > 2 && r.at[0] == 'S' && r.at[1] == 'T') r.at += 2;

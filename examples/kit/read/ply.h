@@ -390,9 +390,7 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p)
     for (int k = 0; k < p->elements; k++) {
         const ply_element *e = &p->element[k];
         for (double i = 0; i < e->count && e->properties; i++) {
-            if (ply_instance(r, p, e)) return 1;
-            if (r->progress && (long long)i % 16384 == 0)
-                r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+            if (mesh_tell(r, (size_t)i) || ply_instance(r, p, e)) return 1;
         }
     }
     return 0;

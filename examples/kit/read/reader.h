@@ -22,8 +22,26 @@ typedef struct mesh_reader {
     size_t error_size;
     mesh_progress *progress;
     void *user;
-    size_t most; /* triangles; 0: what int can count */
+    size_t most;              /* triangles; 0: what int can count */
+    const volatile int *stop; /* non-zero there: the reading ends; may be NULL */
 } mesh_reader;
+
+/* A reader of nothing, for what is said about a file */
+static inline mesh_reader mesh_about(const char *name, char *error, size_t error_size)
+{
+    const mesh_reader r = { .name = name, .error = error, .error_size = error_size };
+    return r;
+}
+
+/* A reader of size bytes */
+static inline mesh_reader mesh_of(const void *bytes, size_t size, const char *name, char *error,
+                                  size_t error_size)
+{
+    mesh_reader r = mesh_about(name, error, error_size);
+    r.at = r.begin = (const unsigned char *)bytes;
+    r.end = r.begin + size;
+    return r;
+}
 
 /* Writes the message and returns 1, which means failure in all readers. */
 static inline int mesh_fail(mesh_reader *r, const char *format, ...)
@@ -40,6 +58,21 @@ static inline int mesh_fail(mesh_reader *r, const char *format, ...)
     vsnprintf(r->error + n, r->error_size - (size_t)n, format, list);
     va_end(list);
     return 1;
+}
+
+/* Non-zero: who called does not want the rest any more. */
+static inline int mesh_stopped(mesh_reader *r)
+{
+    return r->stop && *r->stop ? mesh_fail(r, "interrupted") : 0;
+}
+
+/* Tells how far the reader is, for every MESH_TELL-th thing that it has read; mesh_stopped. */
+enum { MESH_TELL = 16384 };
+static inline int mesh_tell(mesh_reader *r, size_t things)
+{
+    if (things % MESH_TELL) return 0;
+    if (r->progress) r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+    return mesh_stopped(r);
 }
 
 /* Fails if there are more triangles than the caller allows, or than 2^31 - 1 indices can hold. */

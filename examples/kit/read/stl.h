@@ -73,7 +73,7 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
         if (!memcmp(p, "COLOR=", 6)) s->usual = p + 6;
     for (uint64_t i = 0; i < count; i++, r->at += 50) {
         uint32_t corner[3];
-        if (r->progress && i % 65536 == 0) r->progress(r->user, (double)i / (double)count);
+        if (mesh_tell(r, (size_t)i)) return 1;
         for (int k = 0; k < 9; k += 3) {
             float p[3];
             for (int c = 0; c < 3; c++) {
@@ -128,13 +128,11 @@ static inline int stl_facet(mesh_reader *r, stl_data *s)
 
 static inline int stl_read_text(mesh_reader *r, stl_data *s)
 {
-    for (long long facets = 0;;) {
+    for (size_t facets = 0;;) {
         mesh_skip_lines(r);
         if (r->at == r->end) return 0;
         if (mesh_take_word(r, "facet")) {
-            if (r->progress && facets++ % 16384 == 0)
-                r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
-            if (stl_facet(r, s)) return 1;
+            if (mesh_tell(r, facets++) || stl_facet(r, s)) return 1;
         } else if (mesh_take_word(r, "solid") || mesh_take_word(r, "endsolid")) {
             mesh_next_line(r, 0);
         } else {

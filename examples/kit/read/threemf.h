@@ -415,6 +415,7 @@ static inline int threemf_tell_attributes(threemf *t, const xml *x)
 static inline int threemf_read_vertex(threemf *t, xml *x)
 {
     double p[3], *out;
+    if (t->vertices.count % MESH_TELL == 0 && mesh_stopped(t->r)) return 1;
     if (xml_double(x, "x", &p[0]) || xml_double(x, "y", &p[1]) || xml_double(x, "z", &p[2]))
         return 1;
     out = (double *)threemf_add(t, &t->vertices, 3 * sizeof *out);
@@ -427,6 +428,7 @@ static inline int threemf_read_face(threemf *t, xml *x, const threemf_object *ob
     static const char *const names[3] = { "v1", "v2", "v3" };
     threemf_face face;
     threemf_face *out;
+    if (t->faces.count % MESH_TELL == 0 && mesh_stopped(t->r)) return 1;
     for (int k = 0; k < 3; k++) {
         if (xml_whole(x, names[k], UINT32_MAX, &face.v[k])) return 1;
         if (face.v[k] == UINT32_MAX) return xml_fail(x, names[k], "is missing");

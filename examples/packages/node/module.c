@@ -503,7 +503,7 @@ EXPORT(archive) void module_archive(const unsigned char *bytes, size_t size);
 void module_archive(const unsigned char *bytes, size_t size)
 {
     static const char *const kinds[] = { "model", "rels", "png", "jpg", "jpeg", NULL };
-    mesh_reader r = { bytes, bytes, bytes + size, "", 0, NULL, 0, NULL, NULL, 0 };
+    mesh_reader r = mesh_of(bytes, size, "", NULL, 0);
     zip z = { NULL, NULL, NULL, 0, 0, NULL };
     const int failed = zip_open(&r, &z);
     for (size_t i = 0; i < z.count && !failed; i++) {
@@ -527,7 +527,8 @@ model *module_model_open(const void *bytes, size_t size, int is_threemf, char *e
 {
     model *m = (model *)calloc(1, sizeof *m);
     const unsigned char *begin = model_text_of((const unsigned char *)bytes, &size);
-    mesh_reader r = { begin, begin, begin + size, "model", 1, error, room, NULL, NULL, 0 };
+    mesh_reader r = mesh_of(begin, size, "model", error, room);
+    r.line = 1;
     if (m) m->inflate = module_inflate;
     if (!m || (is_threemf ? threemf_read(&r, m) : gltf_read(&r, m))) {
         python_unload(m);
