@@ -56,11 +56,11 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
     if (mesh->mColors[0]) {
         const struct aiColor4D c = mesh->mColors[0][i];
         v.color = shade_linear_from_srgb(shade_v3(c.r, c.g, c.b));
-        t->all.colored = 1;
+        t->all.colored = t->all.colors_kept = 1;
     }
     if (coords) {
         v.uv = shade_v2(coords[i].x, coords[i].y);
-        t->all.textured = 1;
+        t->all.textured = t->all.texcoords_kept = 1;
     }
     return gather_vertex(t->reader, &t->all, &v);
 }
@@ -88,7 +88,7 @@ static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
             if (faces_corner(&t->all.faces, (uint32_t)(first + corner)))
                 return mesh_fail(t->reader, "out of memory");
         }
-        faces_end(&t->all.faces);
+        if (faces_end(&t->all.faces)) return mesh_fail(t->reader, "out of memory");
         if (mesh_check_triangles(t->reader, t->all.faces.triangles)) return 1;
     }
     return 0;

@@ -222,13 +222,13 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     return model_read_with(bytes, size, name, m, q, &said);
 }
 
-static inline int model_load_file(const char *path, const char *name, unsigned char **bytes,
-                                  size_t *size, char **where, char *error, size_t room)
+static inline int model_load_file(const char *path, const char *name, double most,
+                                  unsigned char **bytes, size_t *size, char **where, char *error,
+                                  size_t room)
 {
     mesh_reader r = mesh_about(name, error, room);
     *where = model_beside(path, name);
-    return *where ? model_load(&r, *where, MODEL_BYTES, bytes, size)
-                  : mesh_fail(&r, "out of memory");
+    return *where ? model_load(&r, *where, most, bytes, size) : mesh_fail(&r, "out of memory");
 }
 
 /* Appends copies of some vertices to an array of a mesh.  Returns non-zero where memory is out. */
@@ -278,24 +278,24 @@ static inline int model_move_part(model *m, const model_part *part, const float 
 static inline int model_read_library(const char *path, const char *name, model *m, char *error,
                                      size_t room)
 {
-    char *beside = model_beside(path, name);
     unsigned char *bytes = NULL;
+    char *where = NULL;
     size_t size = 0;
-    mesh_reader r = mesh_about(name, error, room);
-    int failed = !beside || model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size);
+    const int failed =
+        m->beside(path, name, MODEL_LIBRARY_BYTES, &bytes, &size, &where, error, room);
     if (!failed) {
-        r.end = bytes + size;
-        r.at = r.begin = model_text_of(bytes, &size);
+        const unsigned char *begin = model_text_of(bytes, &size);
+        mesh_reader r = mesh_of(begin, size, name, error, room);
         r.line = 1;
         if (mtl_read(&r, m)) model_warn(m, path, error);
     }
     free(bytes);
-    free(beside);
+    free(where);
     return failed;
 }
 
-/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error.  A
-   line of names is the name of one file, or else of several. */
+/* Reads the files that describe the surfaces, by the model's beside.  What is missing there is a
+   warning, not an error.  A line of names is the name of one file, or else of several. */
 static inline void model_read_libraries(const char *path, model *m)
 {
     for (int i = 0; i < m->library_count; i++) {

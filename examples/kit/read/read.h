@@ -117,6 +117,7 @@ static int read_input(model *m, const model_request *q)
     }
 #endif
     free(bytes);
+    m->beside = model_load_file;
     if (!failed) model_read_libraries(model_input, m);
     return failed;
 }

@@ -900,6 +900,7 @@ static inline int threemf_place(threemf *t, threemf_object *o, const gather_matr
     int number, surface = 0;
     if (t->groups.count && !o->ready && threemf_dress(t, o)) return 1;
     o->ready = 1;
+    t->all.colors_kept = t->all.texcoords_kept = colored;
     number = model_add_object(t->m, o->name, strlen(o->name));
     if (number < 0 || faces_object(&t->all.faces, number)) return threemf_out(t);
     for (size_t i = 0; i < (colored ? o->corners : o->vertices); i++) {
@@ -915,11 +916,9 @@ static inline int threemf_place(threemf *t, threemf_object *o, const gather_matr
         const int own = colored ? ((const int *)t->surfaces.v)[o->index / 3 + i] : 0;
         if (own != surface && faces_surface(&t->all.faces, own)) return threemf_out(t);
         surface = own;
-        if (faces_begin(&t->all.faces)) return threemf_out(t);
-        for (int k = 0; k < 3; k++)
-            if (faces_corner(&t->all.faces, (uint32_t)first + corner[mirrored ? 2 - k : k]))
-                return threemf_out(t);
-        faces_end(&t->all.faces);
+        if (faces_triangle(&t->all.faces, (uint32_t)first + corner[mirrored ? 2 : 0],
+                           (uint32_t)first + corner[1], (uint32_t)first + corner[mirrored ? 0 : 2]))
+            return threemf_out(t);
     }
     return 0;
 }
