@@ -38,7 +38,9 @@ interrupted() {
     done
     kill -INT $!
     wait $!
-    same "$? $(sed 's/^[a-z-]*: //' "$T.said")" "130 interrupted while reading $T/noise.stl" &&
+    said="$? $(sed 's/^[a-z-]*: //' "$T.said")"
+    echo "$said"
+    [ "$said" = "130 interrupted while reading $T/noise.stl" ] &&
         ls -A "$T" | diff "$T.before" - && rm "$T.before" "$T.said" "$T/noise.stl"
 }
 # Sets $wine to what runs programs for Windows, or to nothing.  Debian's wine64 alone is not on the
