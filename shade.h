@@ -7718,7 +7718,7 @@ typedef struct shade__survey {
     float dim;                           /* channels below it are stored as 8 of 255 at most */
     shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
-    int   own_eye;                       /* light takes this eye, not that of state.view */
+    int   own_eye;                       /* light takes eye, not the eye of state.view */
     shade_vec3 eye;
 } shade__survey;
 
@@ -8975,7 +8975,7 @@ static int shade__highlights_are_wide(shade__survey *q)
     return shade__count(q, q->dim) < all;
 }
 
-/* Does light take another eye than that of the camera, and would the picture differ with it?  A
+/* Does light take another eye than the camera's, and would the picture differ with it?  A
    one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
 static int shade__eye_is_astray(shade__survey *q)
 {

@@ -1,7 +1,8 @@
 #!/bin/sh
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
-#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size] [copies]     all where none is named
+#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size] [copies] [read]
+#                            all where none is named
 #   BASE=revision run.sh     this shade.h against that of another revision, frames in turns
 #
 # CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an
@@ -97,6 +98,15 @@ scaling() {
     echo
 }
 
+# Model files in memory, without a program around.
+read_files() {
+    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/read.c -o "$build/bench_read" -lm
+    echo "## Reading model files"
+    echo
+    $pin "$build/bench_read" $rounds
+    echo
+}
+
 size_of() {
     echo "## Size"
     echo
@@ -159,10 +169,11 @@ if [ -n "${BASE:-}" ]; then
     exit
 fi
 
-for part in ${*:-compare levels maths kernel scaling size copies}; do
+for part in ${*:-compare levels maths kernel scaling size copies read}; do
     case $part in
     compare | levels | maths | kernel | scaling | copies) $part ;;
     size) size_of ;;
+    read) read_files ;;
     *)
         echo "run.sh: no part is called $part" >&2
         exit 2

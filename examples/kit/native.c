@@ -727,15 +727,16 @@ typedef char python_mesh_first[offsetof(model, mesh) == 0 ? 1 : -1];
 
 /* Reads a file of any format from memory; what stands beside path, which may be NULL, describes its
    surfaces, and inflate unpacks archives.  name stands in messages, and its end tells the format
-   where there is one.  Points without faces are vertices without indices.  Returns NULL with a
-   sentence in error. */
+   where there is one.  Points without faces are vertices without indices.  Once *stop is set, which
+   may be NULL, the reading ends.  Returns NULL with a sentence in error. */
 SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, const char *path,
-                            zip_inflate *inflate, char *error, size_t room);
+                            zip_inflate *inflate, char *error, size_t room,
+                            const volatile int *stop);
 model *python_read(const void *bytes, size_t size, const char *name, const char *path,
-                   zip_inflate *inflate, char *error, size_t room)
+                   zip_inflate *inflate, char *error, size_t room, const volatile int *stop)
 {
     static const model empty;
-    const model_request q = { error, room, NULL, NULL, 0, 0 };
+    const model_request q = { .error = error, .error_size = room, .stop = stop };
     model *m = (model *)calloc(1, sizeof *m), said = empty;
     said.points_wanted = 1;
     said.path = path;

@@ -119,15 +119,18 @@ def by_python(path):
 class Node:
     """One process that reads a path a line and answers with a line of JSON."""
     PROGRAM = """
-import { readGltf, read3mf } from "shade-h";
-import { readFileSync } from "node:fs";
+import { readModel } from "shade-h";
+import { existsSync, readFileSync } from "node:fs";
+import { dirname, extname, join } from "node:path";
 import { createInterface } from "node:readline";
 let said = [];
 console.warn = (line) => said.push(line);
 for await (const path of createInterface({ input: process.stdin })) {
     said = [];
     let read = true;
-    try { await (path.endsWith("3mf") ? read3mf : readGltf)(new Uint8Array(readFileSync(path))); }
+    const there = (name) => join(dirname(path), name);
+    const beside = (name) => (existsSync(there(name)) ? readFileSync(there(name)) : null);
+    try { await readModel(readFileSync(path), { format: extname(path).slice(1), beside }); }
     catch (why) { read = false; said.push(why.message); }
     console.log(JSON.stringify([read, said.join("\\n")]));
 }
@@ -177,7 +180,7 @@ for form, kind, name, what in lines:
         if text is not None:
             (FOLDER / made).write_text(text)
         told = []
-        for reader, read in list(readers.items()) + ([("Node", node)] if node and form in ("gltf", "3mf") else []):
+        for reader, read in list(readers.items()) + ([("Node", node)] if node else []):
             got = read(str(FOLDER / made))
             demand(f"{form} {kind}{' required' if required else ''}", reader, got, what, name)
             told += re.findall(r": ((?:its?|binary) .* not read)", got[1])[-1:]

@@ -176,7 +176,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t *bytes, *archive = NULL;
     char *error;
     model m;
-    model_request request = { NULL, error_size, reader_progress, &calls, 0, 0 };
+    model_request request = { .error_size = error_size, .progress = reader_progress };
     if (kind % 4 == 2 && n && *in.at == '<') archive = reader_archive(in.at, n, &n);
     if (n > GUARD_ROOM) return 0;
     bytes = (uint8_t *)guard_take(n, kind >> 2 & 1);
@@ -184,6 +184,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (n) memcpy(bytes, archive ? archive : in.at, n);
     free(archive);
     guard_seal(bytes);
+    request.user = &calls;
     request.error = error_size ? error : NULL;
     request.most = kind & 32 ? 4 : 0;
     result = model_read_memory(n ? bytes : NULL, n, name, &m, &request);

@@ -127,6 +127,7 @@ for signal in TERM HUP INT KILL; do
     [ $signal = KILL ] || check "SIG$signal: nothing else stays" same "$(ls cut | grep -c part)" 0
 done
 running=
+check "SIGINT while it reads a large file" interrupted "$BATCH" "$T/noise.stl" --frames 2 --out none
 # parts: of a process of this machine that is gone, of one that lives, of another machine
 host=$(uname -n | sed 's|[].*?[/\\]|-|g')
 dead=$(sh -c 'echo $$')

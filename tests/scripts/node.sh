@@ -47,6 +47,9 @@ cat >"$T/use/part.glb" <<'END'
     "bufferViews":[{"buffer":0,"byteLength":36}],
     "buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
 END
+printf 'mtllib cup.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/use/cup.obj"
+printf 'newmtl red\nKd 1 0 0\n' >"$T/use/cup.mtl"
+check "README's sixth program" sh -c "cd '$T/use' && node program6.mjs && test -s cup.png"
 check "README's fifth program" sh -c "cd '$T/use' && node program5.mjs && test -s part.png"
 cat >"$T/use/required.js" <<'END'
 const shade = require("shade-h"), { data } = shade.render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] });

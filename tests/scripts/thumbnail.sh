@@ -209,6 +209,7 @@ break.obj" "is no OBJ"
         for k in INT:130 TERM:143 HUP:129 QUIT:131; do
             check "SIG${k%:*} ends the program itself" ended ${k%:*} ${k#*:} interrupted
         done
+        check "SIGINT while it reads a large file" interrupted "$THUMBNAIL" "$T/noise.stl" "$T/none.ppm"
         check "a pipe for a model" bounded refused "pipe.obj: is no regular file" "$THUMBNAIL" \
             "$T/pipe.obj" "$T/none.ppm"
         { printf 'mtllib pipe.obj\n'; cat "$T/torus.obj"; } >"$T/piped.obj"

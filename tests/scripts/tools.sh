@@ -26,6 +26,23 @@ soon() {                        # waits up to $patience seconds, 20, for a comma
     for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
     "$@"
 }
+# SIGINT while a program reads noise.stl, whose 3 million triangles have nothing in common: it ends by
+# that signal, at once, and leaves nothing behind.  program, arguments
+interrupted() {
+    { printf '%80s\300\306\055\000' noise; head -c 150000000 /dev/urandom; } >"$T/noise.stl"
+    ls -A "$T" >"$T.before"
+    # a job of a shell without job control is deaf to INT
+    env --default-signal=INT "$@" >/dev/null 2>"$T.said" &
+    until [ ! -d /proc/$! ] || [ "$(awk '/^VmRSS/ { print $2 }' /proc/$!/status)" -gt 160000 ]; do
+        sleep 0.02
+    done
+    kill -INT $!
+    wait $!
+    said="$? $(sed 's/^[a-z-]*: //' "$T.said")"
+    echo "$said"
+    [ "$said" = "130 interrupted while reading $T/noise.stl" ] &&
+        ls -A "$T" | diff "$T.before" - && rm "$T.before" "$T.said" "$T/noise.stl"
+}
 # Sets $wine to what runs programs for Windows, or to nothing.  Debian's wine64 alone is not on the
 # path.  Wine's server runs until stop_wine: one that ends when it is idle resets the connection of a
 # program that has just begun.  It writes into its folder until it ends.

@@ -112,6 +112,45 @@ cp "$name" "$T/model.copy"
 itself
 check "a model is not replaced by its picture" cmp "$name" "$T/model.copy"
 
+# ---- memory: Wine lets a process have more than its job allows, so here counts what Windows is asked for
+cat >"$T/limit.c" <<'END'
+#include <windows.h>
+#include <stdio.h>
+static double limit_asked;
+static int limit_ours;
+static BOOL limit_set(HANDLE job, JOBOBJECTINFOCLASS kind, void *data, DWORD size)
+{
+    const JOBOBJECT_EXTENDED_LIMIT_INFORMATION *is = data;
+    if (job && kind == JobObjectExtendedLimitInformation && size == sizeof *is &&
+        is->BasicLimitInformation.LimitFlags == JOB_OBJECT_LIMIT_PROCESS_MEMORY)
+        limit_asked = (double)is->ProcessMemoryLimit;
+    return TRUE;
+}
+static BOOL limit_assign(HANDLE job, HANDLE process)
+{
+    limit_ours = job && process == GetCurrentProcess();
+    return TRUE;
+}
+#define SetInformationJobObject limit_set
+#define AssignProcessToJobObject limit_assign
+#include "examples/kit/command/guard.h"
+int main(int count, char **word)
+{
+    guard_begin(count > 1 ? atoi(word[1]) : 0);
+    printf("%.0f", limit_ours ? limit_asked / 1e6 : -1);
+    return 0;
+}
+END
+check "what asks for a limit builds" $cc $built -w -static "$T/limit.c" -lshell32 -o "$T/limit.exe"
+check "--max-memory 64" same "$("$wine" "$T/limit.exe" 64)" 64
+by_default() {                  # a quarter of what is free: between that of what nothing uses and of all
+    limit=$("$wine" "$T/limit.exe")
+    awk -v limit="$limit" '/^MemTotal/ { all = $2 / 4000 } /^MemFree/ { free = $2 / 4000 }
+        END { print limit, free, all; exit !(limit >= 1000 && limit >= 0.9 * free && (limit == 1000 || limit < all)) }' \
+        /proc/meminfo
+}
+check "by default a quarter of what is free, 1000 megabytes at least" by_default
+
 # ---- batch
 turn="--frames 5 --size 60x40 --samples 1 --quick"
 there_batch() { "$wine" "$T/batch.exe" "$@"; }

@@ -25,6 +25,42 @@ if compile tests/thumbnail/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
     done
 fi
 
+# formats beside another reader, by their triangles and the proportions of their boxes
+CORPUS=/usr/share/assimp/models
+shape() {                       # model: its triangles and the edges of its box
+    "$THUMBNAIL" "$1" "$T/shape.ppm" --views front --size 300x200 --json "$T/shape.json" --quiet &&
+        sed -n 's/.*"triangles": \([0-9]*\), "nothing".*/\1/p
+            s/^  "box": .*"size": \[\(.*\)\] },/\1/p' "$T/shape.json" | tr -d , | tr '\n' ' '
+}
+alike() {                       # two such lines: as many triangles, edges in the same proportions
+    echo "$1 $2"
+    echo "$1 $2" | awk 'function rank(i, k, t) {    # the edges from i on, the longest first
+            for (k = 0; k < 3; k++) for (t = i; t < i + 2; t++)
+                if ($t < $(t + 1)) { swap = $t; $t = $(t + 1); $(t + 1) = swap } }
+        { rank(2); rank(6); wrong = $1 != $5 || NF != 8
+          for (k = 1; k < 3; k++) { d = $(2 + k) / $2 - $(6 + k) / $6; if (d * d > 4e-6) wrong = 1 } }
+        END { exit wrong }'
+}
+formats=$(sed -n '/model_by_assimp\[\] = {/,/};/{s/^[^{]*{//;s/NULL//;s/[^a-z0-9]/ /g;p;}' examples/kit/read/read.h)
+check "formats of assimp" test $(echo $formats | wc -w) -gt 15
+for k in $formats; do check "$k is compared" grep -qi "^[^# ]*\.$k " tests/thumbnail/compared.txt; done
+for k in blend ifc bvh xyz; do
+    printf 'BLENDER-v276' >"$T/other.$k"
+    bad_model ".$k is not asked for" other.$k "other.$k: \.$k files are not read"
+done
+if [ -d "$CORPUS" ]; then
+    while read -r file other; do
+        case $file in "#"*) continue ;; esac
+        case $other in *.*/* | */*.*) other=$(shape "$CORPUS/$other") ;; esac
+        check "$file as another reader has it" alike "$(shape "$CORPUS/$file")" "$other"
+    done <tests/thumbnail/compared.txt
+    cp "$CORPUS/BLEND/BlenderDefault_276.blend" "$T/nameless"
+    bad_model "nor without a name" nameless "nameless:"
+    cp "$CORPUS/AC/Wuson.ac" "$T/nameless"
+    check "what is compared is read without a name" draw nameless a.ppm
+else echo "no assimp-testmodels: formats beside another reader are left out"
+fi
+
 if [ "$STB" ]; then
     check "a picture to embed" draw matte.obj embed.png --size 24x24 --samples 1
     check "embedded" "$T/models" "$T" "$T/embed.png"

@@ -10,9 +10,11 @@ import os
 import pty
 import re
 import select
+import signal
 import struct
 import subprocess
 import sys
+import tempfile
 import termios
 import time
 import unicodedata
@@ -333,6 +335,19 @@ t = Terminal('kitty', colors='')
 check('a terminal with a name knows all colors: pixels', t.until(KITTY.search))
 check('it turns: another picture', t.until(lambda out: len(KITTY.findall(out)) > 3))
 check('it ends while it turns', t.close())
+
+# ---- interrupted ---------------------------------------------------------------------------------
+
+with tempfile.NamedTemporaryFile(suffix='.stl') as noise:    # 3 million triangles, all over the place
+    noise.write(b'noise'.ljust(80) + struct.pack('<I', 3000000) + os.urandom(150000000))
+    noise.flush()
+    t = Terminal('plain', noise.name)
+    memory = f'/proc/{t.view.pid}/statm'
+    while t.view.poll() is None and int(open(memory).read().split()[1]) * 4096 < 160e6:
+        time.sleep(0.02)
+    t.view.send_signal(signal.SIGINT)
+    check('SIGINT while it reads a large file', t.view.wait(PATIENCE) == -signal.SIGINT)
+    check('the terminal is as it was', not t.out)
 
 print(f'{passed} passed, {failed} failed')
 sys.exit(failed != 0)

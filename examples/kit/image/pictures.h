@@ -113,10 +113,7 @@ static int picture_load(model *m, const char *path, const char *name, int as_rel
         snprintf(error, sizeof error,
                  "%s: it lies outside of the model's folder; --outside reads it", name);
     for (int attempt = !beside_model; attempt < 2 && failed && number >= 0; attempt++) {
-        mesh_reader r = {
-            NULL, NULL, NULL, name, 0, attempt ? NULL : error, attempt ? 0 : sizeof error,
-            NULL, NULL, 0
-        };
+        mesh_reader r = mesh_about(name, error, attempt ? 0 : sizeof error);
         char *beside = model_beside(path, attempt ? name + last : name);
         failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
         if (failed)

@@ -1,11 +1,13 @@
-/* assimp.h - reads every format that assimp reads, as a model: its meshes where the tree of nodes
-   puts them, their materials in the terms of shade.h, and embedded pictures. */
+/* assimp.h - reads the formats of model_by_assimp (read.h) by assimp, as a model: its meshes where
+   the tree of nodes puts them, their materials in the terms of shade.h, and embedded pictures. */
 #ifndef MODEL_ASSIMP_H
 #define MODEL_ASSIMP_H
 
 #include "../image/pictures.h"
 #include "gather.h"
 #include <assimp/cimport.h>
+#include <assimp/commonMetaData.h>
+#include <assimp/importerdesc.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -56,11 +58,11 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
     if (mesh->mColors[0]) {
         const struct aiColor4D c = mesh->mColors[0][i];
         v.color = shade_linear_from_srgb(shade_v3(c.r, c.g, c.b));
-        t->all.colored = 1;
+        t->all.colored = t->all.colors_kept = 1;
     }
     if (coords) {
         v.uv = shade_v2(coords[i].x, coords[i].y);
-        t->all.textured = 1;
+        t->all.textured = t->all.texcoords_kept = 1;
     }
     return gather_vertex(t->reader, &t->all, &v);
 }
@@ -88,7 +90,7 @@ static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
             if (faces_corner(&t->all.faces, (uint32_t)(first + corner)))
                 return mesh_fail(t->reader, "out of memory");
         }
-        faces_end(&t->all.faces);
+        if (faces_end(&t->all.faces)) return mesh_fail(t->reader, "out of memory");
         if (mesh_check_triangles(t->reader, t->all.faces.triangles)) return 1;
     }
     return 0;
@@ -343,6 +345,34 @@ static int assimp_failed(mesh_reader *r)
     return mesh_fail(r, "%s", n ? text : "assimp cannot read it");
 }
 
+/* 1: one of the words, with blanks between, is among those of model_by_assimp. */
+static int assimp_promises(const char *words)
+{
+    for (const char *const *word = model_by_assimp; *word; word++) {
+        const size_t n = strlen(*word);
+        for (const char *at = words; (at = strstr(at, *word)) != NULL; at++)
+            if ((at == words || at[-1] == ' ') && (!at[n] || at[n] == ' ')) return 1;
+    }
+    return 0;
+}
+
+/* The name of the format that assimp has found, where that is none of model_by_assimp; NULL: it is
+   one of them */
+static const char *assimp_other(const struct aiScene *scene)
+{
+    const struct aiMetadata *about = scene->mMetaData;
+    const char *found = "a format without a name";
+    for (unsigned i = 0; about && i < about->mNumProperties; i++)
+        if (!strcmp(about->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) &&
+            about->mValues[i].mType == AI_AISTRING)
+            found = ((const struct aiString *)about->mValues[i].mData)->data;
+    for (size_t i = 0; i < aiGetImportFormatCount(); i++) {
+        const struct aiImporterDesc *known = aiGetImportFormatDescription(i);
+        if (!strcmp(known->mName, found) && assimp_promises(known->mFileExtensions)) return NULL;
+    }
+    return found;
+}
+
 /* Reads a file or, where bytes is not NULL, the size bytes there, which path names in messages. */
 static int assimp_read(const char *path, const unsigned char *bytes, size_t size, model *m,
                        const model_request *q)
@@ -350,12 +380,13 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     const unsigned flags = aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
     static const model empty_model;
     static const tree empty_tree;
-    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, q->most };
+    mesh_reader r = mesh_about(path, q->error, q->error_size);
     model_kind kind = model_kind_of(path);
     struct aiPropertyStore *set = aiCreatePropertyStore();
     tree t = empty_tree;
     int failed;
     *m = empty_model;
+    r.most = q->most;
     if (!set) return mesh_fail(&r, "out of memory");
     errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
@@ -367,6 +398,11 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
                                                        kind.text, set);
     aiReleasePropertyStore(set);
     if (!t.scene) return assimp_failed(&r);
+    if (assimp_other(t.scene)) {
+        mesh_fail(&r, "it is of %s, which is not read", assimp_other(t.scene));
+        aiReleaseImport(t.scene);
+        return 1;
+    }
     t.reader = &r;
     t.model = m;
     m->z_up = !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");

@@ -120,7 +120,8 @@ typedef struct model_request {
     mesh_progress *progress;
     void *user;
     size_t most;
-    int outside; /* pictures outside of the folder of the model are read, too */
+    int outside;              /* pictures outside of the folder of the model are read, too */
+    const volatile int *stop; /* as in mesh_reader */
 } model_request;
 
 static inline int model_read_once(const void *bytes, size_t size, const char *name, model *m,
@@ -129,9 +130,13 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     static const unsigned char nothing[1];
     const unsigned char *all = size ? (const unsigned char *)bytes : nothing;
     const unsigned char *begin = model_text_of(all, &size);
-    mesh_reader r = { begin,    begin,         begin + size, name,    1,
-                      q->error, q->error_size, q->progress,  q->user, q->most };
+    mesh_reader r = mesh_of(begin, size, name, q->error, q->error_size);
     int failed;
+    r.line = 1;
+    r.progress = q->progress;
+    r.user = q->user;
+    r.most = q->most;
+    r.stop = q->stop;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
     else if (mesh_is_threemf(name, begin, size))
@@ -217,13 +222,13 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     return model_read_with(bytes, size, name, m, q, &said);
 }
 
-static inline int model_load_file(const char *path, const char *name, unsigned char **bytes,
-                                  size_t *size, char **where, char *error, size_t room)
+static inline int model_load_file(const char *path, const char *name, double most,
+                                  unsigned char **bytes, size_t *size, char **where, char *error,
+                                  size_t room)
 {
-    mesh_reader r = { NULL, NULL, NULL, name, 0, error, room, NULL, NULL, 0 };
+    mesh_reader r = mesh_about(name, error, room);
     *where = model_beside(path, name);
-    return *where ? model_load(&r, *where, MODEL_BYTES, bytes, size)
-                  : mesh_fail(&r, "out of memory");
+    return *where ? model_load(&r, *where, most, bytes, size) : mesh_fail(&r, "out of memory");
 }
 
 /* Appends copies of some vertices to an array of a mesh.  Returns non-zero where memory is out. */
@@ -273,24 +278,24 @@ static inline int model_move_part(model *m, const model_part *part, const float 
 static inline int model_read_library(const char *path, const char *name, model *m, char *error,
                                      size_t room)
 {
-    char *beside = model_beside(path, name);
     unsigned char *bytes = NULL;
+    char *where = NULL;
     size_t size = 0;
-    mesh_reader r = { NULL, NULL, NULL, name, 0, error, room, NULL, NULL, 0 };
-    int failed = !beside || model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size);
+    const int failed =
+        m->beside(path, name, MODEL_LIBRARY_BYTES, &bytes, &size, &where, error, room);
     if (!failed) {
-        r.end = bytes + size;
-        r.at = r.begin = model_text_of(bytes, &size);
+        const unsigned char *begin = model_text_of(bytes, &size);
+        mesh_reader r = mesh_of(begin, size, name, error, room);
         r.line = 1;
         if (mtl_read(&r, m)) model_warn(m, path, error);
     }
     free(bytes);
-    free(beside);
+    free(where);
     return failed;
 }
 
-/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error.  A
-   line of names is the name of one file, or else of several. */
+/* Reads the files that describe the surfaces, by the model's beside.  What is missing there is a
+   warning, not an error.  A line of names is the name of one file, or else of several. */
 static inline void model_read_libraries(const char *path, model *m)
 {
     for (int i = 0; i < m->library_count; i++) {
@@ -319,7 +324,7 @@ static inline void model_read_libraries(const char *path, model *m)
 static inline int model_read_file(const char *path, model *m, const model_request *q)
 {
     static const model empty;
-    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+    mesh_reader r = mesh_about(path, q->error, q->error_size);
     unsigned char *bytes = NULL;
     size_t size = 0;
     model said = empty;
@@ -349,7 +354,7 @@ static inline int model_keep_mesh(int failed, model *from, owned_mesh *m)
 static inline int mesh_read_memory(const void *bytes, size_t size, const char *name, owned_mesh *m,
                                    char *error, size_t error_size)
 {
-    const model_request q = { error, error_size, NULL, NULL, 0, 0 };
+    const model_request q = { .error = error, .error_size = error_size };
     model from;
     return model_keep_mesh(model_read_memory(bytes, size, name, &from, &q), &from, m);
 }
@@ -357,7 +362,9 @@ static inline int mesh_read_memory(const void *bytes, size_t size, const char *n
 static inline int mesh_read_file_progress(const char *path, owned_mesh *m, char *error,
                                           size_t error_size, mesh_progress *progress, void *user)
 {
-    const model_request q = { error, error_size, progress, user, 0, 0 };
+    const model_request q = {
+        .error = error, .error_size = error_size, .progress = progress, .user = user
+    };
     model from;
     return model_keep_mesh(model_read_file(path, &from, &q), &from, m);
 }

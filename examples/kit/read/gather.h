@@ -45,6 +45,7 @@ typedef struct gather {
     mesh_origin origin;
     int textured, colored, lacks_normals; /* some vertex has a place in a picture, a colour; has no
                                              normal */
+    int colors_kept, texcoords_kept;      /* from here on; those before are white, and at 0 */
 } gather;
 
 typedef struct gather_corner {
@@ -58,19 +59,36 @@ static inline int gather_finite(shade_vec3 v)
     return fabsf(v.x) <= 1e30f && fabsf(v.y) <= 1e30f && fabsf(v.z) <= 1e30f;
 }
 
+/* Fills a column with a value, up to count numbers. */
+static inline int gather_fill(mesh_floats *column, size_t count, float value)
+{
+    while (column->count < count)
+        if (mesh_push(column, &value, 1)) return 1;
+    return 0;
+}
+
 /* Adds a vertex.  Faces around a position that is not finite are dropped at the end. */
 static inline int gather_vertex(mesh_reader *r, gather *g, const gather_corner *v)
 {
+    const size_t before = g->positions.count / 3;
+    const shade_vec3 n = v->normal;
+    const int bare = n.x == 0 && n.y == 0 && n.z == 0;
     float place[3], uv[2] = { 0, 0 };
-    shade_vec3 N = shade_normalize(v->normal);
+    shade_vec3 N = bare ? n : shade_normalize(n);
+    if (before % MESH_TELL == 0 && mesh_stopped(r)) return 1;
     mesh_relative(&g->origin, v->position, place);
     for (int k = 0; k < 3; k++)
         if (!(fabsf(place[k]) <= 1e30f)) place[k] = NAN;
     if (!gather_finite(N)) N = shade_v3(0, 0, 0);
     if (N.x == 0 && N.y == 0 && N.z == 0) g->lacks_normals = 1;
     if (fabsf(v->uv.x) < 1e6f && fabsf(v->uv.y) < 1e6f) memcpy(uv, &v->uv, sizeof uv);
-    if (mesh_push(&g->positions, place, 3) || mesh_push(&g->normals, (const float *)&N, 3) ||
-        mesh_push(&g->colors, (const float *)&v->color, 3) || mesh_push(&g->texcoords, uv, 2))
+    if (mesh_push(&g->positions, place, 3) || mesh_push(&g->normals, (const float *)&N, 3))
+        return mesh_fail(r, "out of memory");
+    if (g->colors_kept && (gather_fill(&g->colors, 3 * before, 1) ||
+                           mesh_push(&g->colors, (const float *)&v->color, 3)))
+        return mesh_fail(r, "out of memory");
+    if (g->texcoords_kept &&
+        (gather_fill(&g->texcoords, 2 * before, 0) || mesh_push(&g->texcoords, uv, 2)))
         return mesh_fail(r, "out of memory");
     return 0;
 }
@@ -97,6 +115,9 @@ static inline int gather_finish(mesh_reader *r, gather *g, model *m)
     owned_mesh *mesh = &m->mesh;
     const int vertices = (int)(g->positions.count / 3);
     if (!g->faces.triangles) return mesh_fail(r, "no faces in it");
+    if ((g->colored && gather_fill(&g->colors, g->positions.count, 1)) ||
+        (g->textured && gather_fill(&g->texcoords, 2 * (size_t)vertices, 0)))
+        return mesh_fail(r, "out of memory");
     mesh->positions = gather_take(&g->positions);
     mesh->normals = gather_take(&g->normals);
     if (g->textured) mesh->texcoords = gather_take(&g->texcoords);

@@ -212,7 +212,8 @@ static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
         failed = mesh_fail(g->r, "%s is beside a model that was read from memory", text);
     } else {
         char error[200] = "out of memory";
-        failed = g->m->beside(g->m->path, text, &out->owned, &out->size, path, error, sizeof error);
+        failed = g->m->beside(g->m->path, text, MODEL_BYTES, &out->owned, &out->size, path, error,
+                              sizeof error);
         out->at = out->owned;
         if (failed) mesh_fail(g->r, "%s", error);
     }
@@ -262,10 +263,12 @@ static inline int gltf_view(gltf *g, uint32_t at, gltf_bytes *out, double *strid
 
 /* ---- accessors ------------------------------------------------------------------------------- */
 
+/* The values of an accessor: in v, or where that is NULL as they stand in the file */
 typedef struct gltf_values {
     double *v;
-    size_t count;
-    int width;
+    const unsigned char *from;
+    size_t count, stride;
+    int width, type, normalized; /* width 0: there is no such accessor */
 } gltf_values;
 
 enum { GLTF_BYTE = 5120 };
@@ -275,29 +278,25 @@ static const int gltf_sizes[7] = { 1, 1, 2, 2, 0, 4, 4 };
 static inline double gltf_component(const unsigned char *p, int type, int normalized)
 {
     static const double most[7] = { 127, 255, 32767, 65535, 1, 4294967295.0, 1 };
-    uint32_t bits = 0;
-    double value;
-    float single;
-    for (int k = 0; k < gltf_sizes[type]; k++) bits |= (uint32_t)p[k] << 8 * k;
-    if (type == 6) {
-        memcpy(&single, &bits, sizeof single);
-        return (double)single;
-    }
-    value = bits;
+    const uint32_t bits = type < 2 ? *p : type < 4 ? mesh_uint16(p) : mesh_uint32(p);
+    double value = bits;
+    if (type == 6) return (double)mesh_float(bits);
     if (type == 0 && bits > 127) value -= 256;
     if (type == 2 && bits > 32767) value -= 65536;
     return normalized ? fmax(value / most[type], -1) : value;
 }
 
-/* Numbers of a view into v: count of so many components each, the i-th at to[i], or at i */
-typedef struct gltf_layout {
-    int type, width, normalized;
-    size_t count;
-} gltf_layout;
-static inline int gltf_fetch(gltf *g, uint32_t object, const gltf_layout *l, const double *to,
-                             double *v)
+static inline double gltf_value(const gltf_values *a, size_t i, int k)
 {
-    const double size = gltf_sizes[l->type] * l->width;
+    if (a->v) return a->v[(size_t)a->width * i + (size_t)k];
+    return gltf_component(a->from + i * a->stride + k * gltf_sizes[a->type], a->type,
+                          a->normalized);
+}
+
+/* Finds the bytes of values whose count, width and type are known. */
+static inline int gltf_find(gltf *g, uint32_t object, gltf_values *a)
+{
+    const double size = gltf_sizes[a->type] * a->width;
     gltf_bytes bytes;
     double stride, start;
     if (gltf_view(g, json_member(&g->j, object, "bufferView"), &bytes, &stride) ||
@@ -305,40 +304,48 @@ static inline int gltf_fetch(gltf *g, uint32_t object, const gltf_layout *l, con
         return 1;
     if (stride == 0) stride = size;
     if (stride < size) return mesh_fail(g->r, "the stride of an accessor is less than its values");
-    if (l->count && start + ((double)l->count - 1) * stride + size > (double)bytes.size)
+    if (a->count && start + ((double)a->count - 1) * stride + size > (double)bytes.size)
         return mesh_fail(g->r, "an accessor ends behind its view");
-    for (size_t i = 0; i < l->count; i++) {
-        const unsigned char *from = bytes.at + (size_t)start + i * (size_t)stride;
-        double *out = v + (to ? (size_t)to[i] : i) * (size_t)l->width;
-        for (int k = 0; k < l->width; k++)
-            out[k] = gltf_component(from + k * gltf_sizes[l->type], l->type, l->normalized);
-    }
+    a->from = a->count ? bytes.at + (size_t)start : NULL;
+    a->stride = (size_t)stride;
+    return 0;
+}
+
+/* Copies the values, so that they can be changed; those that stand nowhere are 0. */
+static inline int gltf_copy(gltf *g, gltf_values *a)
+{
+    double *v = (double *)calloc((a->count + 1) * (size_t)a->width, sizeof *v);
+    if (!v) return mesh_fail(g->r, "out of memory");
+    for (size_t i = 0; i < a->count && a->from; i++)
+        for (int k = 0; k < a->width; k++)
+            v[(size_t)a->width * i + (size_t)k] = gltf_value(a, i, k);
+    a->v = v;
     return 0;
 }
 
 /* The values of a sparse accessor that differ from the base */
-static inline int gltf_sparse(gltf *g, uint32_t sparse, const gltf_layout *l, double *v)
+static inline int gltf_sparse(gltf *g, uint32_t sparse, const gltf_values *a)
 {
     const uint32_t indices = json_of(&g->j, sparse, "indices", JSON_OBJECT);
     const uint32_t values = json_of(&g->j, sparse, "values", JSON_OBJECT);
-    gltf_layout where = { 0, 1, 0, 0 }, what = *l;
-    double count, type, *to;
-    int failed;
+    gltf_values where = { .width = 1 }, what = *a;
+    double count, type;
     if (!indices || !values || gltf_whole(g, sparse, "count", -1, &count) ||
         gltf_whole(g, indices, "componentType", 0, &type))
         return mesh_fail(g->r, "a sparse accessor is wrong");
-    if (count > (double)l->count || (type != 5121 && type != 5123 && type != 5125))
+    if (count > (double)a->count || (type != 5121 && type != 5123 && type != 5125))
         return mesh_fail(g->r, "a sparse accessor is wrong");
     where.type = (int)type - GLTF_BYTE;
     where.count = what.count = (size_t)count;
-    to = (double *)malloc((where.count + 1) * sizeof *to);
-    if (!to) return mesh_fail(g->r, "out of memory");
-    failed = gltf_fetch(g, indices, &where, NULL, to);
-    for (size_t i = 0; i < where.count && !failed; i++)
-        if (to[i] >= (double)l->count) failed = mesh_fail(g->r, "a sparse accessor is wrong");
-    if (!failed) failed = gltf_fetch(g, values, &what, to, v);
-    free(to);
-    return failed;
+    what.v = NULL;
+    if (gltf_find(g, indices, &where) || gltf_find(g, values, &what)) return 1;
+    for (size_t i = 0; i < where.count; i++) {
+        const double to = gltf_value(&where, i, 0);
+        if (to >= (double)a->count) return mesh_fail(g->r, "a sparse accessor is wrong");
+        for (int k = 0; k < a->width; k++)
+            a->v[(size_t)a->width * (size_t)to + (size_t)k] = gltf_value(&what, i, k);
+    }
+    return 0;
 }
 
 /* How many values an accessor has */
@@ -348,50 +355,43 @@ static inline int gltf_count_of(gltf *g, uint32_t at, double *count)
     return gltf_item(g, GLTF_ACCESSORS, at, &object) || gltf_whole(g, object, "count", -1, count);
 }
 
-/* All values of an accessor of least to most components; free v afterwards, also where it fails. */
+/* The values of an accessor of least to most components; free v afterwards, also where it fails. */
 static inline int gltf_read_values(gltf *g, uint32_t at, int least, int most, gltf_values *out)
 {
     static const char *const types[] = { "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4" };
     static const int widths[] = { 1, 2, 3, 4, 16 };
-    gltf_layout l = { 0, 0, 0, 0 };
+    static const gltf_values none;
     uint32_t object, kind, view, sparse;
     double count, type;
-    out->v = NULL;
+    *out = none;
     if (gltf_item(g, GLTF_ACCESSORS, at, &object) || gltf_whole(g, object, "count", -1, &count) ||
         gltf_whole(g, object, "componentType", 0, &type))
         return 1;
     kind = json_member(&g->j, object, "type");
     for (int k = 0; k < 5 && kind; k++)
-        if (json_is(&g->j, kind, types[k])) l.width = widths[k];
-    l.type = (int)type - GLTF_BYTE;
-    if (l.width < least || l.width > most || l.type < 0 || l.type > 6 || l.type == 4)
+        if (json_is(&g->j, kind, types[k])) out->width = widths[k];
+    out->type = (int)type - GLTF_BYTE;
+    if (out->width < least || out->width > most || out->type < 0 || out->type > 6 || out->type == 4)
         return mesh_fail(g->r, "an accessor has the wrong type");
-    l.normalized = json_of(&g->j, object, "normalized", JSON_TRUE) != 0;
+    out->normalized = json_of(&g->j, object, "normalized", JSON_TRUE) != 0;
     view = json_member(&g->j, object, "bufferView");
     sparse = json_of(&g->j, object, "sparse", JSON_OBJECT);
     if (count > (view ? (double)INT_MAX : GLTF_BARE))
         return mesh_fail(g->r, "an accessor has too many values");
-    l.count = out->count = (size_t)count;
-    out->width = l.width;
-    if (view) { /* the bytes are there before memory is taken */
-        gltf_bytes bytes;
-        double stride;
-        if (gltf_view(g, view, &bytes, &stride)) return 1;
-        if (count > (double)bytes.size) return mesh_fail(g->r, "an accessor ends behind its view");
-    }
-    out->v = (double *)calloc((l.count + 1) * (size_t)l.width, sizeof *out->v);
-    if (!out->v) return mesh_fail(g->r, "out of memory");
-    if (view && gltf_fetch(g, object, &l, NULL, out->v)) return 1;
-    return sparse ? gltf_sparse(g, sparse, &l, out->v) : 0;
+    out->count = (size_t)count;
+    if (view && gltf_find(g, object, out))
+        return 1; /* the bytes are there before memory is taken */
+    if ((sparse || !view) && gltf_copy(g, out)) return 1;
+    return sparse ? gltf_sparse(g, sparse, out) : 0;
 }
 
-/* The same of an attribute, for so many vertices; v is NULL where there is none. */
+/* The same of an attribute, for so many vertices; width is 0 where there is none. */
 static inline int gltf_attribute(gltf *g, uint32_t attributes, const char *name, int least,
                                  int most, size_t count, gltf_values *out)
 {
+    static const gltf_values none;
     const uint32_t at = json_member(&g->j, attributes, name);
-    out->v = NULL;
-    out->count = 0;
+    *out = none;
     if (!at) return 0;
     if (gltf_read_values(g, at, least, most, out)) return 1;
     return out->count == count ? 0 : mesh_fail(g->r, "%s has not a value for each vertex", name);
@@ -462,7 +462,7 @@ static inline int gltf_joints(gltf *g, uint32_t node, gather_matrix **out, uint3
 {
     const uint32_t number = json_member(&g->j, node, "skin");
     uint32_t skin, joints, at, inverse;
-    gltf_values bind = { NULL, 0, 0 };
+    gltf_values bind = { .v = NULL };
     *out = NULL;
     if (!number) return 0;
     if (gltf_item(g, GLTF_SKINS, number, &skin)) return 1;
@@ -484,8 +484,8 @@ static inline int gltf_joints(gltf *g, uint32_t node, gather_matrix **out, uint3
             return mesh_fail(g->r, "a joint is no node");
         }
         (*out)[i] = gltf_world(g, (uint32_t)joint);
-        if (!bind.v) continue;
-        memcpy(from.at, bind.v + 16 * i, sizeof from.at);
+        if (!bind.width) continue;
+        for (int k = 0; k < 16; k++) from.at[k] = gltf_value(&bind, i, k);
         (*out)[i] = gather_product(&(*out)[i], &from);
     }
     free(bind.v);
@@ -738,8 +738,9 @@ static inline int gltf_morph(gltf *g, uint32_t primitive, uint32_t mesh, uint32_
         for (int k = 0; k < 2 && weight != 0; k++) {
             gltf_values moved;
             int failed = gltf_attribute(g, target, names[k], 3, 3, v->position.count, &moved);
-            for (size_t c = 0; !failed && moved.v && base[k]->v && c < 3 * moved.count; c++)
-                base[k]->v[c] += weight * moved.v[c];
+            if (!failed && base[k]->width && !base[k]->v) failed = gltf_copy(g, base[k]);
+            for (size_t c = 0; !failed && base[k]->v && c < 3 * moved.count; c++)
+                base[k]->v[c] += weight * gltf_value(&moved, c / 3, (int)(c % 3));
             free(moved.v);
             if (failed) return 1;
         }
@@ -784,10 +785,15 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
         gltf_attribute(g, attributes, "WEIGHTS_1", 4, 4, n, &v->weight[1]))
         return 1;
     if (index && gltf_read_values(g, index, 1, 1, &v->index)) return 1;
-    for (size_t i = 0; v->index.v && i < v->index.count; i++)
-        if (!(v->index.v[i] >= 0 && v->index.v[i] < (double)n))
+    for (size_t i = 0; i < v->index.count; i++)
+        if (!(gltf_value(&v->index, i, 0) >= 0 && gltf_value(&v->index, i, 0) < (double)n))
             return mesh_fail(g->r, "an index points behind the vertices");
     return 0;
+}
+
+static inline int gltf_is_boned(const gltf_vertices *v)
+{
+    return v->bone && v->joint[0].width && v->weight[0].width;
 }
 
 /* Where a vertex is: its place in the world, or the mean of the places of its joints.  0: its
@@ -796,11 +802,13 @@ static inline gather_matrix gltf_bone(const gltf_vertices *v, size_t i, const ga
 {
     gather_matrix m = { { 0 } };
     double sum = 0;
-    if (!v->bone || !v->joint[0].v || !v->weight[0].v) return *at;
-    for (size_t k = 0; k < 8; k++) {
+    if (!gltf_is_boned(v)) return *at;
+    for (int k = 0; k < 8; k++) {
         const gltf_values *joint = &v->joint[k / 4], *weight = &v->weight[k / 4];
-        if (!joint->v || !weight->v) continue;
-        const double bone = joint->v[4 * i + k % 4], w = weight->v[4 * i + k % 4];
+        double bone, w;
+        if (!joint->width || !weight->width) continue;
+        bone = gltf_value(joint, i, k % 4);
+        w = gltf_value(weight, i, k % 4);
         if (!(w > 0) || !(bone >= 0 && bone < (double)v->bones)) continue;
         for (int c = 0; c < 16; c++) m.at[c] += w * v->bone[(size_t)bone].at[c];
         sum += w;
@@ -809,22 +817,38 @@ static inline gather_matrix gltf_bone(const gltf_vertices *v, size_t i, const ga
     return sum > 0 ? m : *at;
 }
 
-static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const gather_matrix *at,
+/* A matrix, and what normals take: its cofactors with the sign of its determinant */
+typedef struct gltf_turn {
+    gather_matrix m;
+    double normal[3][3];
+} gltf_turn;
+
+static inline gltf_turn gltf_turned(gather_matrix m)
+{
+    const double sign = gather_determinant(&m) < 0 ? -1 : 1;
+    gltf_turn t = { m, { { 0 } } };
+    for (int k = 0; k < 9; k++) t.normal[k / 3][k % 3] = sign * gather_cofactor(&m, k / 3, k % 3);
+    return t;
+}
+
+static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const gltf_turn *at,
                               const gltf_place *place)
 {
-    const gather_matrix m = gltf_bone(v, i, at);
-    const double *p = v->position.v + 3 * i, sign = gather_determinant(&m) < 0 ? -1 : 1;
     gather_corner c = { .color = { 1, 1, 1 } };
+    const double *m = at->m.at;
+    double p[3], rgb[3];
     float normal[3] = { 0, 0, 0 };
-    for (int k = 0; k < 3; k++) {
-        c.position[k] = m.at[k] * p[0] + m.at[4 + k] * p[1] + m.at[8 + k] * p[2] + m.at[12 + k];
-        for (int l = 0; v->normal.v && l < 3; l++)
-            normal[k] += (float)(sign * gather_cofactor(&m, k, l) * v->normal.v[3 * i + (size_t)l]);
-    }
+    for (int k = 0; k < 3; k++) p[k] = gltf_value(&v->position, i, k);
+    for (int k = 0; k < 3; k++)
+        c.position[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+    for (int k = 0; v->normal.width && k < 9; k++)
+        normal[k / 3] += (float)(at->normal[k / 3][k % 3] * gltf_value(&v->normal, i, k % 3));
     memcpy(&c.normal, normal, sizeof normal);
-    if (v->color.v) c.color = gltf_color(v->color.v + (size_t)v->color.width * i);
-    if (v->uv.v && place) {
-        const double *uv = v->uv.v + 2 * i, *t = place->change;
+    for (int k = 0; v->color.width && k < 3; k++) rgb[k] = gltf_value(&v->color, i, k);
+    if (v->color.width) c.color = gltf_color(rgb);
+    if (v->uv.width && place) {
+        const double uv[2] = { gltf_value(&v->uv, i, 0), gltf_value(&v->uv, i, 1) };
+        const double *t = place->change;
         c.uv = shade_v2(mesh_or_zero(t[0] * uv[0] + t[1] * uv[1] + t[2]),
                         mesh_or_zero(t[3] * uv[0] + t[4] * uv[1] + t[5]));
     }
@@ -835,22 +859,20 @@ static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const g
 static inline int gltf_faces(gltf *g, const gltf_vertices *v, double mode, size_t first,
                              int mirrored)
 {
-    const size_t n = v->index.v ? v->index.count : v->position.count;
+    const size_t n = v->index.width ? v->index.count : v->position.count;
     const size_t step = mode == 4 ? 3 : 1;
     for (size_t i = 0; i + 2 < n; i += step) {
-        size_t corner[3] = { mode == 6 ? 0 : i, i + 1, i + 2 };
+        const size_t corner[3] = { mode == 6 ? 0 : i, i + 1, i + 2 };
         const int turned = (mode == 5 && i % 2) != mirrored;
-        if (turned) {
-            corner[1] = i + 2;
-            corner[2] = i + 1;
-        }
-        if (faces_begin(&g->all.faces)) return mesh_fail(g->r, "out of memory");
+        uint32_t vertex[3];
         for (int k = 0; k < 3; k++) {
-            const size_t at = v->index.v ? (size_t)v->index.v[corner[k]] : corner[k];
-            if (faces_corner(&g->all.faces, (uint32_t)(first + at)))
-                return mesh_fail(g->r, "out of memory");
+            const size_t at = corner[k];
+            const double own = v->index.width ? gltf_value(&v->index, at, 0) : (double)at;
+            vertex[k] = (uint32_t)(first + (size_t)own);
         }
-        faces_end(&g->all.faces);
+        if (faces_triangle(&g->all.faces, vertex[0], vertex[turned ? 2 : 1],
+                           vertex[turned ? 1 : 2]))
+            return mesh_fail(g->r, "out of memory");
     }
     return mesh_check_triangles(g->r, g->all.faces.triangles);
 }
@@ -898,14 +920,19 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     place = surface == g->plain ? NULL : &g->place[surface];
     failed = gltf_load(g, primitive, surface, &v) || gltf_morph(g, primitive, mesh, node, &v) ||
              gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
-    g->all.textured |= v.uv.v && place && place->used > 0;
-    g->all.colored |= v.color.v != NULL;
+    g->all.textured |= v.uv.width && place && place->used > 0;
+    g->all.colored |= v.color.width > 0;
+    g->all.texcoords_kept = g->all.textured;
+    g->all.colors_kept = g->all.colored;
     for (size_t k = 0; k < in->count && !failed; k++) {
         const size_t first = g->all.positions.count / 3, n = v.position.count;
-        const gather_matrix m = n ? gltf_bone(&v, 0, &in->at[k]) : in->at[k];
-        for (size_t i = 0; i < n && !failed; i++)
-            failed = gltf_vertex(g, &v, i, &in->at[k], place && place->used > 0 ? place : NULL);
-        if (!failed) failed = gltf_faces(g, &v, mode, first, gather_determinant(&m) < 0);
+        gltf_turn turn = gltf_turned(n ? gltf_bone(&v, 0, &in->at[k]) : in->at[k]);
+        const int mirrored = gather_determinant(&turn.m) < 0;
+        for (size_t i = 0; i < n && !failed; i++) {
+            if (gltf_is_boned(&v)) turn = gltf_turned(gltf_bone(&v, i, &in->at[k]));
+            failed = gltf_vertex(g, &v, i, &turn, place && place->used > 0 ? place : NULL);
+        }
+        if (!failed) failed = gltf_faces(g, &v, mode, first, mirrored);
     }
     free(v.bone);
     gltf_free_vertices(&v);
@@ -919,7 +946,7 @@ static inline int gltf_instanced(gltf *g, uint32_t node, const gather_matrix *at
     const uint32_t extension = gltf_extended(g, node, "EXT_mesh_gpu_instancing");
     const uint32_t list = json_of(&g->j, extension, "attributes", JSON_OBJECT);
     static const char *const names[3] = { "TRANSLATION", "ROTATION", "SCALE" };
-    gltf_values v[3] = { { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
+    gltf_values v[3] = { { .v = NULL }, { .v = NULL }, { .v = NULL } };
     double n = -1, own;
     int failed = 0;
     *out = NULL;
@@ -938,11 +965,11 @@ static inline int gltf_instanced(gltf *g, uint32_t node, const gather_matrix *at
     for (int k = 0; k < 3 && n >= 0 && !failed; k++)
         failed = gltf_attribute(g, list, names[k], k == 1 ? 4 : 3, k == 1 ? 4 : 3, *count, &v[k]);
     for (size_t i = 0; i < *count && !failed; i++) {
-        static const double still[3] = { 0, 0, 0 }, straight[4] = { 0, 0, 0, 1 };
-        static const double same[3] = { 1, 1, 1 };
-        const gather_matrix m =
-            gltf_moved(v[0].v ? v[0].v + 3 * i : still, v[1].v ? v[1].v + 4 * i : straight,
-                       v[2].v ? v[2].v + 3 * i : same);
+        double at_rest[3][4] = { { 0, 0, 0, 0 }, { 0, 0, 0, 1 }, { 1, 1, 1, 0 } };
+        gather_matrix m;
+        for (int k = 0; k < 12; k++)
+            if (k % 4 < v[k / 4].width) at_rest[k / 4][k % 4] = gltf_value(&v[k / 4], i, k % 4);
+        m = gltf_moved(at_rest[0], at_rest[1], at_rest[2]);
         (*out)[i] = n < 0 ? *at : gather_product(at, &m);
     }
     for (int k = 0; k < 3; k++) free(v[k].v);
@@ -1024,11 +1051,6 @@ static inline int gltf_scene(gltf *g, int counting)
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-static inline uint32_t gltf_uint(const unsigned char *p)
-{
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
 /* Sets the reader to the JSON of a GLB file and finds its buffer. */
 static inline int gltf_chunks(gltf *g)
 {
@@ -1038,12 +1060,12 @@ static inline int gltf_chunks(gltf *g)
     size_t length, text_size = 0;
     r->line = 0;
     if (size < 12) return mesh_fail(r, "the header of GLB is cut off");
-    if (gltf_uint(r->begin + 4) != 2)
-        return mesh_fail(r, "glTF %lu is not read, 2 is", (unsigned long)gltf_uint(r->begin + 4));
-    length = gltf_uint(r->begin + 8);
+    if (mesh_uint32(r->begin + 4) != 2)
+        return mesh_fail(r, "glTF %lu is not read, 2 is", (unsigned long)mesh_uint32(r->begin + 4));
+    length = mesh_uint32(r->begin + 8);
     if (length > size) return mesh_fail(r, "GLB is cut off");
     for (size_t at = 12; at + 8 <= length;) {
-        const size_t chunk = gltf_uint(r->begin + at), kind = gltf_uint(r->begin + at + 4);
+        const size_t chunk = mesh_uint32(r->begin + at), kind = mesh_uint32(r->begin + at + 4);
         if (chunk > length - at - 8) return mesh_fail(r, "a chunk of GLB is cut off");
         if (kind == 0x4E4F534A && !text) {
             text = r->begin + at + 8;

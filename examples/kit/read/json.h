@@ -239,9 +239,7 @@ static inline uint32_t json_of(const json_doc *j, uint32_t object, const char *n
 static inline double json_number_at(const json_doc *j, uint32_t at, double none)
 {
     const json_value *v = &j->value[at];
-    mesh_reader r = {
-        j->text + v->from, NULL, j->text + v->from + v->size, "", 0, NULL, 0, NULL, NULL, 0
-    };
+    mesh_reader r = mesh_of(j->text + v->from, v->size, "", NULL, 0);
     double value = none;
     if (!at || v->kind != JSON_NUMBER || mesh_take_double(&r, &value)) return none;
     return value;

@@ -5,11 +5,6 @@
 #include "../command/paths.h"
 #include "reader.h"
 
-/* Larger files are refused. */
-#define MODEL_BYTES 4e9
-#define MODEL_PICTURE_BYTES 5e8
-#define MODEL_LIBRARY_BYTES 1e8
-
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/stat.h>
 /* 1: there is something that is no file: a pipe would let us wait, a device would not end. */

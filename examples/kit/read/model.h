@@ -5,6 +5,11 @@
 
 #include "zip.h"
 
+/* Larger files are refused. */
+#define MODEL_BYTES 4e9
+#define MODEL_PICTURE_BYTES 5e8
+#define MODEL_LIBRARY_BYTES 1e8
+
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
     char *name, *path;         /* in the file; where it was found, or NULL */
@@ -48,10 +53,11 @@ typedef struct model_part {
     int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
 } model_part;
 
-/* Loads a file that the model of a path names: its bytes and where it was, both to be freed.
-   Returns non-zero with a line in error. */
-typedef int model_load_beside(const char *path, const char *name, unsigned char **bytes,
-                              size_t *size, char **where, char *error, size_t room);
+/* Loads a file of at most so many bytes that the model of a path names: its bytes and where it was,
+   both to be freed.  Returns non-zero with a line in error. */
+typedef int model_load_beside(const char *path, const char *name, double most,
+                              unsigned char **bytes, size_t *size, char **where, char *error,
+                              size_t room);
 
 /* Zeroed: empty. */
 typedef struct model {

@@ -29,11 +29,21 @@ static const known_name obj_known[] = {
 enum { OBJ_V, OBJ_VT, OBJ_VN };
 static const char *const obj_names[3] = { "v", "vt", "vn" };
 
+/* A corner, its hash, and where in the stream of faces its number goes */
+enum { OBJ_WAITING = 64 };
+typedef struct obj_corner_place {
+    mesh_triple corner;
+    uint64_t hash;
+    size_t place;
+} obj_corner_place;
+
 typedef struct obj_data {
     mesh_floats list[3], color; /* color: of the first so many v; empty: none has one */
     mesh_origin origin;
     mesh_set corners; /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
+    obj_corner_place waiting[OBJ_WAITING]; /* corners that corners does not have yet */
+    size_t waits;
     int has_objects;     /* an o was read: groups do not count */
     uint32_t highest[3]; /* index used so far, and where: it may be defined later */
     long long highest_line[3];
@@ -113,8 +123,21 @@ static inline int obj_index(mesh_reader *r, obj_data *o, int kind, uint32_t *out
     return 0;
 }
 
-static inline int obj_corner(mesh_reader *r, obj_data *o, uint32_t *number)
+/* Numbers the corners that wait: until now memory has fetched what that takes. */
+static inline int obj_number(mesh_reader *r, obj_data *o)
 {
+    int failed = !o->corners.slots && mesh_set_reserve(&o->corners, o->list[OBJ_V].count / 3 + 1);
+    for (size_t i = 0; i < o->waits && !failed; i++) {
+        const obj_corner_place *w = &o->waiting[i];
+        failed = mesh_set_put(&o->corners, w->corner, w->hash, &o->faces.stream.v[w->place]);
+    }
+    o->waits = 0;
+    return failed ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int obj_corner(mesh_reader *r, obj_data *o)
+{
+    obj_corner_place *w = &o->waiting[o->waits];
     mesh_triple corner = { { 0, 0, 0 } };
     for (int kind = OBJ_V; kind <= OBJ_VN; kind++) {
         int absent = kind && (mesh_at_word_end(r) || *r->at == '/');
@@ -123,21 +146,24 @@ static inline int obj_corner(mesh_reader *r, obj_data *o, uint32_t *number)
         r->at++;
     }
     if (!mesh_at_word_end(r)) return mesh_fail(r, "expected v/vt/vn, found %s", mesh_here(r).text);
-    if (mesh_set_add(&o->corners, corner, number)) return mesh_fail(r, "out of memory");
-    return 0;
+    w->corner = corner;
+    w->hash = mesh_hash(corner);
+    w->place = o->faces.stream.count;
+    if (o->corners.slots) MESH_FETCH(&o->corners.slot[w->hash & (o->corners.slots - 1)]);
+    if (faces_corner(&o->faces, 0)) return mesh_fail(r, "out of memory");
+    return ++o->waits == OBJ_WAITING ? obj_number(r, o) : 0;
 }
 
 static inline int obj_face(mesh_reader *r, obj_data *o)
 {
-    uint32_t corner = 0;
+    size_t corners = 0;
     if (faces_begin(&o->faces)) return mesh_fail(r, "out of memory");
-    for (;;) {
-        mesh_skip_blanks(r, 1);
-        if (mesh_at_word_end(r)) break;
-        if (obj_corner(r, o, &corner)) return 1;
-        if (faces_corner(&o->faces, corner)) return mesh_fail(r, "out of memory");
-    }
-    faces_end(&o->faces); /* drops faces of fewer than three corners, which real files have */
+    for (mesh_skip_blanks(r, 1); !mesh_at_word_end(r); mesh_skip_blanks(r, 1), corners++)
+        if (obj_corner(r, o)) return 1;
+    /* places move where a face is dropped, or is the first with more than three corners */
+    if ((corners < 3 || (corners > 3 && !o->faces.mixed)) && obj_number(r, o)) return 1;
+    /* drops faces of fewer than three corners, which real files have */
+    if (faces_end(&o->faces)) return mesh_fail(r, "out of memory");
     return mesh_check_triangles(r, o->faces.triangles);
 }
 
@@ -225,9 +251,11 @@ static inline int obj_forget(obj_data *o, int kind, size_t count, model *out, co
 /* Makes a vertex for each different corner that was read. */
 static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
 {
-    size_t n = o->corners.count;
     owned_mesh *m = &out->mesh;
+    size_t n;
     int missing = 0;
+    if (obj_number(r, o)) return 1;
+    n = o->corners.count;
     if (!n && o->list[OBJ_V].count) return obj_points(r, o, out);
     if (!o->faces.triangles) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
@@ -271,13 +299,12 @@ static inline int obj_read(mesh_reader *r, model *m)
     obj_data o = empty;
     int failed = 0;
     model_place(m, &o.origin);
-    while (r->at < r->end && !failed) {
+    for (size_t i = 0; r->at < r->end && !failed; i++) {
         int comment;
-        if (r->progress && r->line % 65536 == 0)
-            r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
         mesh_skip_blanks(r, 1);
         comment = r->at < r->end && *r->at == '#';
-        if (!comment) failed = obj_statement(r, &o, m);
+        failed = mesh_tell(r, i);
+        if (!failed && !comment) failed = obj_statement(r, &o, m);
         if (!failed) mesh_next_line(r, !comment && !(r->at < r->end && *r->at == '#'));
     }
     if (!failed) failed = obj_finish(r, &o, m);

@@ -58,6 +58,8 @@ static inline int off_color(mesh_reader *r, uint32_t rgb[3])
     mesh_reader ahead = *r;
     double value[3];
     int whole = 1;
+    mesh_skip_blanks(&ahead, 0);
+    if (mesh_at_word_end(&ahead)) return 0;
     ahead.error_size = 0;
     for (int k = 0; k < 3; k++) {
         const unsigned char *from;
@@ -110,7 +112,7 @@ static inline int off_face(mesh_reader *r, off_data *o, double vertices)
             return mesh_fail(r, "a corner is none of %lu vertices", (unsigned long)vertices);
         if (faces_corner(&o->faces, (uint32_t)corner)) return mesh_fail(r, "out of memory");
     }
-    faces_end(&o->faces);
+    if (faces_end(&o->faces)) return mesh_fail(r, "out of memory");
     if (off_color(r, rgb)) tint = 1 + (rgb[0] << 16 | rgb[1] << 8 | rgb[2]);
     o->tinted |= tint != 0;
     if (o->faces.triangles > before && mesh_push_uint(&o->tint, tint))
@@ -143,10 +145,11 @@ static inline int off_paint(off_data *o, size_t *count, mesh_set *made)
     size_t face = 0;
     int failed = 0;
     for (size_t at = 0; at < o->faces.stream.count && !failed; face++) {
-        const size_t corners = o->faces.stream.v[at++];
-        for (size_t k = 0; k < corners && !failed; k++, at++) {
-            const mesh_triple key = { { o->faces.stream.v[at], o->tint.v[face], 0 } };
-            failed = mesh_set_add(made, key, &o->faces.stream.v[at]);
+        size_t corners;
+        uint32_t *corner = faces_next(&o->faces, &at, &corners);
+        for (size_t k = 0; k < corners && !failed; k++) {
+            const mesh_triple key = { { corner[k], o->tint.v[face], 0 } };
+            failed = mesh_set_add(made, key, &corner[k]);
         }
     }
     *count = made->count;
@@ -172,13 +175,11 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
         const uint32_t tint = o->tinted ? made.triple[i].k[1] : 0;
         const uint32_t bits = tint ? tint - 1 : 0xBFBFBFu;
         const uint32_t rgb[3] = { bits >> 16, bits >> 8 & 255, bits & 255 };
-        const shade_vec3 c = off_linear(rgb);
+        shade_vec3 c;
         memcpy(m->positions + 3 * i, o->position.v + 3 * vertex, 12);
         if (!m->colors) continue;
-        if (!tint && o->has_color)
-            memcpy(m->colors + 3 * i, o->color.v + 3 * vertex, 12);
-        else
-            memcpy(m->colors + 3 * i, &c, sizeof c);
+        c = off_linear(rgb);
+        memcpy(m->colors + 3 * i, !tint && o->has_color ? o->color.v + 3 * vertex : &c.x, 12);
     }
     mesh_set_free(&made);
     if (failed) return mesh_fail(r, "out of memory");
@@ -197,10 +198,11 @@ static inline int off_read(mesh_reader *r, model *m)
     model_place(m, &o.origin);
     failed = off_header(r, &o, m, &vertices, &count);
     for (double i = 0; i < vertices + count && !failed; i++) {
-        if (off_line(r))
+        failed = mesh_tell(r, (size_t)i);
+        if (!failed && off_line(r))
             failed = mesh_fail(r, "ends after %lu of %lu vertices and %lu faces", (unsigned long)i,
                                (unsigned long)vertices, (unsigned long)count);
-        else
+        else if (!failed)
             failed = i < vertices ? off_vertex(r, &o) : off_face(r, &o, vertices);
     }
     if (!failed) failed = off_finish(r, &o, m);
@@ -214,7 +216,7 @@ static inline int off_read(mesh_reader *r, model *m)
 /* 1: the bytes begin as OFF does, behind blanks and comments. */
 static inline int off_begins(const unsigned char *bytes, size_t size)
 {
-    mesh_reader r = { bytes, bytes, bytes + size, "", 1, NULL, 0, NULL, NULL, 0 };
+    mesh_reader r = mesh_of(bytes, size, "", NULL, 0);
     mesh_skip_lines(&r);
     while (r.at < r.end && *r.at == '#') off_line(&r);
     if (r.end - r.at > 2 && r.at[0] == 'S' && r.at[1] == 'T') r.at += 2;

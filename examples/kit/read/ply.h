@@ -10,6 +10,7 @@
 
 enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
 enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
+enum { PLY_POSITION, PLY_NORMAL, PLY_COLOR, PLY_PLACE, PLY_COLUMNS };
 enum {
     PLY_X,
     PLY_NX = 3,
@@ -21,6 +22,7 @@ enum {
     PLY_UNUSED
 };
 enum { PLY_MOST = 256 }; /* properties in all */
+static const int ply_first[PLY_COLUMNS + 1] = { PLY_X, PLY_NX, PLY_RED, PLY_U, PLY_VALUES };
 
 /* signed and unsigned integers of 1, 2, 4 bytes, floats of 4 and 8 */
 typedef enum ply_type {
@@ -49,7 +51,7 @@ typedef struct ply_data {
     ply_element element[PLY_MOST];
     ply_property property[PLY_MOST];
     int has[PLY_VALUES];
-    mesh_floats vertex; /* PLY_VALUES each */
+    mesh_floats column[PLY_COLUMNS]; /* of vertices; empty: the file has none */
     faces faces;
     mesh_origin origin;
     double highest; /* corner */
@@ -249,25 +251,32 @@ static inline int ply_read_header(mesh_reader *r, ply_data *p, model *m)
 
 /* ---- the body ------------------------------------------------------------------------------- */
 
+/* An integer of some bytes */
+static inline uint64_t ply_bits(const unsigned char *p, int size, int format)
+{
+    const int big = format == PLY_BIG;
+    if (size == 1) return *p;
+    if (size == 2) return big ? (uint32_t)p[0] << 8 | p[1] : mesh_uint16(p);
+    if (size == 4 && !big) return mesh_uint32(p);
+    if (size == 4) return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+    return ply_bits(p + (big ? 0 : 4), 4, format) << 32 | ply_bits(p + (big ? 4 : 0), 4, format);
+}
+
 static inline int ply_number(mesh_reader *r, int format, ply_type type, double *out)
 {
     static const int sizes[PLY_TYPES] = { 1, 1, 2, 2, 4, 4, 4, 8 };
-    uint64_t bits = 0;
-    int size = sizes[type];
-    float single;
+    const int size = sizes[type];
+    uint64_t bits;
     if (format == PLY_TEXT) {
         mesh_skip_lines(r);
         return type < PLY_FLOAT ? mesh_take_double(r, out) : mesh_take_coordinate(r, out);
     }
     if (r->end - r->at < size) return mesh_fail(r, "ends too early");
-    for (int k = 0; k < size; k++)
-        bits |= (uint64_t)r->at[k] << 8 * (format == PLY_LITTLE ? k : size - 1 - k);
+    bits = ply_bits(r->at, size, format);
     r->at += size;
-    if (type == PLY_FLOAT) {
-        uint32_t low = (uint32_t)bits;
-        memcpy(&single, &low, sizeof single);
-        *out = (double)single;
-    } else if (type == PLY_DOUBLE)
+    if (type == PLY_FLOAT)
+        *out = (double)mesh_float((uint32_t)bits);
+    else if (type == PLY_DOUBLE)
         memcpy(out, &bits, sizeof *out);
     else
         *out = (double)bits;
@@ -279,22 +288,15 @@ static inline int ply_number(mesh_reader *r, int format, ply_type type, double *
 /* A corner as the file has it; whether there is such a vertex shows at the end. */
 static inline int ply_corner(mesh_reader *r, ply_data *p, double value)
 {
-    if (!(value >= 0 && value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
-    if (value > p->highest) p->highest = value;
-    if (faces_corner(&p->faces, (uint32_t)value)) return mesh_fail(r, "out of memory");
-    return 0;
-}
-
-static inline int ply_face_corner(mesh_reader *r, ply_data *p, double value)
-{
-    const uint32_t number = (uint32_t)p->corner.count;
-    if (!p->by_corner) return ply_corner(r, p, value);
+    uint32_t number = (uint32_t)p->corner.count;
     if (!(value >= 0 && value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
     if (number == INT_MAX) return mesh_fail(r, "more than 2^31 - 1 corners");
     if (value > p->highest) p->highest = value;
-    if (mesh_push_uint(&p->corner, (uint32_t)value) || faces_corner(&p->faces, number))
+    if (!p->by_corner)
+        number = (uint32_t)value;
+    else if (mesh_push_uint(&p->corner, (uint32_t)value))
         return mesh_fail(r, "out of memory");
-    return 0;
+    return faces_corner(&p->faces, number) ? mesh_fail(r, "out of memory") : 0;
 }
 
 /* The face that was read gets its texture coordinates, wherever they stand in it. */
@@ -317,10 +319,10 @@ static inline int ply_strip(mesh_reader *r, ply_data *p, double value, uint32_t 
     if (value < 0) return *length = 0;
     if (!(value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
     if (++*length > 2) {
-        if (faces_begin(&p->faces) || ply_corner(r, p, pair[1 - *length % 2]) ||
-            ply_corner(r, p, pair[*length % 2]) || ply_corner(r, p, value))
-            return 1;
-        faces_end(&p->faces);
+        const uint32_t *first = &pair[1 - *length % 2], *second = &pair[*length % 2];
+        p->highest = fmax(p->highest, fmax(value, fmax((double)*first, (double)*second)));
+        if (faces_triangle(&p->faces, *first, *second, (uint32_t)value))
+            return mesh_fail(r, "out of memory");
     }
     pair[0] = pair[1];
     pair[1] = (uint32_t)value;
@@ -338,13 +340,13 @@ static inline int ply_list(mesh_reader *r, ply_data *p, const ply_property *at, 
     if (used && kind == PLY_FACE && faces_begin(&p->faces)) return mesh_fail(r, "out of memory");
     for (double i = 0; i < count; i++) {
         if (ply_number(r, p->format, at->type, &value)) return 1;
-        if (used && kind == PLY_FACE && ply_face_corner(r, p, value)) return 1;
+        if (used && kind == PLY_FACE && ply_corner(r, p, value)) return 1;
         single = mesh_or_zero(value);
         if (at->meaning == PLY_TEXCOORD && mesh_push(&p->list, &single, 1))
             return mesh_fail(r, "out of memory");
         if (used && kind == PLY_STRIP && ply_strip(r, p, value, pair, &length)) return 1;
     }
-    if (used && kind == PLY_FACE) faces_end(&p->faces);
+    if (used && kind == PLY_FACE && faces_end(&p->faces)) return mesh_fail(r, "out of memory");
     return mesh_check_triangles(r, p->faces.triangles);
 }
 
@@ -355,6 +357,13 @@ static inline double ply_value(const ply_property *at, double value)
     if (at->meaning >= PLY_RED && at->meaning < PLY_U && at->type < PLY_FLOAT)
         value /= whole[at->type];
     return value;
+}
+
+/* 1: the file has such a column; normals may lack a coordinate. */
+static inline int ply_has(const ply_data *p, int column)
+{
+    const int *has = p->has + ply_first[column];
+    return has[0] || (column == PLY_NORMAL && (has[1] || has[2]));
 }
 
 static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e)
@@ -376,9 +385,15 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
     if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
     for (int k = PLY_NX; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
+    single[PLY_U + 1] = 1 - single[PLY_U + 1];
     mesh_relative(&p->origin, v, single);
-    if (p->vertex.count / PLY_VALUES >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
-    return mesh_push(&p->vertex, single, PLY_VALUES) ? mesh_fail(r, "out of memory") : 0;
+    if (p->column->count / 3 >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
+    for (int k = 0; k < PLY_COLUMNS; k++) {
+        const int first = ply_first[k], width = ply_first[k + 1] - first;
+        if (ply_has(p, k) && mesh_push(&p->column[k], single + first, (size_t)width))
+            return mesh_fail(r, "out of memory");
+    }
+    return 0;
 }
 
 static inline int ply_read_body(mesh_reader *r, ply_data *p)
@@ -390,39 +405,47 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p)
     for (int k = 0; k < p->elements; k++) {
         const ply_element *e = &p->element[k];
         for (double i = 0; i < e->count && e->properties; i++) {
-            if (ply_instance(r, p, e)) return 1;
-            if (r->progress && (long long)i % 16384 == 0)
-                r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+            if (mesh_tell(r, (size_t)i) || ply_instance(r, p, e)) return 1;
         }
     }
     return 0;
 }
 
-/* Makes a vertex of each corner. */
+/* Makes a vertex of each corner, with its own place in the picture. */
 static inline int ply_spread(mesh_reader *r, ply_data *p)
 {
-    mesh_floats spread = { NULL, 0, 0 };
-    for (size_t i = 0; i < p->corner.count; i++) {
-        float *v;
-        if (mesh_push(&spread, p->vertex.v + PLY_VALUES * (size_t)p->corner.v[i], PLY_VALUES)) {
-            free(spread.v);
-            return mesh_fail(r, "out of memory");
+    for (int k = 0; k < PLY_PLACE; k++) {
+        mesh_floats spread = { NULL, 0, 0 }, *from = &p->column[k];
+        for (size_t i = 0; i < p->corner.count && from->count; i++) {
+            if (mesh_push(&spread, from->v + 3 * (size_t)p->corner.v[i], 3)) {
+                free(spread.v);
+                return mesh_fail(r, "out of memory");
+            }
         }
-        v = spread.v + PLY_VALUES * i;
-        memcpy(v + PLY_U, p->place.v + 2 * i, 2 * sizeof *v);
+        free(from->v);
+        *from = spread;
     }
-    free(p->vertex.v);
-    p->vertex = spread;
-    p->has[PLY_U] = 1;
+    free(p->column[PLY_PLACE].v);
+    p->column[PLY_PLACE] = p->place;
+    memset(&p->place, 0, sizeof p->place);
+    for (size_t i = 1; i < p->column[PLY_PLACE].count; i += 2)
+        p->column[PLY_PLACE].v[i] = 1 - p->column[PLY_PLACE].v[i];
     return 0;
+}
+
+static inline float *ply_take(ply_data *p, int column)
+{
+    float *v = p->column[column].v;
+    p->column[column].v = NULL;
+    return v;
 }
 
 static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
 {
-    size_t n = p->vertex.count / PLY_VALUES;
+    size_t n = p->column->count / 3;
     const float bright = p->bright > 2 ? 1 / 255.0f : 1; /* floats as other programs have bytes */
     owned_mesh *m = &out->mesh;
-    int missing = 0, has_faces = 0;
+    int missing = 1, has_faces = 0;
     for (int k = 0; k < p->elements; k++)
         has_faces |= p->element[k].kind >= PLY_FACE && p->element[k].count > 0;
     if (!p->faces.triangles && (!n || has_faces))
@@ -431,29 +454,26 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     if (p->highest >= (double)n)
         return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
     if (p->corner.count && ply_spread(r, p)) return 1;
-    n = p->vertex.count / PLY_VALUES;
-    m->positions = (float *)malloc(3 * sizeof(float) * n);
-    if (has_faces) m->normals = (float *)malloc(3 * sizeof(float) * n);
-    if (has_faces && p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
-    if (p->has[PLY_RED]) m->colors = (float *)malloc(3 * sizeof(float) * n);
-    if (!m->positions || (p->has[PLY_RED] && !m->colors) ||
-        (has_faces && (!m->normals || (p->has[PLY_U] && !m->texcoords))))
-        return mesh_fail(r, "out of memory");
-    for (size_t i = 0; i < n; i++) {
-        const float *v = p->vertex.v + PLY_VALUES * i, *N = v + PLY_NX, *c = v + PLY_RED;
-        const shade_vec3 seen = shade_scale(shade_v3(c[0], c[1], c[2]), bright);
-        const shade_vec3 rgb = shade_linear_from_srgb(seen);
-        memcpy(m->positions + 3 * i, v, 3 * sizeof(float));
-        if (m->colors) memcpy(m->colors + 3 * i, &rgb, sizeof rgb);
-        if (!has_faces) continue;
-        memcpy(m->normals + 3 * i, N, 3 * sizeof(float));
-        if (N[0] == 0 && N[1] == 0 && N[2] == 0) missing = 1;
-        if (!m->texcoords) continue;
-        m->texcoords[2 * i] = v[PLY_U];
-        m->texcoords[2 * i + 1] = 1 - v[PLY_U + 1];
+    n = p->column->count / 3;
+    m->positions = ply_take(p, PLY_POSITION);
+    m->colors = ply_take(p, PLY_COLOR);
+    for (size_t i = 0; m->colors && i < n; i++) {
+        float *c = m->colors + 3 * i;
+        shade_vec3 seen = shade_scale(shade_v3(c[0], c[1], c[2]), bright);
+        seen = shade_linear_from_srgb(seen);
+        memcpy(c, &seen, sizeof seen);
     }
     model_placed(out, &p->origin);
     if (!has_faces) return points_finish(r, out, n);
+    m->texcoords = ply_take(p, PLY_PLACE);
+    m->normals = ply_take(p, PLY_NORMAL);
+    if (m->normals)
+        missing = 0;
+    else
+        m->normals = (float *)calloc(n, 3 * sizeof(float));
+    if (!m->normals) return mesh_fail(r, "out of memory");
+    for (size_t i = 0; i < 3 * n && !missing; i += 3)
+        missing = m->normals[i] == 0 && m->normals[i + 1] == 0 && m->normals[i + 2] == 0;
     if (faces_finish(r, &p->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
     out->normals_given = !missing;
@@ -467,7 +487,7 @@ static inline int ply_read(mesh_reader *r, model *m)
     if (!p) return mesh_fail(r, "out of memory");
     model_place(m, &p->origin);
     failed = ply_read_header(r, p, m) || ply_read_body(r, p) || ply_finish(r, p, m);
-    free(p->vertex.v);
+    for (int k = 0; k < PLY_COLUMNS; k++) free(p->column[k].v);
     free(p->corner.v);
     free(p->place.v);
     free(p->list.v);

@@ -8,6 +8,16 @@
 #include "../scene/prepare.h"
 #include "../scene/relief.h"
 #include "../command/save.h"
+
+/* Formats of our own readers, and those that assimp reads as another reader does, which
+   tests/thumbnail/compared.txt names.  assimp is asked for no other. */
+static const char *const model_by_kit[] = {
+    "obj", "stl", "ply", "off", "gltf", "glb", "3mf", NULL
+};
+static const char *const model_by_assimp[] = { "3ds", "ac",  "acc",  "amf",  "ase", "b3d",
+                                               "cob", "dae", "dxf",  "fbx",  "lwo", "lxo",
+                                               "md2", "mdc", "ms3d", "ogex", "q3o", "smd",
+                                               "x",   "zae", "zgl",  NULL };
 #ifdef MODEL_ASSIMP
 #include "assimp.h"
 #endif
@@ -15,15 +25,8 @@
 /* 1: the name is that of a model, by its ending. */
 static inline int model_has_name(const char *name)
 {
-    static const char *const models[] = { "obj", "stl", "ply", "gltf", "glb", "fbx",
-                                          "dae", "3ds", "3mf", "off",  NULL };
     const model_kind kind = model_kind_of(name);
-#ifdef MODEL_ASSIMP
-    char dotted[sizeof kind.text + 2];
-    snprintf(dotted, sizeof dotted, ".%s", kind.text);
-    if (kind.text[0] && aiIsExtensionSupported(dotted)) return 1;
-#endif
-    return option_among(models, kind.text) != NULL;
+    return option_among(model_by_kit, kind.text) || option_among(model_by_assimp, kind.text);
 }
 
 /* 1: the model of that path has been read from the file name, or has its pictures there. */
@@ -38,7 +41,7 @@ static inline int model_has_read(const model *m, const char *path, const char *n
 /* The first bytes of a file that has any; a folder opens, but cannot be read. */
 static int check_file(const char *path, const model_request *q, unsigned char *head, size_t *size)
 {
-    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+    mesh_reader r = mesh_about(path, q->error, q->error_size);
     FILE *file = model_open_file(&r, path);
     int failed;
     if (!file) return 1;
@@ -55,21 +58,17 @@ static int check_file(const char *path, const model_request *q, unsigned char *h
 /* 1: the file is for our own readers, by its extension or, where it has none, by its contents. */
 static int is_ours(model_kind kind, const unsigned char *head, size_t size)
 {
-    static const char *const ours[] = {
-        "", "obj", "stl", "ply", "off", "gltf", "glb", "3mf", NULL
-    };
-    return option_among(ours, kind.text) || mesh_is_ply("", head, size) ||
+    return !kind.text[0] || option_among(model_by_kit, kind.text) || mesh_is_ply("", head, size) ||
            mesh_is_gltf("a.a", head, size);
 }
 
 static int read_other(const char *path, model_kind kind, model *m, const model_request *q)
 {
-    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+    mesh_reader r = mesh_about(path, q->error, q->error_size);
+    if (!option_among(model_by_assimp, kind.text))
+        return mesh_fail(&r, ".%s files are not read", kind.text);
 #ifdef MODEL_ASSIMP
-    char dotted[sizeof kind.text + 2];
-    snprintf(dotted, sizeof dotted, ".%s", kind.text);
-    if (aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
-    return mesh_fail(&r, "neither %s nor assimp reads %s files", program_name, dotted);
+    return assimp_read(path, NULL, 0, m, q);
 #else
     (void)m;
     return mesh_fail(&r,
@@ -102,7 +101,7 @@ static int is_certain(const unsigned char *head, size_t size)
 static const char model_input[] = "standard input";
 static int read_input(model *m, const model_request *q)
 {
-    mesh_reader r = { NULL, NULL, NULL, model_input, 0, q->error, q->error_size, NULL, NULL, 0 };
+    mesh_reader r = mesh_about(model_input, q->error, q->error_size);
     unsigned char *bytes = NULL;
     size_t size = 0;
     int failed;
@@ -112,11 +111,12 @@ static int read_input(model *m, const model_request *q)
                   : mesh_fail(&r, "the file is empty");
 #ifdef MODEL_ASSIMP
     if (failed && size && !is_certain(bytes, size)) {
-        const model_request silent = { NULL, 0, NULL, NULL, q->most, 0 };
+        const model_request silent = { .most = q->most };
         failed = assimp_read(model_input, bytes, size, m, &silent);
     }
 #endif
     free(bytes);
+    m->beside = model_load_file;
     if (!failed) model_read_libraries(model_input, m);
     return failed;
 }
@@ -134,7 +134,7 @@ static int read_path(const char *path, model *m, const model_request *q)
         failed = read_other(path, kind, m, q);
 #ifdef MODEL_ASSIMP
     if (failed && !kind.text[0] && !is_certain(head, size)) { /* assimp may know the contents */
-        const model_request silent = { NULL, 0, NULL, NULL, q->most, 0 };
+        const model_request silent = { .most = q->most };
         failed = assimp_read(path, NULL, 0, m, &silent);
     }
 #endif
@@ -167,10 +167,9 @@ static int model_read(const char *path, model *m, const model_request *q)
     *m = empty;
     failed = path == model_input ? read_input(m, q) : read_path(path, m, q);
     if (!failed && model_drop_unused(m)) {
-        const mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
-        mesh_reader says = r;
+        mesh_reader r = mesh_about(path, q->error, q->error_size);
         model_free(m);
-        failed = mesh_fail(&says, "out of memory");
+        failed = mesh_fail(&r, "out of memory");
     }
     if (!failed) {
         show_invisible(m);
@@ -220,8 +219,12 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
                       void *user)
 {
     char error[400] = "";
-    const model_request q = { error,     sizeof error, progress, user, (size_t)o->max_triangles,
-                              o->outside };
+    const model_request q = { .error = error,
+                              .error_size = sizeof error,
+                              .progress = progress,
+                              .user = user,
+                              .most = (size_t)o->max_triangles,
+                              .outside = o->outside };
     int failed;
     if (!strcmp(path, "-")) path = model_input;
     guard_doing = "reading ";

@@ -22,8 +22,26 @@ typedef struct mesh_reader {
     size_t error_size;
     mesh_progress *progress;
     void *user;
-    size_t most; /* triangles; 0: what int can count */
+    size_t most;              /* triangles; 0: what int can count */
+    const volatile int *stop; /* non-zero there: the reading ends; may be NULL */
 } mesh_reader;
+
+/* A reader of nothing, for what is said about a file */
+static inline mesh_reader mesh_about(const char *name, char *error, size_t error_size)
+{
+    const mesh_reader r = { .name = name, .error = error, .error_size = error_size };
+    return r;
+}
+
+/* A reader of size bytes */
+static inline mesh_reader mesh_of(const void *bytes, size_t size, const char *name, char *error,
+                                  size_t error_size)
+{
+    mesh_reader r = mesh_about(name, error, error_size);
+    r.at = r.begin = (const unsigned char *)bytes;
+    r.end = r.begin + size;
+    return r;
+}
 
 /* Writes the message and returns 1, which means failure in all readers. */
 static inline int mesh_fail(mesh_reader *r, const char *format, ...)
@@ -40,6 +58,21 @@ static inline int mesh_fail(mesh_reader *r, const char *format, ...)
     vsnprintf(r->error + n, r->error_size - (size_t)n, format, list);
     va_end(list);
     return 1;
+}
+
+/* Non-zero: who called does not want the rest any more. */
+static inline int mesh_stopped(mesh_reader *r)
+{
+    return r->stop && *r->stop ? mesh_fail(r, "interrupted") : 0;
+}
+
+/* Tells how far the reader is, for every MESH_TELL-th thing that it has read; mesh_stopped. */
+enum { MESH_TELL = 16384 };
+static inline int mesh_tell(mesh_reader *r, size_t things)
+{
+    if (things % MESH_TELL) return 0;
+    if (r->progress) r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+    return mesh_stopped(r);
 }
 
 /* Fails if there are more triangles than the caller allows, or than 2^31 - 1 indices can hold. */
@@ -62,6 +95,23 @@ static inline void *mesh_grow(void *array, size_t count, size_t *capacity, size_
     return grown;
 }
 
+static inline uint32_t mesh_uint16(const unsigned char *p)
+{
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8;
+}
+
+static inline uint32_t mesh_uint32(const unsigned char *p)
+{
+    return mesh_uint16(p) | mesh_uint16(p + 2) << 16;
+}
+
+static inline float mesh_float(uint32_t bits)
+{
+    float v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
 /* Growable floats and indices */
 typedef struct mesh_floats {
     float *v;
@@ -74,20 +124,23 @@ typedef struct mesh_uints {
 
 static inline int mesh_push(mesh_floats *a, const float *v, size_t n)
 {
-    for (size_t k = 0; k < n; k++) {
-        float *grown = (float *)mesh_grow(a->v, a->count, &a->capacity, sizeof *a->v);
+    if (a->capacity - a->count < n) { /* n is less than 64 */
+        float *grown = (float *)mesh_grow(a->v, a->capacity, &a->capacity, sizeof *a->v);
         if (!grown) return 1;
         a->v = grown;
-        a->v[a->count++] = v[k];
     }
+    memcpy(a->v + a->count, v, n * sizeof *v);
+    a->count += n;
     return 0;
 }
 
 static inline int mesh_push_uint(mesh_uints *a, uint32_t v)
 {
-    uint32_t *grown = (uint32_t *)mesh_grow(a->v, a->count, &a->capacity, sizeof *a->v);
-    if (!grown) return 1;
-    a->v = grown;
+    if (a->count == a->capacity) {
+        uint32_t *grown = (uint32_t *)mesh_grow(a->v, a->count, &a->capacity, sizeof *a->v);
+        if (!grown) return 1;
+        a->v = grown;
+    }
     a->v[a->count++] = v;
     return 0;
 }
@@ -98,17 +151,15 @@ static inline int mesh_push_triangle(mesh_uints *a, uint32_t i, uint32_t j, uint
 }
 
 /* A set of triples, numbered in order of arrival: hash table with linear probing, at most half
-   full.  Files name a corner again soon: asking for recent ones first spares 5 of 6 visits to the
-   table, which lies outside of the processor's cache. */
+   full. */
 typedef struct mesh_triple {
     uint32_t k[3];
 } mesh_triple;
-enum { MESH_RECENT = 4096 };
 typedef struct mesh_set {
     mesh_triple *triple;
-    uint32_t *slot;                /* number + 1; 0: free */
+    uint32_t *slot;                /* number + 1 in the bits of slots - 1, else those of the hash
+                                      above; 0: free */
     size_t count, capacity, slots; /* slots: 0 or a power of two */
-    uint32_t recent[MESH_RECENT];  /* by hash: number + 1 of what was added last; 0: none */
 } mesh_set;
 
 static inline uint64_t mesh_hash(mesh_triple t)
@@ -119,15 +170,36 @@ static inline uint64_t mesh_hash(mesh_triple t)
     return h ^ h >> 32;
 }
 
-static inline int mesh_set_rehash(mesh_set *s)
+/* The bits of a hash that a slot has: most triples that differ are told apart without a look at
+   them, far away in memory. */
+static inline uint32_t mesh_tag(uint64_t hash, size_t slots)
 {
-    size_t slots = s->slots ? s->slots * 2 : 256;
-    uint32_t *slot = slots > s->slots ? (uint32_t *)calloc(slots, sizeof *slot) : NULL;
+    return (uint32_t)(hash >> 32) & ~(uint32_t)(slots - 1);
+}
+
+/* 1: the slot has the triple; else *number is of no use. */
+static inline int mesh_slot_is(const mesh_set *s, uint32_t slot, mesh_triple t, uint64_t hash,
+                               uint32_t *number)
+{
+    *number = (slot & (uint32_t)(s->slots - 1)) - 1;
+    return slot - *number - 1 == mesh_tag(hash, s->slots) &&
+           !memcmp(&s->triple[*number], &t, sizeof t);
+}
+
+/* Makes room for n triples.  Returns non-zero where memory is out. */
+static inline int mesh_set_reserve(mesh_set *s, size_t n)
+{
+    size_t slots = s->slots ? s->slots : 256;
+    uint32_t *slot;
+    while (slots / 2 < n && slots <= SIZE_MAX / 8) slots *= 2;
+    if (slots == s->slots) return slots / 2 < n;
+    slot = (uint32_t *)calloc(slots, sizeof *slot);
     if (!slot) return 1;
     for (size_t i = 0; i < s->count; i++) {
-        size_t at = (size_t)mesh_hash(s->triple[i]) & (slots - 1);
+        const uint64_t hash = mesh_hash(s->triple[i]);
+        size_t at = (size_t)hash & (slots - 1);
         while (slot[at]) at = (at + 1) & (slots - 1);
-        slot[at] = (uint32_t)i + 1;
+        slot[at] = (uint32_t)i + 1 + mesh_tag(hash, slots);
     }
     free(s->slot);
     s->slot = slot;
@@ -135,40 +207,51 @@ static inline int mesh_set_rehash(mesh_set *s)
     return 0;
 }
 
-/* Finds the number of a triple, and adds the triple if it is new.  Returns non-zero where memory is
-   out, or at 2^31 - 1 triples. */
-static inline int mesh_set_add(mesh_set *s, mesh_triple t, uint32_t *number)
+/* Finds the number of a triple with its hash, and adds the triple if it is new.  Returns non-zero
+   where memory is out, or at 2^31 - 1 triples. */
+static inline int mesh_set_put(mesh_set *s, mesh_triple t, uint64_t hash, uint32_t *number)
 {
-    const uint64_t hash = mesh_hash(t);
-    uint32_t *recent = &s->recent[(hash >> 32) % MESH_RECENT];
     mesh_triple *grown;
     size_t at;
-    *number = *recent - 1;
-    if (*recent && !memcmp(&s->triple[*number], &t, sizeof t)) return 0;
-    if (s->count >= INT_MAX || (s->count * 2 >= s->slots && mesh_set_rehash(s))) return 1;
-    for (at = (size_t)hash & (s->slots - 1); s->slot[at]; at = (at + 1) & (s->slots - 1)) {
-        *number = s->slot[at] - 1;
-        *recent = s->slot[at];
-        if (!memcmp(&s->triple[*number], &t, sizeof t)) return 0;
-    }
+    if (s->count >= INT_MAX || (s->count * 2 >= s->slots && mesh_set_reserve(s, s->count + 1)))
+        return 1;
+    for (at = (size_t)hash & (s->slots - 1); s->slot[at]; at = (at + 1) & (s->slots - 1))
+        if (mesh_slot_is(s, s->slot[at], t, hash, number)) return 0;
     grown = (mesh_triple *)mesh_grow(s->triple, s->count, &s->capacity, sizeof t);
     if (!grown) return 1;
     s->triple = grown;
     *number = (uint32_t)s->count;
     s->triple[s->count++] = t;
-    s->slot[at] = *recent = *number + 1;
+    s->slot[at] = *number + 1 + mesh_tag(hash, s->slots);
     return 0;
+}
+
+static inline int mesh_set_add(mesh_set *s, mesh_triple t, uint32_t *number)
+{
+    return mesh_set_put(s, t, mesh_hash(t), number);
 }
 
 /* The number of a triple that is there; returns 0 where it is not. */
 static inline int mesh_set_find(const mesh_set *s, mesh_triple t, uint32_t *number)
 {
-    size_t at = s->slots ? (size_t)mesh_hash(t) & (s->slots - 1) : 0;
-    for (; s->slots && s->slot[at]; at = (at + 1) & (s->slots - 1)) {
-        *number = s->slot[at] - 1;
-        if (!memcmp(&s->triple[*number], &t, sizeof t)) return 1;
-    }
+    const uint64_t hash = mesh_hash(t);
+    size_t at = s->slots ? (size_t)hash & (s->slots - 1) : 0;
+    for (; s->slots && s->slot[at]; at = (at + 1) & (s->slots - 1))
+        if (mesh_slot_is(s, s->slot[at], t, hash, number)) return 1;
     return 0;
+}
+
+/* The triples as floats whose bits they are, to be freed by the caller.  NULL: out of memory */
+static inline float *mesh_set_take(mesh_set *s)
+{
+    float *out = (float *)realloc(s->triple, (s->count + 1) * sizeof *s->triple);
+    s->triple = out ? NULL : s->triple;
+    for (size_t i = 0; out && i < 3 * s->count; i++) {
+        float v;
+        memcpy(&v, out + i, sizeof v);
+        out[i] = v; /* what was integers is floats from here on */
+    }
+    return out;
 }
 
 static inline void mesh_set_free(mesh_set *s)
@@ -188,6 +271,32 @@ static inline mesh_triple mesh_position_key(const float *p)
     return t;
 }
 
+/* Adds n positions.  Memory far away is asked for all that a block of them needs at once, before
+   the first is waited for. */
+#if defined(__GNUC__)
+#define MESH_FETCH(address) __builtin_prefetch(address)
+#else
+#define MESH_FETCH(address) ((void)(address))
+#endif
+enum { MESH_BLOCK = 96 };
+static inline int mesh_set_positions(mesh_set *s, const float *p, size_t n, uint32_t *number)
+{
+    mesh_triple key[MESH_BLOCK];
+    uint64_t hash[MESH_BLOCK];
+    if (s->count + n >= s->slots / 2 && mesh_set_reserve(s, s->count + n)) return 1;
+    for (size_t block = 0; block < n; block += MESH_BLOCK) {
+        const size_t size = n - block < MESH_BLOCK ? n - block : MESH_BLOCK;
+        for (size_t i = 0; i < size; i++) {
+            key[i] = mesh_position_key(p + 3 * (block + i));
+            hash[i] = mesh_hash(key[i]);
+            MESH_FETCH(&s->slot[(size_t)hash[i] & (s->slots - 1)]);
+        }
+        for (size_t i = 0; i < size; i++)
+            if (mesh_set_put(s, key[i], hash[i], &number[block + i])) return 1;
+    }
+    return 0;
+}
+
 enum { MESH_LARGE = 200000 }; /* triangles, of which small ones are many */
 
 /* Normals of vertices, the mean of their faces' by area: in a large mesh, whose faces at a vertex
@@ -205,59 +314,77 @@ static inline void mesh_mean_normals(const shade_mesh *m, shade_vec3 *out)
     for (int i = 0; i < m->vertex_count; i++) out[i] = shade_normalize(out[i]);
 }
 
-/* Fills the normals that are all zero, one normal for each position.  A vertex whose faces
-   cancel out (two sides of a sheet) takes the normal of one of them.  apart: no two vertices have
+/* The greatest coordinate of a corner, whatever its sign */
+static inline float mesh_biggest(const owned_mesh *m)
+{
+    float biggest = 0;
+    for (int i = 0; i < m->view.index_count; i++) {
+        const float *p = m->positions + 3 * (size_t)m->indices[i];
+        for (int k = 0; k < 3; k++)
+            if (fabsf(p[k]) > biggest) biggest = fabsf(p[k]);
+    }
+    return biggest;
+}
+
+/* Gives places whose faces cancel out, two sides of a sheet, the normal of one of them. */
+static inline void mesh_fill_cancelled(const owned_mesh *m, shade_vec3 *mean)
+{
+    int some = 0;
+    for (int i = 0; i < m->view.vertex_count; i++)
+        some |= mean[i].x == 0 && mean[i].y == 0 && mean[i].z == 0;
+    for (int i = 0; i < m->view.index_count && some; i++) {
+        shade_vec3 *n = &mean[m->indices[i]], p[3];
+        if (n->x != 0 || n->y != 0 || n->z != 0) continue;
+        for (int k = 0; k < 3; k++)
+            memcpy(&p[k], m->positions + 3 * (size_t)m->indices[i - i % 3 + k], sizeof *p);
+        *n = shade_face_normal(p[0], p[1], p[2]);
+    }
+}
+
+/* Fills the normals that are all zero, one normal for each position.  apart: no two vertices have
    the same position. */
 static inline int mesh_fill_normals(owned_mesh *m, int apart)
 {
-    int vertices = m->view.vertex_count, indices = m->view.index_count, failed = 1;
     static const mesh_set empty;
+    static const owned_mesh nothing;
+    const int vertices = m->view.vertex_count, indices = m->view.index_count;
+    const float biggest = mesh_biggest(m);
     mesh_set places = empty;
-    size_t count;
-    owned_mesh welded = { { 0 }, 0, 0, 0, 0, 0, 0 };
-    uint32_t *place = (uint32_t *)malloc(sizeof(uint32_t) * (size_t)vertices);
+    owned_mesh welded = nothing;
+    uint32_t *place = NULL;
     shade_vec3 *mean = NULL;
-    float biggest = 0;
-    if (!place) goto done;
-    for (int i = 0; i < vertices; i++) {
-        place[i] = (uint32_t)i;
-        if (!apart &&
-            mesh_set_add(&places, mesh_position_key(m->positions + 3 * (size_t)i), &place[i]))
-            goto done;
+    size_t count = (size_t)vertices;
+    int failed = 1;
+    if (!apart) {
+        place = (uint32_t *)malloc(sizeof(uint32_t) * count);
+        if (!place || mesh_set_positions(&places, m->positions, count, place)) goto done;
+        apart = places.count == count;
+        count = places.count;
     }
-    count = apart ? (size_t)vertices : places.count;
     welded.positions = (float *)malloc(3 * sizeof(float) * count);
-    welded.indices = (uint32_t *)malloc(sizeof(uint32_t) * (size_t)indices);
+    welded.indices = apart ? m->indices : (uint32_t *)malloc(sizeof(uint32_t) * (size_t)indices);
     mean = (shade_vec3 *)malloc(sizeof(shade_vec3) * count);
     if (!welded.positions || !welded.indices || !mean) goto done;
-    for (int i = 0; i < 3 * indices; i++)
-        biggest =
-            fmaxf(biggest, fabsf(m->positions[3 * (size_t)m->indices[i / 3] + (size_t)i % 3]));
     for (size_t i = 0; i < 3 * count; i++) { /* to 1: squares of any size stay in range */
         float v = m->positions[i];
         if (!apart) memcpy(&v, &places.triple[i / 3].k[i % 3], sizeof v);
-        welded.positions[i] = biggest > 0 ? (float)((double)v / (double)biggest) : 0;
+        welded.positions[i] = v != 0 && biggest > 0 ? (float)((double)v / (double)biggest) : 0;
     }
-    for (int i = 0; i < indices; i++) welded.indices[i] = place[m->indices[i]];
+    for (int i = 0; i < indices && !apart; i++) welded.indices[i] = place[m->indices[i]];
     mesh_link(&welded, (int)count, indices);
     if (indices / 3 > MESH_LARGE)
         mesh_mean_normals(&welded.view, mean);
     else if (shade_mesh_normals(&welded.view, mean))
         goto done;
-    for (int i = 0; i < indices; i++) {
-        shade_vec3 *n = &mean[welded.indices[i]];
-        shade_vec3 p[3];
-        if (n->x != 0 || n->y != 0 || n->z != 0) continue;
-        for (int k = 0; k < 3; k++)
-            memcpy(&p[k], welded.positions + 3 * (size_t)welded.indices[i - i % 3 + k], sizeof *p);
-        *n = shade_face_normal(p[0], p[1], p[2]);
-    }
+    mesh_fill_cancelled(&welded, mean);
     for (int i = 0; i < vertices; i++) {
         float *n = m->normals + 3 * (size_t)i;
-        if (n[0] == 0 && n[1] == 0 && n[2] == 0) memcpy(n, &mean[place[i]], sizeof *mean);
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+            memcpy(n, &mean[apart ? (uint32_t)i : place[i]], sizeof *mean);
     }
     failed = 0;
 done:
+    if (apart) welded.indices = NULL;
     free(place);
     free(mean);
     mesh_set_free(&places);
@@ -318,11 +445,12 @@ static inline void mesh_next_line(mesh_reader *r, int joined)
 
 static inline int mesh_is_blank(unsigned char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-static inline int mesh_at_word_end(const mesh_reader *r)
+static inline int mesh_ends_word(const mesh_reader *r, const unsigned char *p)
 {
-    return r->at == r->end || mesh_is_blank(*r->at) || *r->at == '#' ||
-           (*r->at == '\\' && mesh_line_end(r, r->at + 1));
+    return p == r->end || mesh_is_blank(*p) || *p == '#' || (*p == '\\' && mesh_line_end(r, p + 1));
 }
+
+static inline int mesh_at_word_end(const mesh_reader *r) { return mesh_ends_word(r, r->at); }
 
 /* Where positions are counted from: coordinates of surveyors are large beside their model, and
    floats have no digits for both.  0, or the whole number below the first position where that is
@@ -382,13 +510,13 @@ static inline mesh_quote mesh_here(const mesh_reader *r)
 /* Takes the word if it comes next, in capital or small letters. */
 static inline int mesh_take_word(mesh_reader *r, const char *word)
 {
-    mesh_reader behind = *r;
-    for (; *word; word++, behind.at++) {
-        int c = behind.at < r->end ? *behind.at : 0;
+    const unsigned char *p = r->at;
+    for (; *word; word++, p++) {
+        int c = p < r->end ? *p : 0;
         if ((c >= 'A' && c <= 'Z' ? c | 32 : c) != *word) return 0;
     }
-    if (!mesh_at_word_end(&behind)) return 0;
-    r->at = behind.at;
+    if (!mesh_ends_word(r, p)) return 0;
+    r->at = p;
     return 1;
 }
 
@@ -410,29 +538,31 @@ static inline const unsigned char *mesh_take_line(mesh_reader *r)
 static inline int mesh_take_double(mesh_reader *r, double *out)
 {
     static const double ten[] = { 1e1, 1e2, 1e4, 1e8, 1e16, 1e32, 1e64, 1e128, 1e256 };
-    const unsigned char *p = r->at;
+    const unsigned char *p = r->at, *const end = r->end;
     int negative = 0, digits = 0, point = 0, e = 0, e_negative = 0, e_digits = 0;
     long long scale = 0;
     uint64_t mantissa = 0;
     double value;
-    if (p < r->end && (*p == '-' || *p == '+')) negative = *p++ == '-';
-    for (; p < r->end && ((*p >= '0' && *p <= '9') || (*p == '.' && !point)); p++) {
-        if (*p == '.') {
+    if (p < end && (*p == '-' || *p == '+')) negative = *p++ == '-';
+    for (; p < end; p++) {
+        const unsigned digit = (unsigned)*p - '0';
+        if (digit < 10 && mantissa < 100000000000000000u) {
+            mantissa = mantissa * 10 + digit;
+            scale -= point;
+        } else if (digit < 10) {
+            scale += !point;
+        } else if (*p == '.' && !point) {
             point = 1;
             continue;
+        } else {
+            break;
         }
         digits = 1;
-        if (mantissa < 100000000000000000u) {
-            mantissa = mantissa * 10 + *p - '0';
-            scale -= point;
-        } else {
-            scale += !point;
-        }
     }
-    if (digits && p < r->end && (*p | 32) == 'e') {
+    if (digits && p < end && (*p | 32) == 'e') {
         p++;
-        if (p < r->end && (*p == '-' || *p == '+')) e_negative = *p++ == '-';
-        for (; p < r->end && *p >= '0' && *p <= '9'; p++, e_digits = 1)
+        if (p < end && (*p == '-' || *p == '+')) e_negative = *p++ == '-';
+        for (; p < end && *p >= '0' && *p <= '9'; p++, e_digits = 1)
             if (e < 100000) e = e * 10 + *p - '0';
         digits = e_digits;
     }
@@ -442,30 +572,25 @@ static inline int mesh_take_double(mesh_reader *r, double *out)
     if (scale < -400) scale = -400;
     for (int k = 0, n = (int)(scale < 0 ? -scale : scale); n; k++, n >>= 1)
         if (n & 1) value = scale < 0 ? value / ten[k] : value * ten[k];
-    if (value > (double)FLT_MAX) digits = 0;
-    if (digits) {
-        const unsigned char *begin = r->at;
-        r->at = p;
-        if (mesh_at_word_end(r)) {
-            *out = negative ? -value : value;
-            return 0;
-        }
-        r->at = begin;
-    }
-    return mesh_fail(r, "expected a number, found %s", mesh_here(r).text);
+    if (!digits || value > (double)FLT_MAX || !mesh_ends_word(r, p))
+        return mesh_fail(r, "expected a number, found %s", mesh_here(r).text);
+    r->at = p;
+    *out = negative ? -value : value;
+    return 0;
 }
 
 /* The same for a position, which scanners write as nan, -nan or inf where they saw nothing */
 static inline int mesh_take_coordinate(mesh_reader *r, double *out)
 {
-    mesh_reader word = *r;
-    word.at += word.at < word.end && (*word.at == '-' || *word.at == '+');
-    if (!mesh_take_word(&word, "nan") && !mesh_take_word(&word, "inf") &&
-        !mesh_take_word(&word, "infinity"))
-        return mesh_take_double(r, out);
-    r->at = word.at;
-    *out = (double)NAN;
-    return 0;
+    const unsigned char *const at = r->at;
+    r->at += at < r->end && (*at == '-' || *at == '+');
+    if (r->at<r->end && * r->at> '9' &&
+        (mesh_take_word(r, "nan") || mesh_take_word(r, "inf") || mesh_take_word(r, "infinity"))) {
+        *out = (double)NAN;
+        return 0;
+    }
+    r->at = at;
+    return mesh_take_double(r, out);
 }
 
 static inline int mesh_take_number(mesh_reader *r, float *out)

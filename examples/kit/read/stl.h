@@ -52,9 +52,26 @@ static inline int stl_word(mesh_reader *r, stl_data *s, uint32_t word)
     return mesh_push_uint(&s->word, word) ? mesh_fail(r, "out of memory") : 0;
 }
 
-static inline uint32_t stl_uint(const unsigned char *p)
+/* n triangles of a binary file.  Positions that are finite, nearly all, are added at once. */
+enum { STL_BLOCK = MESH_BLOCK / 3 };
+static inline int stl_block(mesh_reader *r, stl_data *s, size_t n)
 {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+    float p[3 * MESH_BLOCK];
+    uint32_t number[MESH_BLOCK];
+    int finite = 1, failed = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < 9; k++) {
+            p[9 * i + k] = mesh_float(mesh_uint32(r->at + 50 * i + 12 + 4 * k));
+            finite &= fabsf(p[9 * i + k]) <= FLT_MAX;
+        }
+    if (finite && mesh_set_positions(&s->places, p, 3 * n, number))
+        return mesh_fail(r, "out of memory");
+    for (size_t i = 0; i < 3 * n && !finite && !failed; i++)
+        failed = stl_place(r, s, p + 3 * i, &number[i]);
+    for (size_t i = 0; i < n && !failed; i++, r->at += 50)
+        failed = stl_triangle(r, s, number[3 * i], number[3 * i + 1], number[3 * i + 2]) ||
+                 stl_word(r, s, mesh_uint16(r->at + 48));
+    return failed;
 }
 
 /* 80 bytes of title, a count, then 50 bytes each: normal, three corners (little-endian floats),
@@ -64,27 +81,18 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
     uint64_t size = (uint64_t)(r->end - r->begin), count;
     r->line = 0;
     if (size < 84) return mesh_fail(r, "neither text nor binary STL");
-    count = stl_uint(r->begin + 80);
+    count = mesh_uint32(r->begin + 80);
     if (count > (size - 84) / 50)
         return mesh_fail(r, "ends after %lld of %lld triangles", (long long)((size - 84) / 50),
                          (long long)count);
     r->at = r->begin + 84;
     for (const unsigned char *p = r->begin; p < r->begin + 70 && !s->usual; p++)
         if (!memcmp(p, "COLOR=", 6)) s->usual = p + 6;
-    for (uint64_t i = 0; i < count; i++, r->at += 50) {
-        uint32_t corner[3];
-        if (r->progress && i % 65536 == 0) r->progress(r->user, (double)i / (double)count);
-        for (int k = 0; k < 9; k += 3) {
-            float p[3];
-            for (int c = 0; c < 3; c++) {
-                uint32_t bits = stl_uint(r->at + 12 + 4 * (k + c));
-                memcpy(&p[c], &bits, sizeof bits);
-            }
-            if (stl_place(r, s, p, &corner[k / 3])) return 1;
-        }
-        if (stl_triangle(r, s, corner[0], corner[1], corner[2])) return 1;
-        if (stl_word(r, s, (uint32_t)r->at[48] | (uint32_t)r->at[49] << 8)) return 1;
-    }
+    if (mesh_set_reserve(&s->places, (size_t)count / 2 + 2)) return mesh_fail(r, "out of memory");
+    for (uint64_t i = 0; i < count; i += STL_BLOCK)
+        if (mesh_tell(r, (size_t)i) ||
+            stl_block(r, s, count - i < STL_BLOCK ? (size_t)(count - i) : STL_BLOCK))
+            return 1;
     return 0;
 }
 
@@ -128,13 +136,11 @@ static inline int stl_facet(mesh_reader *r, stl_data *s)
 
 static inline int stl_read_text(mesh_reader *r, stl_data *s)
 {
-    for (long long facets = 0;;) {
+    for (size_t facets = 0;;) {
         mesh_skip_lines(r);
         if (r->at == r->end) return 0;
         if (mesh_take_word(r, "facet")) {
-            if (r->progress && facets++ % 16384 == 0)
-                r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
-            if (stl_facet(r, s)) return 1;
+            if (mesh_tell(r, facets++) || stl_facet(r, s)) return 1;
         } else if (mesh_take_word(r, "solid") || mesh_take_word(r, "endsolid")) {
             mesh_next_line(r, 0);
         } else {
@@ -146,7 +152,7 @@ static inline int stl_read_text(mesh_reader *r, stl_data *s)
 /* Whether the bytes are as many as the count of a binary file says */
 static inline int stl_fits(const unsigned char *bytes, size_t size)
 {
-    return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == stl_uint(bytes + 80);
+    return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == mesh_uint32(bytes + 80);
 }
 
 /* Binary where the size fits the count to the byte; then text where it says solid and has no
@@ -221,12 +227,10 @@ static inline int stl_read(mesh_reader *r, model *out)
                                         : "no triangles in it");
     if (!failed) {
         size_t n = s.places.count;
-        m->positions = (float *)malloc(3 * sizeof(float) * n);
+        m->positions = mesh_set_take(&s.places);
         m->normals = (float *)calloc(n, 3 * sizeof(float));
         m->indices = s.indices.v;
         s.indices.v = NULL;
-        for (size_t i = 0; m->positions && i < n; i++)
-            memcpy(m->positions + 3 * i, &s.places.triple[i], 3 * sizeof(float));
         mesh_link(m, (int)n, (int)s.indices.count);
         model_placed(out, &s.origin);
         model_warn_dropped(out, r->name, s.dropped, "triangles have corners");

@@ -415,6 +415,7 @@ static inline int threemf_tell_attributes(threemf *t, const xml *x)
 static inline int threemf_read_vertex(threemf *t, xml *x)
 {
     double p[3], *out;
+    if (t->vertices.count % MESH_TELL == 0 && mesh_stopped(t->r)) return 1;
     if (xml_double(x, "x", &p[0]) || xml_double(x, "y", &p[1]) || xml_double(x, "z", &p[2]))
         return 1;
     out = (double *)threemf_add(t, &t->vertices, 3 * sizeof *out);
@@ -427,6 +428,7 @@ static inline int threemf_read_face(threemf *t, xml *x, const threemf_object *ob
     static const char *const names[3] = { "v1", "v2", "v3" };
     threemf_face face;
     threemf_face *out;
+    if (t->faces.count % MESH_TELL == 0 && mesh_stopped(t->r)) return 1;
     for (int k = 0; k < 3; k++) {
         if (xml_whole(x, names[k], UINT32_MAX, &face.v[k])) return 1;
         if (face.v[k] == UINT32_MAX) return xml_fail(x, names[k], "is missing");
@@ -898,6 +900,7 @@ static inline int threemf_place(threemf *t, threemf_object *o, const gather_matr
     int number, surface = 0;
     if (t->groups.count && !o->ready && threemf_dress(t, o)) return 1;
     o->ready = 1;
+    t->all.colors_kept = t->all.texcoords_kept = colored;
     number = model_add_object(t->m, o->name, strlen(o->name));
     if (number < 0 || faces_object(&t->all.faces, number)) return threemf_out(t);
     for (size_t i = 0; i < (colored ? o->corners : o->vertices); i++) {
@@ -913,11 +916,9 @@ static inline int threemf_place(threemf *t, threemf_object *o, const gather_matr
         const int own = colored ? ((const int *)t->surfaces.v)[o->index / 3 + i] : 0;
         if (own != surface && faces_surface(&t->all.faces, own)) return threemf_out(t);
         surface = own;
-        if (faces_begin(&t->all.faces)) return threemf_out(t);
-        for (int k = 0; k < 3; k++)
-            if (faces_corner(&t->all.faces, (uint32_t)first + corner[mirrored ? 2 - k : k]))
-                return threemf_out(t);
-        faces_end(&t->all.faces);
+        if (faces_triangle(&t->all.faces, (uint32_t)first + corner[mirrored ? 2 : 0],
+                           (uint32_t)first + corner[1], (uint32_t)first + corner[mirrored ? 0 : 2]))
+            return threemf_out(t);
     }
     return 0;
 }

@@ -366,9 +366,7 @@ static inline int xml_fail(xml *x, const char *name, const char *what)
    is no more; -1: it is no number */
 static inline int xml_number(xml_text *value, double *out)
 {
-    mesh_reader r = {
-        value->at, value->at, value->at + value->size, "", 0, NULL, 0, NULL, NULL, 0
-    };
+    mesh_reader r = mesh_of(value->at, value->size, "", NULL, 0);
     int failed;
     while (r.at < r.end && mesh_is_blank(*r.at)) r.at++;
     if (r.at == r.end) return 0;

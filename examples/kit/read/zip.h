@@ -165,13 +165,23 @@ static inline const unsigned char *zip_packed(mesh_reader *r, const zip *z, cons
 /* The checksum of ZIP and PNG, of bytes that follow those of crc; 0: there are none */
 static inline uint32_t zip_crc(uint32_t crc, const unsigned char *bytes, size_t n)
 {
-    uint32_t table[256];
+    uint32_t table[8][256]; /* of a byte, and of the same with k zero bytes behind it */
     for (uint32_t i = 0; i < 256; i++) {
-        table[i] = i;
-        for (int k = 0; k < 8; k++) table[i] = table[i] >> 1 ^ (table[i] & 1 ? 0xEDB88320 : 0);
+        uint32_t *own = &table[0][i];
+        *own = i;
+        for (int k = 0; k < 8; k++) *own = *own >> 1 ^ (*own & 1 ? 0xEDB88320 : 0);
     }
+    for (int k = 1; k < 8; k++)
+        for (int i = 0; i < 256; i++)
+            table[k][i] = table[k - 1][i] >> 8 ^ table[0][table[k - 1][i] & 255];
     crc = ~crc;
-    for (size_t i = 0; i < n; i++) crc = crc >> 8 ^ table[(crc ^ bytes[i]) & 255];
+    for (; n >= 8; n -= 8, bytes += 8) {
+        const uint32_t low = crc ^ mesh_uint32(bytes);
+        crc = table[7][low & 255] ^ table[6][low >> 8 & 255] ^ table[5][low >> 16 & 255] ^
+              table[4][low >> 24] ^ table[3][bytes[4]] ^ table[2][bytes[5]] ^ table[1][bytes[6]] ^
+              table[0][bytes[7]];
+    }
+    for (size_t i = 0; i < n; i++) crc = crc >> 8 ^ table[0][(crc ^ bytes[i]) & 255];
     return ~crc;
 }
 

@@ -15,8 +15,7 @@ static double crease_cost(const owned_mesh *m)
     uint32_t *place = (uint32_t *)calloc(2 * vertices + 1, sizeof *place);
     double cost = 0;
     int failed = !place;
-    for (size_t i = 0; i < vertices && !failed; i++)
-        failed = mesh_set_add(&places, mesh_position_key(m->positions + 3 * i), &place[i]);
+    if (!failed) failed = mesh_set_positions(&places, m->positions, vertices, place);
     if (!failed) {
         uint32_t *count = place + vertices;
         for (int i = 0; i < m->view.index_count; i++) count[place[m->indices[i]]]++;

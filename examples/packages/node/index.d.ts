@@ -213,6 +213,17 @@ export namespace mujoco {
 /** Decodes the bytes of a picture in a model, of "image/png" or "image/jpeg", or null: it is left out. */
 export type Decoder = (bytes: Uint8Array, mimeType: string | undefined) => Texture | null;
 
+/** Hands over a file that lies beside a model, by the name that the model has for it; null: there is none. */
+export type Beside = (name: string) => Uint8Array | null;
+
+/** Reads OBJ, STL, PLY, OFF, glTF, GLB or 3MF: one mesh for each surface, as render takes them.  The bytes tell the
+    format, where format does not.  STL and 3MF have +z up.  Materials of OBJ, buffers and pictures that are files of
+    their own come by beside; what is missing, and what is not drawn, is a warning.  Rejects with a ShadeError for a
+    file that is damaged or needs what is not read.  3MF needs DecompressionStream: Node.js from 18 on. */
+export function readModel(bytes: Uint8Array, options?: {
+    format?: "obj" | "stl" | "ply" | "off" | "gltf" | "glb" | "3mf"; picture?: Decoder; beside?: Beside;
+}): Promise<MeshSource[]>;
+
 /** Reads glTF 2.0, GLB or JSON whose buffers are data URIs: one mesh for each surface, as render takes
     them, with +y up.  What is not drawn, pictures without a decoder among it, is a warning.  Throws
     ShadeError for a file that is damaged or needs what is not read. */

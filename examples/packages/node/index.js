@@ -15,10 +15,11 @@ const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));
 // The C library can print, which nothing here does: what it would call fails.
 const failing = () => 52;
 const system = { fd_close: failing, fd_seek: failing, fd_write: failing };
-// What unpacks a file of an archive: model.js sets it before a call.
-const archive = { inflate: () => 1 };
+// What unpacks a file of an archive, and what hands over a file beside a model: model.js sets both before a call.
+const files = { inflate: () => 1, beside: () => 0 };
 const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
-    wasi_snapshot_preview1: system, shade: { inflate: (...file) => archive.inflate(...file) },
+    wasi_snapshot_preview1: system,
+    shade: { inflate: (...file) => files.inflate(...file), beside: (...file) => files.beside(...file) },
 }).exports;
 library._initialize();
 
@@ -320,7 +321,9 @@ export function render(meshes, options) {
 
 // ---- cameras
 
-const readers = readersOf({ library, withMemory, take, put, floats, words, text, archive });
+const readers = readersOf({ library, withMemory, take, put, floats, words, text, files });
+/** The meshes of a file of any format: see index.d.ts. */
+export const readModel = readers.readModel;
 /** The meshes of a GLB: see index.d.ts. */
 export const readGltf = readers.readGltf;
 /** The meshes of a 3MF: see index.d.ts. */

@@ -1,6 +1,6 @@
-// Reads glTF 2.0 (GLB, or JSON with its buffers inside) and 3MF by the module.  Each surface becomes
-// one mesh, as render takes them.  What 3MF has packed is unpacked by the platform, before it is read.
-import { ShadeError, WRAPS, encoded, record } from "./arguments.js";
+// Reads models by the module.  Each surface becomes one mesh, as render takes them.  What 3MF has packed is
+// unpacked by the platform, before it is read.
+import { ShadeError, WRAPS, choice, encoded, record } from "./arguments.js";
 
 // python_model and python_part of module.c, in words of four bytes
 const MODEL = 16, PART = 31;
@@ -40,25 +40,29 @@ async function unpacked(packed, size) {
     return at === size ? out : null;
 }
 
-/** readGltf and read3mf, with what index.js has of the module; unpack becomes what the module calls. */
-export function readersOf({ library, withMemory, take, put, floats, words, text, archive }) {
+const FORMATS = ["obj", "stl", "ply", "off", "gltf", "glb", "3mf"];
+
+/** readModel and its kin, with what index.js has of the module; files become what the module calls. */
+export function readersOf({ library, withMemory, take, put, floats, words, text, files }) {
     if (library.size(6) !== 4 * MODEL || library.size(7) !== 4 * PART) {
         throw new Error("model.js and module.js do not fit");
     }
 
     /** The image of a part, decoded by the caller; null where there is none. */
-    function imageOf(part, picture, images, warn) {
-        const [at, size, kind] = [part[26], part[27], part[30]];
-        if (!at) return null;
+    function imageOf(part, { picture, beside }, images, warn) {
+        const [map, physical, at, size, kind] = [part[6], part[10], part[26], part[27], part[30]];
+        if (!at && (!map || physical)) return null;
         if (!picture) {
             warn("it has pictures, which the option picture decodes; its faces are drawn without them");
             return null;
         }
-        if (!images.has(at)) {
-            const bytes = new Uint8Array(library.memory.buffer, at, size).slice();
-            images.set(at, picture(bytes, text(kind) || undefined));
+        const name = at || text(map);
+        if (!images.has(name)) {
+            const bytes = at ? new Uint8Array(library.memory.buffer, at, size).slice() : beside?.(name);
+            if (!bytes) warn(`${name}: the option beside has no such file; its faces are drawn without it`);
+            images.set(name, bytes ? picture(bytes, text(kind) || undefined) : null);
         }
-        return images.get(at);
+        return images.get(name);
     }
 
     function meshOf(all, at, image) {
@@ -74,6 +78,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                            specular: k.slice(9, 12), shininess: k[12] };
         return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
                  indices: corners.map((vertex) => place.get(vertex)), ...(ints[10] ? { material } : {}),
+                 ...(ints[7] && !ints[10] && !all.colors ? { color: [...values.subarray(2, 5)].map(displayed) } : {}),
                  ...(blend ? { blend: true, opacity: 1 - values[5] } : {}),
                  ...(image && cutoff > 0 ? { cutoff } : {}),
                  ...(all.smooth ? { normals: of("normals", 3) } : {}),
@@ -82,7 +87,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                                          texture: surface } : {}) };
     }
 
-    function meshesOf(model, picture) {
+    function meshesOf(model, options) {
         return withMemory((room) => {
             const at = room(4 * MODEL), part = room(4 * PART), told = new Set(), images = new Map();
             library.model_of(model, at);
@@ -93,30 +98,54 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 if (!told.has(line)) console.warn(`shade-h: ${line}`);
                 told.add(line);
             };
-            if (text(warning)) warn(text(warning));
+            if (text(warning)) warn(unnamed(text(warning)));
             return Array.from({ length: parts }, (_, i) => {
                 library.model_part(model, i, part);
-                const image = imageOf(words(part, PART).slice(), picture, images, (line) => warn(`model: ${line}`));
+                const image = imageOf(words(part, PART).slice(), options, images, (line) => warn(`model: ${line}`));
                 return meshOf(all, part, image);
             });
         });
     }
 
+    /** The name under which the module reads has the format, which messages leave out. */
+    const unnamed = (words) => words.replace(/^model\.\w+/, "model");
+
     function checked(bytes, options, names) {
-        const { picture } = record("options", options, names);
+        const { format, ...given } = record("options", options, names);
         if (!(bytes instanceof Uint8Array)) throw new ShadeError("model: must be the bytes of a file, a Uint8Array");
-        if (picture !== undefined && typeof picture !== "function") {
-            throw new ShadeError("options.picture must be a function");
+        for (const name of ["picture", "beside"]) {
+            if (given[name] !== undefined && typeof given[name] !== "function") {
+                throw new ShadeError(`options.${name} must be a function`);
+            }
         }
-        return picture;
+        return { ...given, format: format === undefined ? "" : `.${choice("options.format", format, FORMATS)}` };
     }
 
-    function opened(at, length, is3mf, picture) {
-        return withMemory((room) => {
-            const error = room(400), model = library.model_open(at, length, is3mf, error, 400);
-            if (!model) throw new ShadeError(text(error) || "model: out of memory");
+    /** Hands a file of the caller over to the module, which frees it. */
+    function handed(options, failures) {
+        return (name, size) => {
             try {
-                return meshesOf(model, picture);
+                const bytes = options.beside?.(text(name >>> 0));
+                if (!(bytes instanceof Uint8Array)) return 0;
+                const at = put(take(bytes.length), bytes);
+                words(size >>> 0, 1)[0] = bytes.length;
+                return at;
+            } catch (error) {    // it must not pass through the module
+                failures.push(error);
+                return 0;
+            }
+        };
+    }
+
+    function opened(at, length, options) {
+        return withMemory((room) => {
+            const error = room(400), name = new TextEncoder().encode(`model${options.format}\0`), failures = [];
+            files.beside = handed(options, failures);
+            const model = library.model_open(at, length, put(room(name.length), name), error, 400);
+            try {
+                if (failures.length) throw failures[0];
+                if (!model) throw new ShadeError(unnamed(text(error)) || "model: out of memory");
+                return meshesOf(model, options);
             } finally {
                 library.model_close(model);
             }
@@ -124,28 +153,40 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
     }
 
     function readGltf(bytes, options) {
-        const picture = checked(bytes, options, ["picture"]);
-        return withMemory((room) => opened(put(room(bytes.length), bytes), bytes.length, 0, picture));
+        const asked = { ...checked(bytes, options, ["picture"]), format: ".glb" };
+        return withMemory((room) => opened(put(room(bytes.length), bytes), bytes.length, asked));
     }
 
-    async function read3mf(bytes, options) {
-        const picture = checked(bytes, options, ["picture", "DOMParser"]);
-        const at = put(take(bytes.length), bytes), files = new Map(), wanted = [];
+    /** Unpacks what an archive has before it is read, because the platform does it later. */
+    async function unpackedFirst(bytes, options) {
+        const at = put(take(bytes.length), bytes), unpackedFiles = new Map(), wanted = [];
         try {
-            archive.inflate = (from, length, to, size) => { wanted.push([from >>> 0, length, size]); return 1; };
+            files.inflate = (from, length, to, size) => { wanted.push([from >>> 0, length, size]); return 1; };
             library.archive(at, bytes.length);
             for (const [from, length, size] of wanted) {
-                files.set(from, await unpacked(new Uint8Array(library.memory.buffer, from, length).slice(), size));
+                unpackedFiles.set(from, await unpacked(new Uint8Array(library.memory.buffer, from, length).slice(), size));
             }
-            archive.inflate = (from, length, to, size) => {
-                const file = files.get(from >>> 0);
+            files.inflate = (from, length, to, size) => {
+                const file = unpackedFiles.get(from >>> 0);
                 if (file?.length === size) new Uint8Array(library.memory.buffer, to >>> 0, size).set(file);
                 return file?.length === size ? 0 : 1;
             };
-            return opened(at, bytes.length, 1, picture);
+            return opened(at, bytes.length, options);
         } finally {
             library.give(at);
         }
     }
-    return { readGltf, read3mf };
+
+    async function readModel(bytes, options) {
+        const asked = checked(bytes, options, ["format", "picture", "beside"]);
+        const packed = bytes[0] === 0x50 && bytes[1] === 0x4B;    // PK
+        if (asked.format === ".3mf" || (!asked.format && packed)) return unpackedFirst(bytes, asked);
+        return withMemory((room) => opened(put(room(bytes.length), bytes), bytes.length, asked));
+    }
+
+    async function read3mf(bytes, options) {
+        const asked = checked(bytes, options, ["picture", "DOMParser"]);
+        return unpackedFirst(bytes, { ...asked, format: ".3mf" });
+    }
+    return { readModel, readGltf, read3mf };
 }

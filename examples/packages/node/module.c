@@ -503,7 +503,7 @@ EXPORT(archive) void module_archive(const unsigned char *bytes, size_t size);
 void module_archive(const unsigned char *bytes, size_t size)
 {
     static const char *const kinds[] = { "model", "rels", "png", "jpg", "jpeg", NULL };
-    mesh_reader r = { bytes, bytes, bytes + size, "", 0, NULL, 0, NULL, NULL, 0 };
+    mesh_reader r = mesh_of(bytes, size, "", NULL, 0);
     zip z = { NULL, NULL, NULL, 0, 0, NULL };
     const int failed = zip_open(&r, &z);
     for (size_t i = 0; i < z.count && !failed; i++) {
@@ -520,20 +520,41 @@ void module_archive(const unsigned char *bytes, size_t size)
     free(z.entry);
 }
 
-/* Reads glTF, without anything beside it, or 3MF.  NULL with a line in error */
-EXPORT(model_open)
-model *module_model_open(const void *bytes, size_t size, int is_threemf, char *error, size_t room);
-model *module_model_open(const void *bytes, size_t size, int is_threemf, char *error, size_t room)
+/* A file beside a model, as index.js has it: its bytes, which are freed here, or NULL */
+IMPORT(beside) unsigned char *module_beside(const char *name, size_t *size);
+
+static int module_load(const char *path, const char *name, double most, unsigned char **bytes,
+                       size_t *size, char **where, char *error, size_t room)
 {
-    model *m = (model *)calloc(1, sizeof *m);
-    const unsigned char *begin = model_text_of((const unsigned char *)bytes, &size);
-    mesh_reader r = { begin, begin, begin + size, "model", 1, error, room, NULL, NULL, 0 };
-    if (m) m->inflate = module_inflate;
-    if (!m || (is_threemf ? threemf_read(&r, m) : gltf_read(&r, m))) {
-        python_unload(m);
+    (void)path;
+    *bytes = module_beside(name, size);
+    *where = NULL;
+    if (!*bytes) snprintf(error, room, "%s: the option beside has no such file", name);
+    else if ((double)*size <= most) return 0;
+    else snprintf(error, room, "%s: larger than %.0f MB", name, most / 1e6);
+    free(*bytes);
+    *bytes = NULL;
+    return 1;
+}
+
+/* Reads a file of any format.  The end of its name tells which, or its bytes where it has none.
+   NULL with a line in error */
+EXPORT(model_open)
+model *module_model_open(const void *bytes, size_t size, const char *name, char *error,
+                         size_t room);
+model *module_model_open(const void *bytes, size_t size, const char *name, char *error, size_t room)
+{
+    static const model empty;
+    const model_request q = { .error = error, .error_size = room };
+    model *m = (model *)calloc(1, sizeof *m), said = empty;
+    said.path = name;
+    said.beside = module_load;
+    said.inflate = module_inflate;
+    if (!m || model_read_with(bytes, size, name, m, &q, &said)) {
+        free(m);
         return NULL;
     }
-    known_tell(m, r.name);
+    model_read_libraries(name, m);
     return m;
 }
 

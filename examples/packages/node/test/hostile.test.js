@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { deflateRawSync } from "node:zlib";
-import { Mesh, PRESETS, Renderer, ShadeError, read3mf, readGltf, render } from "shade-h";
+import { Mesh, PRESETS, Renderer, ShadeError, read3mf, readGltf, readModel, render } from "shade-h";
 
 const box = () => ({
     positions: [0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1],
@@ -448,6 +448,45 @@ test("a 3MF", async () => {
     await bad(/it needs http:..a.b, which is not read/, (all) => all.replace("<model", '<model xmlns:q="http://a/b" requiredextensions="q"'));
     await assert.rejects(read3mf("plate.3mf"), /must be the bytes of a file/);
     await assert.rejects(read3mf(zip({ a: "b" }), { picture: 1 }), /options.picture must be a function/);
+});
+
+test("a model of any format", async () => {
+    const read = (text, options) => readModel(new TextEncoder().encode(text), options), said = [], { warn } = console;
+    const bad = (words, ...given) => assert.rejects(read(...given), (error) =>
+        error instanceof ShadeError && words.test(error.message) || assert.fail(`${error}`));
+    const obj = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 1\nf 1/1 2/1 3/1\n";
+    const files = { "a.mtl": "newmtl m\nKd 1 0.5 0\nmap_Kd a.png\n", "a.png": "as it is" };
+    const beside = (name) => (files[name] ? new TextEncoder().encode(files[name]) : null);
+    const data = new Uint8Array([1, 2, 3]), asked = [];
+    const [mesh] = await read(obj, { beside, picture: (bytes) => { asked.push(...bytes); return { data, width: 1, height: 1 }; } });
+    assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
+    assert.deepEqual([[...mesh.uv], [...mesh.texture.data]], [[0, 1, 0, 1, 0, 1], [1, 2, 3]]);
+    assert.equal(new TextDecoder().decode(new Uint8Array(asked)), "as it is");
+    [1, 0.5, 0].forEach((x, k) => assert.ok(Math.abs(mesh.color[k] - x) < 1e-6));
+    console.warn = (line) => said.push(line);
+    try {
+        assert.equal((await read(obj))[0].color, undefined);
+        delete files["a.png"];
+        await read(obj, { beside, picture: () => assert.fail("there is none") });
+        await read(obj, { beside });
+        await read("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n");
+        assert.equal((await read("v 0 0 0\nv 1 0 0\n"))[0].indices.length, 48);    // points are drawn as balls
+    } finally { console.warn = warn; }
+    assert.deepEqual(said.map((line) => line.replace("shade-h: model: ", "")), [
+        "a.mtl: the option beside has no such file",
+        "a.png: the option beside has no such file; its faces are drawn without it",
+        "it has pictures, which the option picture decodes; its faces are drawn without them",
+        "it has l, which is not read", said[4].replace("shade-h: model: ", "")]);
+    assert.match(said[4], /2 points have no faces/);
+    await bad(/^model:1: expected OFF/, obj, { format: "off" });
+    await bad(/^model:4: index "4" is out of range|^model:4: there is no v number 4/, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    await bad(/^model:1: the file is empty/, "");
+    await bad(/^options.format must be one of obj, stl/, obj, { format: "fbx" });
+    await bad(/^options.beside must be a function/, obj, { beside: {} });
+    await bad(/^options.outside is no option/, obj, { outside: true });
+    await assert.rejects(readModel("a.obj"), /model: must be the bytes of a file/);
+    await assert.rejects(read(obj, { beside: () => { throw new RangeError("mine"); } }), /RangeError: mine/);
+    await read(obj, { beside, format: "obj", picture: () => null });
 });
 
 test("mutants of a 3MF are read or refused", async () => {

@@ -206,6 +206,39 @@ assert len(np.unique(model.rgba)) > 100
 (OUT / "scenes.json").write_text(json.dumps(told))
 
 
+def files():
+    """The torus and a box beside it in other formats: red and blue in OBJ and PLY, grey in OFF and STL."""
+    points, corners = box(1, 2, 1)
+    both = [(vertices, faces), (points + [4, 0, 0], corners)]
+    obj = "mtllib colors.mtl\n"
+    for (p, f), name, first in zip(both, ("red", "blue"), (1, 1 + len(vertices))):
+        obj += f"usemtl {name}\n" + "".join(f"v {x} {y} {z}\n" for x, y, z in p)
+        obj += "".join(f"f {a + first} {b + first} {c + first}\n" for a, b, c in f)
+    (OUT / "file.obj").write_text(obj)
+    (OUT / "colors.mtl").write_text("newmtl red\nKd 0.8 0.1 0.1\nnewmtl blue\nKd 0.1 0.1 0.8\n")
+    p = np.concatenate([vertices, points + [4, 0, 0]]).astype("<f4")
+    f = np.concatenate([faces, corners + len(vertices)])
+    rows = [" ".join(map(str, row)) for row in p.tolist()]
+    (OUT / "file.off").write_text("\n".join(
+        [f"OFF {len(p)} {len(f)} 0", *rows, *(f"3 {a} {b} {c}" for a, b, c in f)]))
+    tints = [" 200 30 30"] * len(vertices) + [" 30 30 200"] * len(points)
+    head = f"ply\nformat ascii 1.0\nelement vertex {len(p)}\n" + "".join(
+        f"property float {k}\n" for k in "xyz") + "".join(
+        f"property uchar {k}\n" for k in ("red", "green", "blue"))
+    (OUT / "file.ply").write_text(head + f"element face {len(f)}\nproperty list uchar int vertex_indices\n"
+                                  "end_header\n" + "\n".join(
+        [row + tint for row, tint in zip(rows, tints)] + [f"3 {a} {b} {c}" for a, b, c in f]) + "\n")
+    (OUT / "file.stl").write_bytes(bytes(80) + struct.pack("<I", len(f)) + b"".join(
+        bytes(12) + p[face].tobytes() + bytes(2) for face in f))
+
+
+files()
+for name in ("obj", "off", "ply", "stl"):
+    model = shade.render(OUT / f"file.{name}", size=(200, 150), up="z")
+    (OUT / f"file.{name}.rgba").write_bytes(model.rgba.tobytes())
+    assert len(np.unique(model.rgba)) > 100
+
+
 # a Renderer: colour, depth, numbers and normals one after the other
 def sight():
     sim = shade.Renderer(60, 80)

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
-import { Mesh, read3mf, readGltf, render, Renderer } from "shade-h";
+import { Mesh, read3mf, readGltf, readModel, render, Renderer } from "shade-h";
 import { sight } from "./sight.js";
 
 const folder = process.env.ORACLE;
@@ -49,6 +49,25 @@ test("a 3MF", async () => {
     const [mesh] = await read3mf(readFileSync(`${folder}/model.3mf`));
     const { data } = render(mesh, { size: [200, 150] });
     assert.ok(readFileSync(`${folder}/plate.rgba`).equals(bytes(data)));
+});
+
+for (const format of ["obj", "off", "ply", "stl"]) {
+    test(`a model: ${format}`, async () => {
+        const beside = (name) => readFileSync(`${folder}/${name}`), file = readFileSync(`${folder}/file.${format}`);
+        const wanted = readFileSync(`${folder}/file.${format}.rgba`);
+        for (const options of [{ beside }, { beside, format }]) {
+            const { data } = render(await readModel(file, options), { size: [200, 150], up: "z" });
+            assert.ok(wanted.equals(bytes(data)));
+        }
+    });
+}
+
+test("any format", async () => {
+    const drawn = (meshes) => render(meshes, { size: 64 }).data;
+    for (const [name, other] of [["model.glb", readGltf], ["model.3mf", read3mf]]) {
+        const file = readFileSync(`${folder}/${name}`);
+        assert.deepEqual(drawn(await readModel(file)), drawn(await other(file)));
+    }
 });
 
 test("PNG files for another reader", async () => {

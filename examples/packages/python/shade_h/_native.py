@@ -4,10 +4,11 @@ from __future__ import annotations
 import ctypes
 import struct
 import sys
+import threading
 from ctypes import (POINTER, Structure, c_char_p, c_double, c_float, c_int, c_size_t, c_uint,
                     c_void_p)
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
@@ -163,7 +164,7 @@ def _open() -> Any:
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_read", POINTER(OwnedMesh),
-             [c_char_p, c_size_t, c_char_p, c_char_p, INFLATE, c_char_p, c_size_t]),
+             [c_char_p, c_size_t, c_char_p, c_char_p, INFLATE, c_char_p, c_size_t, c_void_p]),
             ("python_beside", c_int, [c_char_p]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
             ("python_origin", POINTER(c_double), [POINTER(OwnedMesh)]),
@@ -212,6 +213,34 @@ def check(result: int, what: str) -> None:
     if result:
         words = library.shade_result_string(result).decode()
         raise Error(f"{what}: {words}")
+
+
+def interruptible(call: Callable[[c_int], Any], late: Callable[[Any], object] = bool) -> Any:
+    """What call returns, which is given a number that Ctrl-C sets: it runs in a thread, because
+    signals wait for the main one.  late gets what call returns when nobody waits for it."""
+    stop, results, done = c_int(0), [], threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        return call(stop)
+
+    def run() -> None:
+        result = call(stop)
+        if stop.value:
+            late(result)
+        else:
+            results.append(result)
+        done.set()    # a thread whose join was interrupted counts as ended in some Pythons
+
+    threading.Thread(target=run, daemon=True).start()
+    try:
+        while not done.wait(0.1):
+            pass
+    except BaseException:
+        stop.value = 1
+        done.wait(0.5)    # what is begun is not waited for any longer
+        while results:
+            late(results.pop())
+        raise
+    return results[0]
 
 
 def pointer(array: Array | None) -> int | None:

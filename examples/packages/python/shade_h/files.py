@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import cloud
-from ._native import INFLATE, Bytes, Error, Run, library
+from ._native import INFLATE, Bytes, Error, Run, interruptible, library
 from .annotate import display as _display
 from .light import Material
 from .mesh import WRAPS, Mesh, Surface
@@ -159,7 +159,12 @@ def _read(data: bytes, name: str, path: bytes | None, outside: bool = False) -> 
     """Vertices and faces, and options of Mesh."""
     words = ctypes.create_string_buffer(400)
     title = os.fsencode(name)
-    owned = library.python_read(data, len(data), title, path, _inflate, words, len(words))
+
+    def read(stop: ctypes.c_int) -> Any:
+        return library.python_read(data, len(data), title, path, _inflate, words, len(words),
+                                   ctypes.addressof(stop))
+
+    owned = interruptible(read, library.python_unload)
     if not owned:
         raise Error(words.value.decode("utf-8", "replace") or "out of memory")
     try:

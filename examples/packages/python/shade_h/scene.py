@@ -2,17 +2,16 @@
 from __future__ import annotations
 
 import ctypes
-import threading
 import warnings
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Callable, Sequence, Union
+from typing import Any, Sequence, Union
 
 import numpy as np
 
 from . import _arguments as arguments
 from ._native import Array, Bytes, Doubles, Error, Floats, Integers, Item, View, check
-from ._native import library, pointer
+from ._native import interruptible, library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
 from .camera import UPRIGHT, Camera, Viewpoint, at, direction, fitted, studio
 from .light import Flag, Light, Lighting, Material, Model, preset
@@ -383,19 +382,17 @@ class Scene:
 
     def _draw(self, items: Any, views: Any, threads: int, kept: object, slow: bool) -> None:
         """kept are the arrays that must live until the last pixel.  What is slow can be ended by
-        Ctrl-C: it is drawn by a thread, because signals wait for the main one."""
+        Ctrl-C."""
         count = arguments.integer("threads", threads, 0, 256)
-        stop = ctypes.c_int(0)
 
-        def draw() -> int:
+        def draw(stop: ctypes.c_int) -> int:
             drawn: int = library.python_draw(items, len(items), views, len(views), count,
                                              ctypes.addressof(stop))
             del keep[:]
             return drawn
 
         keep = [kept]
-        in_thread = slow and threading.current_thread() is threading.main_thread()
-        check(_interruptible(draw, stop) if in_thread else draw(), "scene")
+        check(interruptible(draw) if slow else draw(ctypes.c_int(0)), "scene")
 
     def _items(self, camera: Camera, places: Doubles, origin: Doubles) -> tuple[Any, list[Any]]:
         """The surfaces of all parts as the library has them, those that blend last, and what must
@@ -443,21 +440,6 @@ class Scene:
             flags |= Flag.INFINITE_VIEWER
         light = (0.0, 0.0, 0.0) if ambient is None else ambient
         view.lighting = Lighting(lights, light, self.model, flags).native()
-
-
-def _interruptible(draw: Callable[[], int], stop: Any) -> int:
-    """Calls draw in a thread; Ctrl-C sets stop, and does not wait for what is begun."""
-    result: list[int] = []
-    thread = threading.Thread(target=lambda: result.append(draw()), daemon=True)
-    thread.start()
-    try:
-        while thread.is_alive():
-            thread.join(0.1)
-    except BaseException:
-        stop.value = 1
-        thread.join(0.5)
-        raise
-    return result[0]
 
 
 def _moved(lamp: Light, origin: Doubles) -> Light:

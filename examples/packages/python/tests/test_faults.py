@@ -337,6 +337,32 @@ def test_ctrl_c_ends_the_studio_before_it_is_done():
     assert "drawn" not in told and "KeyboardInterrupt" in why
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_ctrl_c_ends_load_before_it_is_done_and_frees_its_memory():
+    # 4 million triangles that have nothing in common
+    program = "import io, os, signal, struct, threading, time, numpy as np, shade_h\n" \
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n" \
+        "data = bytes(80) + struct.pack('<I', 4000000) + np.random.default_rng(1).bytes(200000000)\n" \
+        "memory = lambda: int(open('/proc/self/statm').read().split()[1]) * 4096\n" \
+        "before, sent = memory(), []\n" \
+        "def send():\n" \
+        "    while memory() < before + 150e6: time.sleep(0.01)\n" \
+        "    sent.append(time.process_time())\n" \
+        "    os.kill(os.getpid(), signal.SIGINT)\n" \
+        "threading.Thread(target=send).start()\n" \
+        "try:\n" \
+        "    shade_h.load(io.BytesIO(data))\n" \
+        "except KeyboardInterrupt:\n" \
+        "    print(time.process_time() - sent[0])\n" \
+        "for _ in range(300):    # the thread that reads may be late on a busy machine\n" \
+        "    if memory() > before + 60e6: time.sleep(0.1)\n" \
+        "print((memory() - before) / 1e6)\n"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                         timeout=120)
+    seconds, megabytes = map(float, run.stdout.split())
+    assert seconds < 0.5 and megabytes < 60
+
+
 # ---- arguments -----------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("vertices", [np.full((8, 3), np.nan), np.full((8, 3), 1e35),
