@@ -583,8 +583,10 @@ static inline int mesh_take_double(mesh_reader *r, double *out)
 static inline int mesh_take_coordinate(mesh_reader *r, double *out)
 {
     const unsigned char *const at = r->at;
+    int next; /* words begin with a letter: numbers do not wait for their comparison */
     r->at += at < r->end && (*at == '-' || *at == '+');
-    if (r->at<r->end && * r->at> '9' &&
+    next = r->at < r->end ? *r->at : 0;
+    if (next > '9' &&
         (mesh_take_word(r, "nan") || mesh_take_word(r, "inf") || mesh_take_word(r, "infinity"))) {
         *out = (double)NAN;
         return 0;
