@@ -87,7 +87,7 @@ int main(int argc, char **argv)
         if (!strcmp(argv[i], "--level")) level = atoi(argv[i + 1]);
     }
     rounds = rounds < 3 ? 3 : rounds > 1001 ? 1001 : rounds;
-    clock_machine();
+    clock_machine(stdout);
     printf("\n| scene | ms | before | times faster | by medians | bits |\n");
     printf("|---|---|---|---|---|---|\n");
     sides[1].count();

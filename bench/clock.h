@@ -73,7 +73,7 @@ static inline void clock_memory(void)
 #ifndef BENCH_FLAGS
 #define BENCH_FLAGS "-O2"
 #endif
-static inline void clock_machine(void)
+static inline void clock_machine(FILE *to)
 {
     char line[256] = "", *model = NULL;
     FILE *f = fopen("/proc/cpuinfo", "r");
@@ -81,12 +81,12 @@ static inline void clock_machine(void)
         if (!strncmp(line, "model name", 10)) model = strchr(line, ':');
     if (f) fclose(f);
     if (model) model[strcspn(model, "\n")] = 0;
-    printf("Machine: %s, %ld processors online.\n", model ? model + 2 : "unknown",
+    fprintf(to, "Machine: %s, %ld processors online.\n", model ? model + 2 : "unknown",
            sysconf(_SC_NPROCESSORS_ONLN));
 #if defined(__clang__)
-    printf("Compiler: clang %d.%d, `%s`.\n", __clang_major__, __clang_minor__, BENCH_FLAGS);
+    fprintf(to, "Compiler: clang %d.%d, `%s`.\n", __clang_major__, __clang_minor__, BENCH_FLAGS);
 #elif defined(__GNUC__)
-    printf("Compiler: gcc %d.%d, `%s`.\n", __GNUC__, __GNUC_MINOR__, BENCH_FLAGS);
+    fprintf(to, "Compiler: gcc %d.%d, `%s`.\n", __GNUC__, __GNUC_MINOR__, BENCH_FLAGS);
 #endif
 }
 #endif

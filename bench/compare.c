@@ -1,13 +1,15 @@
-/* compare.c - every scene with shade.h and with a peer, the pictures compared, then timed in turns.
+/* compare.c - every scene by shade.h and its peers: the pictures compared, then timed in turns.
 
    compare [--rounds N] [--only TEXT] [--mesh FILE.obj] [--level 0|1|2] [--pictures DIRECTORY]
            [--tsv FILE] */
 #include "clock.h"
 #include "level.h"
 #define SHADE_IMPLEMENTATION
-#include "scenes.h"
+#include "peers/peer.h"
 
-const peer *osmesa_peer(void);
+/* who draws: shade.h, the peers, and memset over the same bytes */
+enum { SHADE, PEERS = 3, MEMSET = PEERS + 1, WAYS = PEERS + 2, MOST = 101 };
+static peer *peers[WAYS];    /* NULL: not here */
 
 typedef struct options {
     int rounds;
@@ -15,6 +17,15 @@ typedef struct options {
 } options;
 
 typedef struct difference { double fraction, most; } difference;
+/* A peer that gets more pixels wrong has not drawn the scene, and is not timed.  SwiftShader rounds
+   vertices to 1/16 of a pixel: 1.5 % of the smallest teapot, along its edges. */
+static const double fraction_allowed = 0.02;
+
+typedef struct row {
+    double ms[WAYS], ratio[WAYS];    /* zero: not measured */
+    difference d[WAYS];
+    int best;                        /* a peer; 0: none */
+} row;
 
 /* Colours: pixels where a channel differs by more than 1 of 255, and the most of it.  Without
    colour: depths that differ by more than 2^-12, and the most in steps of 2^-12: on triangles a few
@@ -48,79 +59,101 @@ static void write_picture(const options *o, const scene *s, const shade_target *
     shade_write_ppm(path, t);
 }
 
-/* ms a frame for one turn of frames, 0: shade.h, 1: the peer, 2: memset over the same bytes */
-static double turn(int who, int frames, const scene *s, const shade_target *t, const peer *p)
+/* ms a frame, for one turn of frames.  Before it the peers' threads sleep: some wait in loops. */
+static double turn(int who, int frames, const scene *s, const shade_target *t)
 {
-    double start = clock_cpu();
+    const struct timespec rest = { 0, 2000000 };
+    double start;
+    nanosleep(&rest, NULL);
+    start = clock_cpu();
     for (int i = 0; i < frames; i++) {
-        if (who == 0) scene_draw(s, t);
-        if (who == 1) p->draw();
-        if (who == 2) {
+        if (who == SHADE) scene_draw(s, t);
+        else if (who == MEMSET) {
             size_t bytes = (size_t)t->width * (size_t)t->height * 4;
             memset(t->color, i, bytes);
             memset(t->depth, i, bytes);
             __asm__ volatile("" ::: "memory");
-        }
+        } else peers[who]->draw(peers[who]);
     }
     return (clock_cpu() - start) / 1e6 / frames;
 }
 
-static void print_row(const scene *s, const double *ms, const double *ratio, const difference *d,
-                      const char *skipped, long long fragments, FILE *tsv)
+static void print_row(const scene *s, const row *r, long long fragments, FILE *tsv)
 {
-    printf("| %s | %.3g | ", s->name, ms[0]);
-    if (skipped) printf("skipped: %s | | |", skipped);
-    else
-        printf("%.3g | %.2f | %.2g %%, at most %.3g |", ms[1], ratio[1], 100 * d->fraction,
-               d->most);
-    printf(" %.0f k |\n", (double)fragments / 1000);
+    printf("| %s | %.3g |", s->name, r->ms[SHADE]);
+    for (int who = 1; who <= PEERS; who++) {
+        if (r->ms[who] > 0) printf(" %.3g |", r->ms[who]);
+        else printf(" %s |", peers[who] ? "another picture" : "-");
+    }
+    if (r->best) printf(" %s | %.2f |", peers[r->best]->name, r->ratio[r->best]);
+    else printf(" - | - |");
+    for (int who = 1; who <= PEERS; who++)
+        if (peers[who])
+            printf(" %.2g %% (%.3g)", 100 * r->d[who].fraction, r->d[who].most);
+    printf(" | %.0f k |\n", (double)fragments / 1000);
     if (s->kind == SCENE_CLEAR)
-        printf("| memset over the same bytes | %.3g (memset) | | %.2f | | |\n", ms[2], ratio[2]);
+        printf("| memset over the same bytes | %.3g | | | | | %.2f | | |\n", r->ms[MEMSET],
+               r->ratio[MEMSET]);
     fflush(stdout);
     if (tsv)
-        fprintf(tsv, "%s\t%.4f\t%.4f\t%.3f\n", s->name, ms[0], ms[1], skipped ? 0 : ratio[1]);
+        fprintf(tsv, "%s\t%.4f\t%.4f\t%.3f\t%s\n", s->name, r->ms[SHADE], r->ms[r->best],
+                r->ratio[r->best], r->best ? peers[r->best]->name : "");
 }
 
-static void measure(const options *o, const scene *s, const peer *p, const char *skipped, FILE *tsv)
+/* The peer's picture of a scene that it has loaded, beside shade.h's. */
+static difference draw_peer(const options *o, const scene *s, const shade_target *t, peer *p)
 {
-    enum { WAYS = 3, MOST = 101 };
-    static double samples[WAYS][MOST];
-    double ms[WAYS] = { 0, 0, 0 }, ratio[WAYS] = { 0, 0, 0 }, against[MOST];
-    difference d = { 0, 0 };
-    int frames[WAYS], on[WAYS] = { 1, !skipped, s->kind == SCENE_CLEAR };
     size_t pixels = (size_t)s->width * (size_t)s->height;
+    shade_target other = *t;
+    difference d;
+    other.color = scene_memory(pixels, 4);
+    other.depth = (float *)scene_memory(pixels, 4);
+    p->draw(p);
+    p->read(p, (uint32_t *)other.color, other.depth);
+    d = compare_pictures(t, (const uint32_t *)other.color, other.depth);
+    if (t->color) write_picture(o, s, &other, p->name);
+    free(other.color);
+    free(other.depth);
+    return d;
+}
+
+static void measure(const options *o, const scene *s, FILE *tsv)
+{
+    static double samples[WAYS][MOST];
+    double against[MOST];
+    row r;
+    int frames[WAYS], on[WAYS] = { 1 };
     shade_target t = scene_target(s);
     shade_stats stats = scene_draw(s, &t);
-    write_picture(o, s, &t, "shade");
-    if (!skipped) {
-        shade_target other = t;
-        other.color = scene_memory(pixels, 4);
-        other.depth = (float *)scene_memory(pixels, 4);
-        p->load(s);
-        p->draw();
-        p->read((uint32_t *)other.color, other.depth);
-        d = compare_pictures(&t, (const uint32_t *)other.color, other.depth);
-        if (t.color) write_picture(o, s, &other, p->name);
-        free(other.color);
-        free(other.depth);
+    memset(&r, 0, sizeof r);
+    write_picture(o, s, &t, "shade.h");
+    for (int who = 1; who <= PEERS; who++) {
+        if (!peers[who]) continue;
+        peers[who]->load(peers[who], s);
+        r.d[who] = draw_peer(o, s, &t, peers[who]);
+        on[who] = r.d[who].fraction <= fraction_allowed;
     }
+    on[MEMSET] = s->kind == SCENE_CLEAR;
     for (int who = 0; who < WAYS; who++) {
         if (!on[who]) continue;
-        turn(who, 3, s, &t, p);
-        frames[who] = 1 + (int)(8 / turn(who, 1, s, &t, p));    /* a turn takes 8 ms at least */
+        turn(who, 3, s, &t);
+        frames[who] = 1 + (int)(8 / turn(who, 1, s, &t));    /* a turn takes 8 ms at least */
     }
     for (int i = 0; i < o->rounds; i++)
         for (int who = 0; who < WAYS; who++)
-            if (on[who]) samples[who][i] = turn(who, frames[who], s, &t, p);
+            if (on[who]) samples[who][i] = turn(who, frames[who], s, &t);
     for (int who = 1; who < WAYS; who++) {
+        if (!on[who]) continue;
         for (int i = 0; i < o->rounds; i++)    /* by rounds: the speed of a machine drifts */
-            against[i] = samples[who][i] / samples[0][i];
-        if (on[who]) ratio[who] = clock_median(against, o->rounds);
+            against[i] = samples[who][i] / samples[SHADE][i];
+        r.ratio[who] = clock_median(against, o->rounds);
+        if (who <= PEERS && (!r.best || r.ratio[who] < r.ratio[r.best])) r.best = who;
     }
     for (int who = 0; who < WAYS; who++)
-        if (on[who]) ms[who] = clock_median(samples[who], o->rounds);
-    if (!skipped) p->unload();
-    print_row(s, ms, ratio, &d, skipped, stats.fragments, tsv);
+        if (on[who]) r.ms[who] = clock_median(samples[who], o->rounds);
+    for (int who = 1; who <= PEERS; who++)
+        if (peers[who]) peers[who]->unload(peers[who]);
+    print_row(s, &r, stats.fragments, tsv);
     free(t.color);
     free(t.depth);
 }
@@ -137,34 +170,46 @@ static options read_options(int argc, char **argv)
         if (!strcmp(argv[i], "--tsv")) o.tsv = argv[i + 1];
     }
     if (o.rounds < 3) o.rounds = 3;
-    if (o.rounds > 101) o.rounds = 101;
+    if (o.rounds > MOST) o.rounds = MOST;
     return o;
+}
+
+/* What is known of the machine and of today, as Markdown; in a table of tabs, lines without one. */
+static void print_machine(FILE *f)
+{
+    char day[32];
+    time_t now = time(NULL);
+    clock_machine(f);
+    for (int who = 1; who <= PEERS; who++)
+        if (peers[who]) fprintf(f, "%s: %s.\n", peers[who]->name, peers[who]->about);
+    strftime(day, sizeof day, "%d %B %Y", localtime(&now));
+    fprintf(f, "Date: %s.\n", day);
 }
 
 int main(int argc, char **argv)
 {
     static scene scenes[SCENE_COUNT];
     options o = read_options(argc, argv);
-    const peer *p = osmesa_peer();
-    const char *skipped;
-    FILE *tsv;
-    /* glibc reads this at start: without it the heap of llvmpipe is given back and faulted in again
-       with every frame, and dense meshes take half as long again. */
-    if (!getenv("MALLOC_TRIM_THRESHOLD_")) {
-        setenv("MALLOC_TRIM_THRESHOLD_", "1000000000", 1);
-        execvp(argv[0], argv);
+    int level = bench_level < 0 ? bench_best_level() : bench_level;
+    FILE *tsv = o.tsv ? fopen(o.tsv, "w") : NULL;
+    peers[1] = osmesa_peer();
+    peers[2] = vulkan_peer(VULKAN_LAVAPIPE);
+    peers[3] = vulkan_peer(VULKAN_SWIFTSHADER);
+    for (int who = 1; who <= PEERS; who++) {
+        const char *why = peer_open(peers[who], level, 1);
+        if (why) fprintf(stderr, "left out: %s (%s)\n", peers[who]->name, why);
+        if (why) peers[who] = NULL;
     }
-    tsv = o.tsv ? fopen(o.tsv, "w") : NULL;
-    skipped = p->open();
-    clock_machine();
+    print_machine(stdout);
+    if (tsv) print_machine(tsv);
     printf("One core, %s, medians of %d rounds in turns, processor time, clears included.\n\n",
            bench_level_name(bench_level), o.rounds);
-    printf("| scene | shade.h, ms | %s, ms | times faster | ", p->name);
-    printf("pixels that differ by more than 1/255 | pixels passed |\n");
-    printf("|---|---|---|---|---|---|\n");
+    printf("| scene | shade.h, ms | llvmpipe, ms | lavapipe, ms | SwiftShader, ms | best peer | "
+           "times faster | pixels of each that differ by more than 1/255 (most) | "
+           "pixels passed |\n|---|---|---|---|---|---|---|---|---|\n");
     scenes_build(scenes, o.mesh);
     for (int i = 0; i < SCENE_COUNT; i++) {
-        if (!o.only || strstr(scenes[i].name, o.only)) measure(&o, &scenes[i], p, skipped, tsv);
+        if (!o.only || strstr(scenes[i].name, o.only)) measure(&o, &scenes[i], tsv);
         scene_free(&scenes[i]);
     }
     printf("\n");

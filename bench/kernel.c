@@ -283,7 +283,7 @@ int main(int argc, char **argv)
     if (rounds < 3) rounds = 3;
     if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
     make_pixels();
-    clock_machine();
+    clock_machine(stdout);
     printf("shade_lit_lanes in packets of %d, every light lit, medians of %d rounds in turns; in "
            "parentheses: times faster than the plain loop.\n",
            SHADE_LANES, rounds);

@@ -114,7 +114,7 @@ int main(int argc, char **argv)
         aligned(memory_a)[i] = (float)(seed >> 8) / 16777216.0f + (i % 9 % 4 == 0 ? 2.0f : 0.0f);
         aligned(memory_b)[i] = (float)(seed & 0xFFFFFFu) / 16777216.0f;
     }
-    clock_machine();
+    clock_machine(stdout);
     printf("ns for each operation, throughput over arrays of %d, medians of %d rounds in turns.\n",
            COUNT, rounds);
     printf("\n| | shade.h, same file | shade.h, apart |");

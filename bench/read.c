@@ -356,7 +356,7 @@ int main(int argc, char **argv)
     }
     if (rounds < 1 || rounds > MOST_ROUNDS || triangles < 2 || triangles > 4000000) return 2;
     s = torus(triangles);
-    clock_machine();
+    clock_machine(stdout);
     printf("Model files of %d triangles, %d vertices; medians of %d.\n\n", s.triangles, s.vertices,
            rounds);
     printf("| format | MB | read, MB/s | ns a triangle | copied to new memory, MB/s | copied, MB/s "

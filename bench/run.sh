@@ -28,20 +28,26 @@ can_build() {
     "$@" -o "$build/probe" >/dev/null 2>&1
 }
 
-find_peer() {
-    peer=
+# $1.c with the adapters of the peers that are installed, into BUILD
+build_with_peers() {
+    peers= libraries=
     if can_build c '#include <GL/osmesa.h>' $cc "$build/probe.c" -lOSMesa; then
-        peer="-DHAVE_OSMESA"
+        peers="-DHAVE_OSMESA" libraries="-lOSMesa"
     fi
+    if can_build c '#include <vulkan/vulkan.h>' $cc "$build/probe.c" -lvulkan; then
+        peers="$peers -DHAVE_VULKAN" libraries="$libraries -lvulkan"
+    fi
+    $cc $standard $flags $peers "-DBENCH_FLAGS=\"$flags\"" "bench/$1.c" bench/peers/osmesa.c \
+        bench/peers/vulkan.c -o "$build/bench_$1" $libraries -lm -pthread
 }
-build_compare() {
+compare() {
     find_peer
     $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/compare.c bench/peers/osmesa.c \
         -o "$build/bench_compare" ${peer:+-lOSMesa} -lm
 }
 compare() {
-    build_compare
-    echo "## The same pictures with llvmpipe"
+    build_with_peers compare
+    echo "## The same pictures with other renderers"
     echo
     $pin "$build/bench_compare" $rounds ${MESH:+--mesh "$MESH"} --tsv "$build/bench_compare.tsv"
     echo
@@ -49,7 +55,7 @@ compare() {
 
 # The library on processors with less: AVX2, then SSE2 as any x86-64 has it.
 levels() {
-    build_compare
+    build_with_peers compare
     for level in 1 0; do
         echo "## The same with narrower vectors: level $level of 2"
         echo
@@ -89,12 +95,10 @@ kernel() {
 }
 
 scaling() {
-    find_peer
-    $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/scaling.c bench/peers/osmesa.c \
-        -o "$build/scaling" ${peer:+-lOSMesa} -lm -pthread
+    build_with_peers scaling
     echo "## Larger meshes, larger pictures, more threads, less in sight"
     echo
-    MALLOC_TRIM_THRESHOLD_=1000000000 "$build/scaling" $rounds --tsv "$build/bench_scaling.tsv"
+    "$build/bench_scaling" $rounds --tsv "$build/bench_scaling.tsv"
     echo
 }
 

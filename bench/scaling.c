@@ -7,9 +7,8 @@
 #include <pthread.h>
 #include <sys/mman.h>
 #define SHADE_IMPLEMENTATION
-#include "scenes.h"
+#include "peers/peer.h"
 
-const peer *osmesa_peer(void);
 
 enum { MOST_ROUNDS = 101, MOST_THREADS = 4 };
 
@@ -378,14 +377,14 @@ static double peer_ms(const scene *s)
 {
     const peer *p = osmesa_peer();
     double best = 1e30;
-    p->load(s);
+    p->load(p, s);
     for (int i = 0; i < rounds + 2; i++) {
         double start = clock_wall();
-        p->draw();
+        p->draw(p);
         start = (clock_wall() - start) / 1e6;
         if (i > 1 && start < best) best = start;
     }
-    p->unload();
+    p->unload(p);
     return best;
 }
 
@@ -394,8 +393,7 @@ static void threads(void)
     model m[5];
     const int count = 5;
     const char *why;
-    setenv("LP_NUM_THREADS", "2", 1);
-    why = osmesa_peer()->open();
+    why = peer_open(osmesa_peer(), -1, 2);
     model_open(&m[0], scene_floor("floor 1080p, 4 spotlights", 1.5f), ORDER_OWN);
     model_open(&m[1], scene_dense("knot of 124k triangles", 1240, 50), ORDER_OWN);
     model_open(&m[2], scene_dense("the same, scattered", 1240, 50), ORDER_SORTED);
@@ -576,7 +574,7 @@ int main(int argc, char **argv)
     }
     if (rounds < 3) rounds = 3;
     if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
-    clock_machine();
+    clock_machine(stdout);
     triangles();
     pixels();
     diagonals();

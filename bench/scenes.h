@@ -547,15 +547,4 @@ static inline shade_stats scene_draw(const scene *s, const shade_target *t)
     return stats;
 }
 
-/* ---- with another renderer ---- */
-
-typedef struct peer {
-    const char *name;
-    const char *(*open)(void);          /* NULL, or the reason why not */
-    void (*load)(const scene *);        /* geometry and shaders to where the peer wants them */
-    void (*draw)(void);                 /* one whole frame, finished when it returns */
-    void (*read)(uint32_t *rgba, float *depth);    /* top row first */
-    void (*unload)(void);
-} peer;
-
 #endif
