@@ -20,45 +20,55 @@ chart() {
 }
 
 if [ -s "$build/bench_compare.tsv" ]; then
-    # Bars from the top row down: how many times faster than the peer, with the widest vectors and,
-    # where run.sh measured levels, with SSE2; slower ones are red.
+    # Bars from the top row down: how many times faster than the best peer, with the widest vectors
+    # and, where run.sh measured levels, with SSE2 beside peers of 128 bits; slower ones are red.
+    # Lines without tabs tell of the machine.
     [ -s "$build/bench_level_0.tsv" ] || : >"$build/bench_level_0.tsv"
-    awk -F'\t' -v OFS='\t' 'FILENAME == ARGV[1] { narrow[$1] = $4; next }
-        $4 > 0 { print $1, $2, $4, narrow[$1] + 0 }' \
+    awk -F'\t' -v OFS='\t' 'NF > 1 && FILENAME == ARGV[1] { narrow[$1] = $4; who[$1] = $5; next }
+        NF > 1 && $4 > 0 { print $1, $2, $4, $5, narrow[$1] + 0, who[$1] == "" ? "-" : who[$1] }' \
         "$build/bench_level_0.tsv" "$build/bench_compare.tsv" >"$build/bench_ratio.tsv"
     rows=$(wc -l <"$build/bench_ratio.tsv")
-    [ "$rows" -gt 0 ] && chart bench_compare "960,$((150 + 44 * rows))" <<PLOT
-set label 1 "shade.h beside llvmpipe, one core each, the same pictures: how many times as fast" \\
-    at screen 0.02, screen 0.965 font ',13'
-set label 2 "1: as fast as llvmpipe" at 1, graph 1.012 center tc rgb '#aa3333'
+    notes=$(awk -F'\t' 'NF == 1' "$build/bench_compare.tsv" | tr -d '`"\\')
+    lines=$(printf '%s\n' "$notes" | wc -l)
+    high=$((170 + 44 * rows + 17 * lines))
+    [ "$rows" -gt 0 ] && chart bench_compare "960,$high" <<PLOT
+high = $high.0
+set label 1 "shade.h beside the best peer of each row, one core each, the same pictures" \\
+    at screen 0.02, screen 1 - 30 / high font ',13'
+set label 2 "1: as fast as the peer" at 1, graph 1.012 center tc rgb '#aa3333'
 set label 3 "thick: the widest vectors, and ms a frame" \\
-    at screen 0.02, screen 0.925 tc rgb '#3b6ea5'
-stats '$build/bench_ratio.tsv' using 4 name 'NARROW' nooutput
+    at screen 0.02, screen 1 - 62 / high tc rgb '#3b6ea5'
+stats '$build/bench_ratio.tsv' using 5 name 'NARROW' nooutput
 if (NARROW_max > 0) {
-    set label 4 "thin: SSE2 alone, as any x86-64 has it" \\
-        at screen 0.39, screen 0.925 tc rgb '#7799bb'
+    set label 4 "thin: SSE2 beside peers of 128 bits" \\
+        at screen 0.39, screen 1 - 62 / high tc rgb '#7799bb'
 }
-set label 5 "red: slower than llvmpipe" at screen 0.74, screen 0.925 tc rgb '#cc4433'
-set tmargin 6.5
+set label 5 "red: slower than the peer" at screen 0.74, screen 1 - 62 / high tc rgb '#cc4433'
+set label 6 "$(printf '%s\n' "$notes" | awk '{ printf "%s%s", (NR > 1 ? "\\n" : ""), $0 }')" \\
+    at screen 0.02, screen (17.0 * $lines - 3) / high noenhanced font ',9' tc rgb '#666666'
+set tmargin at screen 1 - 100 / high
+set bmargin at screen (17.0 * $lines + 55) / high
 set style fill solid 1.0 noborder
 stats '$build/bench_ratio.tsv' using 3 nooutput
 set yrange [$rows - 0.4 : -0.6]
-set xrange [0 : 1.25 * STATS_max]
-set xlabel 'how many times as fast as llvmpipe'
+set xrange [0 : 1.5 * STATS_max]
+set xlabel 'how many times as fast as the best peer'
 set grid x noy
 unset key
 set border 1
 set ytics scale 0
 set arrow from 1, graph 0 to 1, graph 1 nohead front lw 1.5 lc rgb '#aa3333' dt 2
 color(x, wide) = x < 1 ? 0xcc4433 : wide ? 0x3b6ea5 : 0x99b5d0
+beyond(x) = x < 1 ? 1 : x    # labels keep off the line at 1
 plot '$build/bench_ratio.tsv' \
          using (\$3 / 2) : (\$0 - 0.1) : (\$3 / 2) : (0.22) : (color(\$3, 1)) : ytic(1) \
          with boxxyerror lc rgb variable, \
-     '' using (\$4 / 2) : (\$0 + 0.24) : (\$4 / 2) : (0.09) : (color(\$4, 0)) \
+     '' using (\$5 / 2) : (\$0 + 0.24) : (\$5 / 2) : (0.09) : (color(\$5, 0)) \
          with boxxyerror lc rgb variable, \
-     '' using 3 : (\$0 - 0.1) : (sprintf(' %.1f   %.3g ms', \$3, \$2)) \
-         with labels left offset 0.3, 0, \
-     '' using (\$4 > 0 ? \$4 : NaN) : (\$0 + 0.25) : (sprintf(' %.2g', \$4)) \
+     '' using (beyond(\$3)) : (\$0 - 0.1) : \
+         (sprintf(' %.2g   %.3g ms   %s', \$3, \$2, strcol(4))) with labels left offset 0.3, 0, \
+     '' using (\$5 > 0 ? beyond(\$5) : NaN) : (\$0 + 0.25) : \
+         (sprintf(' %.2g   %s', \$5, strcol(6))) \
          with labels left offset 0.3, 0 font ',9' tc rgb '#666666'
 PLOT
 fi

@@ -53,7 +53,8 @@ compare() {
     echo
 }
 
-# The library on processors with less: AVX2, then SSE2 as any x86-64 has it.
+# The library on processors with less, AVX2, then SSE2 as any x86-64 has it; Mesa's vectors have 256
+# and 128 bits.
 levels() {
     build_with_peers compare
     for level in 1 0; do
@@ -63,6 +64,30 @@ levels() {
             --tsv "$build/bench_level_$level.tsv"
         echo
     done
+    [ ! -s "$build/bench_compare.tsv" ] || together
+}
+# Each row beside its best peer; lines without tabs tell of the machine.
+together() {
+    echo "## Together"
+    echo
+    awk -F'\t' '
+        FILENAME == ARGV[3] && NF == 1 { print }
+        NF == 1 { next }
+        FILENAME != ARGV[3] {
+            narrow[FILENAME, $1] = $4 > 0 ? sprintf("%.2g, %s", $4, $5) : "-"
+            next
+        }
+        !begun++ {
+            print "\n| scene | shade.h, ms | best peer, ms | times faster | with AVX2 | with SSE2 |"
+            print "|---|---|---|---|---|---|"
+        }
+        {
+            best = $4 > 0 ? sprintf("%s, %.3g", $5, $3) : "-"
+            printf "| %s | %.3g | %s | %.2g | %s | %s |\n", $1, $2, best, $4,
+                narrow[ARGV[1], $1], narrow[ARGV[2], $1]
+        }' \
+        "$build/bench_level_1.tsv" "$build/bench_level_0.tsv" "$build/bench_compare.tsv"
+    echo
 }
 
 # The rest are flags of the compilers.
