@@ -41,11 +41,6 @@ build_with_peers() {
         bench/peers/vulkan.c -o "$build/bench_$1" $libraries -lm -pthread
 }
 compare() {
-    find_peer
-    $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/compare.c bench/peers/osmesa.c \
-        -o "$build/bench_compare" ${peer:+-lOSMesa} -lm
-}
-compare() {
     build_with_peers compare
     echo "## The same pictures with other renderers"
     echo
