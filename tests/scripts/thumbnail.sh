@@ -595,6 +595,7 @@ both() {
     reports
     gltf_reports
     color_reports
+    habit_reports
     bad_output
     bad_options
 }

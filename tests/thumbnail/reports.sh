@@ -198,3 +198,19 @@ property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_
     printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
     same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
 }
+
+# What a writer of one of these files means, in a file without its habits
+habit_reports() {
+    printf "${wedge}v -1.#IND00 1.#QNAN0 1.#INF00\nv -nan(ind) 0 0\n${faces}f 1 2 5\nf 1 2 6\n" \
+        >"$T/windows.obj"
+    same "numbers that are none, as Windows prints them" wedge.obj windows.obj 0 "--up y"
+    check "are counted" said "windows.obj: 2 faces have corners that are no finite numbers"
+    printf "${wedge}vn -1.#IND00 -1.#IND00 -1.#IND00\n$faces" |
+        sed 's/^f 1 3 2/f 1\/\/1 3 2/' >"$T/windows.obj"
+    same "normals too" wedge.obj windows.obj 0 "--up y"
+    check "without a word" test ! -s "$T/err"
+    { echo solid; facets | sed 's/normal 0 0 0/normal -1.#IND 1.#INF 0/'
+        facet "1.#QNAN 0 0" "1 0 0" "0 1 0"; } >"$T/windows.stl"
+    same "in STL" wedge.obj windows.stl 0 "--up y"
+    check "are counted" said "windows.stl: 1 triangles have corners that are no finite numbers"
+}

@@ -455,13 +455,24 @@ static inline int mesh_take_double(mesh_reader *r, double *out)
     return mesh_fail(r, "expected a number, found %s", mesh_here(r).text);
 }
 
+/* Takes what C libraries of Windows print for a number that is none: 1.#IND00, 1.#QNAN0, 1.#INF00,
+   nan(ind).  The # does not begin a comment there. */
+static inline int mesh_take_undefined(mesh_reader *r)
+{
+    const unsigned char *p = r->at;
+    if (r->end - p < 6 || (memcmp(p, "1.#", 3) != 0 && memcmp(p, "nan(", 4) != 0)) return 0;
+    if (*p == '1' && memcmp(p + 3, "IN", 2) != 0 && memcmp(p + 4, "NA", 2) != 0) return 0;
+    while (r->at < r->end && !mesh_is_blank(*r->at)) r->at++;
+    return 1;
+}
+
 /* The same for a position, which scanners write as nan, -nan or inf where they saw nothing */
 static inline int mesh_take_coordinate(mesh_reader *r, double *out)
 {
     mesh_reader word = *r;
     word.at += word.at < word.end && (*word.at == '-' || *word.at == '+');
-    if (!mesh_take_word(&word, "nan") && !mesh_take_word(&word, "inf") &&
-        !mesh_take_word(&word, "infinity"))
+    if (!mesh_take_undefined(&word) && !mesh_take_word(&word, "nan") &&
+        !mesh_take_word(&word, "inf") && !mesh_take_word(&word, "infinity"))
         return mesh_take_double(r, out);
     r->at = word.at;
     *out = (double)NAN;
