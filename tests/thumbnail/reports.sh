@@ -213,4 +213,8 @@ habit_reports() {
         facet "1.#QNAN 0 0" "1 0 0" "0 1 0"; } >"$T/windows.stl"
     same "in STL" wedge.obj windows.stl 0 "--up y"
     check "are counted" said "windows.stl: 1 triangles have corners that are no finite numbers"
+
+    sed 's/"scene":0,"scenes":\[{"nodes":\[0\]}\],//' "$T/nodes.gltf" >"$T/bare.gltf"
+    same "glTF without scenes has its roots where they stand" nodes.gltf bare.gltf 0 "--up y"
+    check "without scenes indeed" no grep '"scene' "$T/bare.gltf"
 }

@@ -975,15 +975,14 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gather_matrix *at)
     return failed;
 }
 
-static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
+static inline int gltf_node(gltf *g, uint32_t node, const gather_matrix *above)
 {
-    uint32_t node, children, lower;
+    uint32_t children, lower, child;
     gather_matrix local, here;
     int failed = 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
         return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
                          GLTF_DEPTH);
-    if (gltf_item(g, GLTF_NODE, at, &node)) return 1;
     local = gltf_local(g, node);
     here = gather_product(above, &local);
     if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &here);
@@ -991,7 +990,7 @@ static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
     lower = children + 1;
     g->depth++;
     for (uint32_t i = 0; children && i < g->j.value[children].count && !failed; i++) {
-        failed = gltf_node(g, lower, &here);
+        failed = gltf_item(g, GLTF_NODE, lower, &child) || gltf_node(g, child, &here);
         lower = g->j.value[lower].end;
     }
     g->depth--;
@@ -1002,7 +1001,7 @@ static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
 static inline int gltf_scene(gltf *g, int counting)
 {
     static const gather_matrix one = { { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
-    uint32_t scene = 0, roots, at = json_member(&g->j, JSON_ROOT, "scene");
+    uint32_t scene = 0, roots, node, at = json_member(&g->j, JSON_ROOT, "scene");
     int failed = 0;
     g->counting = counting;
     g->nodes = 0;
@@ -1011,13 +1010,13 @@ static inline int gltf_scene(gltf *g, int counting)
     roots = json_of(&g->j, scene, "nodes", JSON_ARRAY);
     at = roots + 1;
     for (uint32_t i = 0; scene && roots && i < g->j.value[roots].count && !failed; i++) {
-        failed = gltf_node(g, at, &one);
+        failed = gltf_item(g, GLTF_NODE, at, &node) || gltf_node(g, node, &one);
         at = g->j.value[at].end;
     }
     for (uint32_t i = 0; !scene && i < g->count[GLTF_NODE] && !failed; i++) {
-        const uint32_t node = g->item[GLTF_NODE][i];
-        if (g->parent[i] || g->j.value[node].kind != JSON_OBJECT) continue;
-        if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &one);
+        node = g->item[GLTF_NODE][i];
+        if (!g->parent[i] && g->j.value[node].kind == JSON_OBJECT)
+            failed = gltf_node(g, node, &one);
     }
     return failed;
 }
