@@ -75,6 +75,7 @@ def gltf(kind, name, required=False):
             made["meshes"][0]["primitives"][0]["material"] = 0
         if "draco" in name:
             made["meshes"][0]["primitives"][0]["extensions"] = {name: {}}
+            del made["accessors"][0]["bufferView"]
     elif name not in ("POSITION", "NORMAL", "TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"):
         made["meshes"][0]["primitives"][0]["attributes"][name] = 0
     return "a.gltf", json.dumps(made)

@@ -217,4 +217,24 @@ habit_reports() {
     sed 's/"scene":0,"scenes":\[{"nodes":\[0\]}\],//' "$T/nodes.gltf" >"$T/bare.gltf"
     same "glTF without scenes has its roots where they stand" nodes.gltf bare.gltf 0 "--up y"
     check "without scenes indeed" no grep '"scene' "$T/bare.gltf"
+    sed 's/"primitives":\[/&{"attributes":{"NORMAL":0}},/' "$T/torus.gltf" >"$T/bare.gltf"
+    same "a primitive without positions is nothing" torus.gltf bare.gltf 0 "--up y"
+    sed 's/"indices":1/&,"extensions":{"KHR_draco_mesh_compression":{}}/' "$T/torus.gltf" \
+        >"$T/both.gltf"
+    same "Draco beside the same without it" torus.gltf both.gltf 0 "--up y"
+    sed 's/;base64,/,/' "$T/torus.gltf" >"$T/plain.gltf"
+    bad_model "a data URI of other text" plain.gltf "a data URI is no base64"
+    for k in "" ',"normalized":true'; do
+        printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}]}],
+            "materials":[{"alphaMode":"BLEND"}],"accessors":[{"count":3,"type":"VEC3",
+            "componentType":5126,"bufferView":0},{"count":3,"type":"VEC4","componentType":5121,
+            "bufferView":1%s}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":1,
+            "byteLength":12}],"buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAA
+AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -d '\n' \
+            >"$T/bytes$k.gltf"
+    done
+    same "colours of bytes, which are fractions" 'bytes,"normalized":true.gltf' bytes.gltf 0
+    check "whose alpha is told" said "the alpha of its COLOR_0 does not count"
+    printf '\377\376v\000 \0001\000' >"$T/wide.obj"
+    bad_model "UTF-16" wide.obj "wide.obj:1: its text is UTF-16, which is not read"
 }
