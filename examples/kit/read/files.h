@@ -55,6 +55,12 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
     return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
 }
 
+/* 1: the file begins with a byte order mark of UTF-16, and is no binary STL. */
+static inline int mesh_is_utf16(const unsigned char *bytes, size_t size)
+{
+    return size > 1 && (bytes[0] ^ bytes[1]) == 1 && bytes[0] > 0xFD && !stl_fits(bytes, size);
+}
+
 /* 1: the file is OFF, by its extension or, where that is none of ours, by its contents. */
 static inline int mesh_is_off(const char *name, const unsigned char *bytes, size_t size)
 {
@@ -134,6 +140,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     int failed;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_utf16(begin, size))
+        failed = mesh_fail(&r, "its text is UTF-16, which is not read");
     else if (mesh_is_threemf(name, begin, size))
         failed = threemf_read(&r, m);
     else if (mesh_is_gltf(name, begin, size))
