@@ -237,4 +237,31 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     check "whose alpha is told" said "the alpha of its COLOR_0 does not count"
     printf '\377\376v\000 \0001\000' >"$T/wide.obj"
     bad_model "UTF-16" wide.obj "wide.obj:1: its text is UTF-16, which is not read"
+    library() {                 # the name of a library, statements of a material that is red at last
+        printf "newmtl r\n$2\nKd 1 0 0\n" >"$T/library.mtl"
+        printf 'mtllib %s\nusemtl r\n'"$wedge$faces" "$1" >"$T/library.obj"
+    }
+    for k in 'C:\work\library.mtl' /home/nobody/library.mtl; do
+        library "$k" ""
+        same "a library in a folder of another machine" red.obj library.obj 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
+    for k in "Ks spectral a.rfl" "Ks xyz 1 1 1" "Ns nan" "Ke 0,5 0,5 0,5"; do
+        library library.mtl "$k"
+        same "$k costs no other statement" red.obj library.obj 0 "--up y"
+        check "and is told" said "library.mtl:2: expected a number, found .*"
+    done
+    library library.mtl "Kd 1 0 0\nnewmtl r\nKd 0 1 0\nd 0.5\nnewmtl s"
+    same "of two materials of one name the first counts" red.obj library.obj 0 "--up y"
+    sed -i 's/usemtl r/usemtl R/' "$T/library.obj"
+    check "a material that is in no library" draw library.obj a.ppm
+    check "is told" said "no library has its material R"
+    for k in "-clamp on" "-mm 0.2 0.5"; do
+        library library.mtl "map_Bump $k none.png"
+        check "$k is drawn without" draw library.obj a.ppm
+        check "and told" grep -e "it has ${k%% 0*}, which is not read" "$T/err"
+    done
+    library library.mtl "map_Kd a.png\nmap_Bump -s 2 2 b.png"
+    check "pictures that differ in their places" draw library.obj a.ppm
+    check "are told" grep "its -o and -s are not those of the other pictures" "$T/err"
 }
