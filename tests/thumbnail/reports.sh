@@ -264,4 +264,26 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     library library.mtl "map_Kd a.png\nmap_Bump -s 2 2 b.png"
     check "pictures that differ in their places" draw library.obj a.ppm
     check "are told" grep "its -o and -s are not those of the other pictures" "$T/err"
+    plain="--up y --model lambert --no-shadow"
+    rows() { printf "$wedge" | sed "s/^v //; s/\$/ $1/"; }
+    faces_of() { printf "$ply_faces" | sed "s/\$/ $1/"; }
+    { rows "1 0 0" | sed 's/^/v /'; printf "$faces"; } >"$T/four.obj"
+    { printf "COFF\n4 4\n"; rows "1 0 0 1"; faces_of; } >"$T/fraction.off"
+    same "fractions without a point" four.obj fraction.off 0 "$plain"
+    { printf "NCOFF\n4 4 0\n"; rows "0 0 1 255 0 0 255"; faces_of; } >"$T/both.off"
+    same "NCOFF" four.obj both.off 0 "$plain"
+    { printf "OFF\n4 4 0\n"; rows; faces_of "1 0 0"; } >"$T/face.off"
+    same "faces with such fractions" four.obj face.off 0 "$plain"
+    { printf "OFF4\n4\n0\n"; rows | sed 's/ 0 /\n0 # y\n\n/'; faces_of |
+        sed 's/ /\n/'; } >"$T/free.off"
+    same "counts behind OFF, and lines that end anywhere" wedge.obj free.off 0 "$plain"
+    check "without a word" test ! -s "$T/err"
+    cp "$T/free.off" "$T/free"
+    same "without a name" wedge.obj free 0 "$plain"
+    { printf "OFF\n4 4 0\n"; rows "255 0 0"; faces_of; } >"$T/more.off"
+    same "colours that the first line denies" wedge.obj more.off 0 "$plain"
+    check "are told" said "numbers behind its vertices or faces that are no colours"
+    { printf "OFF\n4 4 0\n"; rows; faces_of 7; } >"$T/more.off"
+    same "a number in a map of colours" wedge.obj more.off 0 "$plain"
+    check "is told" said "numbers behind its vertices or faces that are no colours"
 }
