@@ -1,18 +1,18 @@
 /* off.h - reads OFF files of text: OFF with C (colours of vertices), N (normals), ST (texture
-   coordinates, which are skipped) in any order, counts, vertices and faces, each with a new line but
-   not on one line alone, comments; colours behind the corners of faces, as whole numbers to 255 or
-   as fractions.  Polygons may be concave.  4OFF, nOFF and OFF BINARY are refused. */
+   coordinates, which are skipped) in any order, counts, comments; each vertex and face begins a
+   line and may go on in the next ones; colours behind the corners of faces, as whole numbers to 255
+   or as fractions.  Polygons may be concave.  4OFF, nOFF and OFF BINARY are refused. */
 #ifndef MODEL_OFF_H
 #define MODEL_OFF_H
 
 #include "faces.h"
 
 /* What a file may begin with.  Normals are made anew. */
-static const known_name off_known[] = { { "OFF", KNOWN_DRAWN },          { "COFF", KNOWN_DRAWN },
-                                        { "NOFF", KNOWN_DRAWN },         { "CNOFF", KNOWN_DRAWN },
-                                        { "NCOFF", KNOWN_DRAWN },
-                                        { "STOFF", KNOWN_TOLD },         { "4OFF", KNOWN_REFUSED },
-                                        { "OFF BINARY", KNOWN_REFUSED }, { NULL, KNOWN_REFUSED } };
+static const known_name off_known[] = { { "OFF", KNOWN_DRAWN },    { "COFF", KNOWN_DRAWN },
+                                        { "NOFF", KNOWN_DRAWN },   { "CNOFF", KNOWN_DRAWN },
+                                        { "NCOFF", KNOWN_DRAWN },  { "STOFF", KNOWN_TOLD },
+                                        { "4OFF", KNOWN_REFUSED }, { "OFF BINARY", KNOWN_REFUSED },
+                                        { NULL, KNOWN_REFUSED } };
 
 typedef struct off_data {
     mesh_floats position, color; /* color: of vertices, three each; of those before, where there */
@@ -20,7 +20,7 @@ typedef struct off_data {
     mesh_origin origin;
     faces faces;
     int has_color, has_normal, tinted;
-    int others; /* there are numbers behind vertices or faces that are no colours */
+    int others;       /* there are numbers behind vertices or faces that are no colours */
     double brightest; /* of whole numbers: to 1 they are fractions */
 } off_data;
 
