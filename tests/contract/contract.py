@@ -42,7 +42,8 @@ def stl(kind, name):
 
 
 def off(kind, name):
-    more = {"4OFF": " 1", "COFF": " 1 0 0 1", "NOFF": " 0 0 1", "CNOFF": " 1 0 0 1 0 0 1", "STOFF": " 0 0"}
+    more = {"4OFF": " 1", "COFF": " 1 0 0 1", "NOFF": " 0 0 1", "CNOFF": " 1 0 0 1 0 0 1",
+            "NCOFF": " 0 0 1 1 0 0 1", "STOFF": " 0 0"}
     points = "".join(c + more.get(name, "") + "\n" for c in CORNERS)
     return "a.off", f"{name}\n4 3 0\n{points}" + "".join("3 %d %d %d\n" % f for f in FACES)
 
@@ -75,6 +76,7 @@ def gltf(kind, name, required=False):
             made["meshes"][0]["primitives"][0]["material"] = 0
         if "draco" in name:
             made["meshes"][0]["primitives"][0]["extensions"] = {name: {}}
+            del made["accessors"][0]["bufferView"]
     elif name not in ("POSITION", "NORMAL", "TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"):
         made["meshes"][0]["primitives"][0]["attributes"][name] = 0
     return "a.gltf", json.dumps(made)

@@ -632,6 +632,7 @@ both() {
     reports
     gltf_reports
     color_reports
+    habit_reports
     bad_output
     bad_options
 }

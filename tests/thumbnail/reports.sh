@@ -198,3 +198,92 @@ property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_
     printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
     same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
 }
+
+# What a writer of one of these files means, in a file without its habits
+habit_reports() {
+    printf "${wedge}v -1.#IND00 1.#QNAN0 1.#INF00\nv -nan(ind) 0 0\n${faces}f 1 2 5\nf 1 2 6\n" \
+        >"$T/windows.obj"
+    same "numbers that are none, as Windows prints them" wedge.obj windows.obj 0 "--up y"
+    check "are counted" said "windows.obj: 2 faces have corners that are no finite numbers"
+    printf "${wedge}vn -1.#IND00 -1.#IND00 -1.#IND00\n$faces" |
+        sed 's/^f 1 3 2/f 1\/\/1 3 2/' >"$T/windows.obj"
+    same "normals too" wedge.obj windows.obj 0 "--up y"
+    check "without a word" test ! -s "$T/err"
+    { echo solid; facets | sed 's/normal 0 0 0/normal -1.#IND 1.#INF 0/'
+        facet "1.#QNAN 0 0" "1 0 0" "0 1 0"; } >"$T/windows.stl"
+    same "in STL" wedge.obj windows.stl 0 "--up y"
+    check "are counted" said "windows.stl: 1 triangles have corners that are no finite numbers"
+
+    sed 's/"scene":0,"scenes":\[{"nodes":\[0\]}\],//' "$T/nodes.gltf" >"$T/bare.gltf"
+    same "glTF without scenes has its roots where they stand" nodes.gltf bare.gltf 0 "--up y"
+    check "without scenes indeed" no grep '"scene' "$T/bare.gltf"
+    sed 's/"primitives":\[/&{"attributes":{"NORMAL":0}},/' "$T/torus.gltf" >"$T/bare.gltf"
+    same "a primitive without positions is nothing" torus.gltf bare.gltf 0 "--up y"
+    sed 's/"indices":1/&,"extensions":{"KHR_draco_mesh_compression":{}}/' "$T/torus.gltf" \
+        >"$T/both.gltf"
+    same "Draco beside the same without it" torus.gltf both.gltf 0 "--up y"
+    sed 's/;base64,/,/' "$T/torus.gltf" >"$T/plain.gltf"
+    bad_model "a data URI of other text" plain.gltf "a data URI is no base64"
+    for k in "" ',"normalized":true'; do
+        printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}]}],
+            "materials":[{"alphaMode":"BLEND"}],"accessors":[{"count":3,"type":"VEC3",
+            "componentType":5126,"bufferView":0},{"count":3,"type":"VEC4","componentType":5121,
+            "bufferView":1%s}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":1,
+            "byteLength":12}],"buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAA
+AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -d '\n' \
+            >"$T/bytes$k.gltf"
+    done
+    same "colours of bytes, which are fractions" 'bytes,"normalized":true.gltf' bytes.gltf 0
+    check "whose alpha is told" said "the alpha of its COLOR_0 does not count"
+    printf '\377\376v\000 \0001\000' >"$T/wide.obj"
+    bad_model "UTF-16" wide.obj "wide.obj:1: its text is UTF-16, which is not read"
+    library() {                 # the name of a library, statements of a material that is red at last
+        printf "newmtl r\n$2\nKd 1 0 0\n" >"$T/library.mtl"
+        printf 'mtllib %s\nusemtl r\n'"$wedge$faces" "$1" >"$T/library.obj"
+    }
+    for k in 'C:\work\library.mtl' /home/nobody/library.mtl; do
+        library "$k" ""
+        same "a library in a folder of another machine" red.obj library.obj 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
+    for k in "Ks spectral a.rfl" "Ks xyz 1 1 1" "Ns nan" "Ke 0,5 0,5 0,5"; do
+        library library.mtl "$k"
+        same "$k costs no other statement" red.obj library.obj 0 "--up y"
+        check "and is told" said "library.mtl:2: expected a number, found .*"
+    done
+    library library.mtl "Kd 1 0 0\nnewmtl r\nKd 0 1 0\nd 0.5\nnewmtl s"
+    same "of two materials of one name the first counts" red.obj library.obj 0 "--up y"
+    sed -i 's/usemtl r/usemtl R/' "$T/library.obj"
+    check "a material that is in no library" draw library.obj a.ppm
+    check "is told" said "no library has its material R"
+    for k in "-clamp on" "-mm 0.2 0.5"; do
+        library library.mtl "map_Bump $k none.png"
+        check "$k is drawn without" draw library.obj a.ppm
+        check "and told" grep -e "it has ${k%% 0*}, which is not read" "$T/err"
+    done
+    library library.mtl "map_Kd a.png\nmap_Bump -s 2 2 b.png"
+    check "pictures that differ in their places" draw library.obj a.ppm
+    check "are told" grep "its -o and -s are not those of the other pictures" "$T/err"
+    plain="--up y --model lambert --no-shadow"
+    rows() { printf "$wedge" | sed "s/^v //; s/\$/ $1/"; }
+    faces_of() { printf "$ply_faces" | sed "s/\$/ $1/"; }
+    { rows "1 0 0" | sed 's/^/v /'; printf "$faces"; } >"$T/four.obj"
+    { printf "COFF\n4 4\n"; rows "1 0 0 1"; faces_of; } >"$T/fraction.off"
+    same "fractions without a point" four.obj fraction.off 0 "$plain"
+    { printf "NCOFF\n4 4 0\n"; rows "0 0 1 255 0 0 255"; faces_of; } >"$T/both.off"
+    same "NCOFF" four.obj both.off 0 "$plain"
+    { printf "OFF\n4 4 0\n"; rows; faces_of "1 0 0"; } >"$T/face.off"
+    same "faces with such fractions" four.obj face.off 0 "$plain"
+    { printf "OFF4\n4\n0\n"; rows | sed 's/ 0 /\n0 # y\n\n/'; faces_of |
+        sed 's/ /\n/'; } >"$T/free.off"
+    same "counts behind OFF, and lines that end anywhere" wedge.obj free.off 0 "$plain"
+    check "without a word" test ! -s "$T/err"
+    cp "$T/free.off" "$T/free"
+    same "without a name" wedge.obj free 0 "$plain"
+    { printf "OFF\n4 4 0\n"; rows "255 0 0"; faces_of; } >"$T/more.off"
+    same "colours that the first line denies" wedge.obj more.off 0 "$plain"
+    check "are told" said "numbers behind its vertices or faces that are no colours"
+    { printf "OFF\n4 4 0\n"; rows; faces_of 7; } >"$T/more.off"
+    same "a number in a map of colours" wedge.obj more.off 0 "$plain"
+    check "is told" said "numbers behind its vertices or faces that are no colours"
+}

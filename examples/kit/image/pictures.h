@@ -105,16 +105,15 @@ static int picture_load(model *m, const char *path, const char *name, int as_rel
     const int beside_model = outside || model_is_beside(name);
     char error[300] = "out of memory";
     unsigned char *bytes = NULL;
-    size_t size = 0, last = 0;
+    const char *last = model_last(name);
+    size_t size = 0;
     int number = picture_add(m, name, as_relief), failed = 1;
-    for (size_t i = 0; name[i]; i++)
-        if (name[i] == '/' || name[i] == '\\') last = i + 1;
     if (!beside_model)
         snprintf(error, sizeof error,
                  "%s: it lies outside of the model's folder; --outside reads it", name);
     for (int attempt = !beside_model; attempt < 2 && failed && number >= 0; attempt++) {
         mesh_reader r = mesh_about(name, error, attempt ? 0 : sizeof error);
-        char *beside = model_beside(path, attempt ? name + last : name);
+        char *beside = model_beside(path, attempt ? last : name);
         failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
         if (failed)
             free(beside);

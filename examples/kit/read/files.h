@@ -55,6 +55,12 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
     return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
 }
 
+/* 1: the file begins with a byte order mark of UTF-16, and is no binary STL. */
+static inline int mesh_is_utf16(const unsigned char *bytes, size_t size)
+{
+    return size > 1 && (bytes[0] ^ bytes[1]) == 1 && bytes[0] > 0xFD && !stl_fits(bytes, size);
+}
+
 /* 1: the file is OFF, by its extension or, where that is none of ours, by its contents. */
 static inline int mesh_is_off(const char *name, const unsigned char *bytes, size_t size)
 {
@@ -139,6 +145,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     r.stop = q->stop;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_utf16(begin, size))
+        failed = mesh_fail(&r, "its text is UTF-16, which is not read");
     else if (mesh_is_threemf(name, begin, size))
         failed = threemf_read(&r, m);
     else if (mesh_is_gltf(name, begin, size))
@@ -294,13 +302,38 @@ static inline int model_read_library(const char *path, const char *name, model *
     return failed;
 }
 
+/* The part of a name behind its last slash: folders of other machines do not exist here. */
+static inline const char *model_last(const char *name)
+{
+    const char *last = name;
+    for (; *name; name++)
+        if (*name == '/' || *name == '\\') last = name + 1;
+    return last;
+}
+
+/* Warns of a surface that triangles have and no library describes. */
+static inline void model_tell_missing(const char *path, model *m)
+{
+    for (int i = 0; i < m->part_count && m->library_count; i++) {
+        const model_surface *s = m->surface_count ? &m->surface[m->part[i].surface] : NULL;
+        char text[100];
+        if (!s || s->set || !s->name[0]) continue;
+        snprintf(text, sizeof text, "no library has its material %.50s", s->name);
+        for (char *c = text; *c; c++) *c = *c < ' ' && *c >= 0 ? '?' : *c;
+        model_warn(m, path, text);
+        return;
+    }
+}
+
 /* Reads the files that describe the surfaces, by the model's beside.  What is missing there is a
    warning, not an error.  A line of names is the name of one file, or else of several. */
 static inline void model_read_libraries(const char *path, model *m)
 {
     for (int i = 0; i < m->library_count; i++) {
-        char error[300] = "out of memory", *name = m->library[i], *blank = strchr(name, ' ');
+        char error[300] = "out of memory", unheard[300] = "out of memory";
+        char *name = m->library[i], *blank = strchr(name, ' ');
         if (!model_read_library(path, name, m, error, sizeof error)) continue;
+        if (!model_read_library(path, model_last(name), m, unheard, sizeof unheard)) continue;
         if (!blank) model_warn(m, path, error);
         while (blank) {
             char *last = blank;
@@ -313,6 +346,7 @@ static inline void model_read_libraries(const char *path, model *m)
                 model_warn(m, path, error);
         }
     }
+    model_tell_missing(path, m);
     known_tell(m, path);
     for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
         const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;

@@ -56,6 +56,8 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "EXT_meshopt_compression", KNOWN_TOLD },
                                          { "EXT_texture_webp", KNOWN_TOLD },
                                          { "KHR_texture_basisu", KNOWN_TOLD },
+                                         { "EXT_texture_avif", KNOWN_TOLD },
+                                         { "MSFT_texture_dds", KNOWN_TOLD },
                                          { "KHR_draco_mesh_compression", KNOWN_REFUSED },
                                          { NULL, KNOWN_TOLD } };
 
@@ -200,7 +202,10 @@ static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
     if (!text) return mesh_fail(g->r, "out of memory");
     comma = strchr(text, ',');
     if (!strncmp(text, "data:", 5) && comma) {
-        failed = gltf_base64(g, comma + 1, out);
+        if (comma - text < 12 || memcmp(comma - 7, ";base64", 7) != 0)
+            failed = mesh_fail(g->r, "a data URI is no base64");
+        else
+            failed = gltf_base64(g, comma + 1, out);
         free(text);
         return failed;
     }
@@ -593,14 +598,13 @@ static inline int gltf_texture(gltf *g, gltf_place *place, uint32_t material, co
     }
     if (gltf_item(g, GLTF_TEXTURES, json_member(&g->j, info, "index"), &texture)) return 1;
     source = json_member(&g->j, texture, "source");
-    if (!source && (gltf_extended(g, texture, "EXT_texture_webp") ||
-                    gltf_extended(g, texture, "KHR_texture_basisu"))) {
-        model_warn(g->m, g->r->name,
-                   "its pictures need EXT_texture_webp or KHR_texture_basisu, "
-                   "which is not read");
-        return 0;
+    if (!source) {
+        const uint32_t extensions = json_of(&g->j, texture, "extensions", JSON_OBJECT);
+        const json_value *needed = &g->j.value[extensions + 1];
+        return extensions && g->j.value[extensions].count
+                   ? known_take(g->r, g->m, KNOWN_TOLD, 0, g->j.text + needed->from, needed->size)
+                   : 0;
     }
-    if (!source) return 0;
     at = json_member(&g->j, texture, "sampler");
     if (gltf_item(g, GLTF_IMAGES, source, &image) ||
         (at && gltf_item(g, GLTF_SAMPLERS, at, &sampler)) ||
@@ -765,6 +769,28 @@ static inline int gltf_tell(gltf *g, uint32_t attributes)
     return 0;
 }
 
+/* Colours of vertices.  Integers are fractions also where a file forgets to say so: nothing else is
+   allowed. */
+static inline int gltf_colors(gltf *g, uint32_t attributes, int surface, size_t n, gltf_values *out)
+{
+    const uint32_t at = json_member(&g->j, attributes, "COLOR_0");
+    uint32_t object;
+    double type, most = 1;
+    int clear = 0;
+    if (gltf_attribute(g, attributes, "COLOR_0", 3, 4, n, out)) return 1;
+    if (!at || gltf_item(g, GLTF_ACCESSORS, at, &object)) return at != 0;
+    type = json_number_of(&g->j, object, "componentType", 0);
+    if (!json_of(&g->j, object, "normalized", JSON_TRUE))
+        most = type == 5121 ? 255 : type == 5123 ? 65535 : 1;
+    for (size_t i = 0; i < n * (size_t)out->width; i++) {
+        out->v[i] /= most;
+        clear |= out->width == 4 && i % 4 == 3 && out->v[i] < 1;
+    }
+    if (clear && surface != g->plain && !g->m->surface[surface].opaque)
+        model_warn(g->m, g->r->name, "the alpha of its COLOR_0 does not count");
+    return 0;
+}
+
 static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_vertices *v)
 {
     const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
@@ -778,7 +804,7 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
     snprintf(uv, sizeof uv, "TEXCOORD_%d", surface == g->plain ? 0 : (int)g->place[surface].set);
     if (gltf_attribute(g, attributes, "NORMAL", 3, 3, n, &v->normal) ||
         gltf_attribute(g, attributes, uv, 2, 2, n, &v->uv) ||
-        gltf_attribute(g, attributes, "COLOR_0", 3, 4, n, &v->color) ||
+        gltf_colors(g, attributes, surface, n, &v->color) ||
         gltf_attribute(g, attributes, "JOINTS_0", 4, 4, n, &v->joint[0]) ||
         gltf_attribute(g, attributes, "WEIGHTS_0", 4, 4, n, &v->weight[0]) ||
         gltf_attribute(g, attributes, "JOINTS_1", 4, 4, n, &v->joint[1]) ||
@@ -900,16 +926,26 @@ typedef struct gltf_instances {
     size_t count;
 } gltf_instances;
 
+/* 1: an accessor has no bytes: Draco has them. */
+static inline int gltf_bare(gltf *g, uint32_t at)
+{
+    uint32_t object;
+    return gltf_item(g, GLTF_ACCESSORS, at, &object) || !json_member(&g->j, object, "bufferView");
+}
+
 static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uint32_t node,
                                  const gltf_instances *in)
 {
     static const gltf_vertices none;
+    const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
+    const uint32_t at = json_member(&g->j, attributes, "POSITION");
     gltf_vertices v = none;
     double mode;
     int surface = 0, failed;
     gltf_place *place;
     if (gltf_whole(g, primitive, "mode", 4, &mode)) return 1;
-    if (gltf_extended(g, primitive, "KHR_draco_mesh_compression"))
+    if (!at) return 0; /* nothing to draw, says glTF */
+    if (gltf_extended(g, primitive, "KHR_draco_mesh_compression") && gltf_bare(g, at))
         return mesh_fail(g->r, "it needs KHR_draco_mesh_compression, which is not read");
     if (mode < 4 || mode > 6) {
         g->others = 1;
@@ -1002,15 +1038,14 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gather_matrix *at)
     return failed;
 }
 
-static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
+static inline int gltf_node(gltf *g, uint32_t node, const gather_matrix *above)
 {
-    uint32_t node, children, lower;
+    uint32_t children, lower, child;
     gather_matrix local, here;
     int failed = 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
         return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
                          GLTF_DEPTH);
-    if (gltf_item(g, GLTF_NODE, at, &node)) return 1;
     local = gltf_local(g, node);
     here = gather_product(above, &local);
     if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &here);
@@ -1018,7 +1053,7 @@ static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
     lower = children + 1;
     g->depth++;
     for (uint32_t i = 0; children && i < g->j.value[children].count && !failed; i++) {
-        failed = gltf_node(g, lower, &here);
+        failed = gltf_item(g, GLTF_NODE, lower, &child) || gltf_node(g, child, &here);
         lower = g->j.value[lower].end;
     }
     g->depth--;
@@ -1029,7 +1064,7 @@ static inline int gltf_node(gltf *g, uint32_t at, const gather_matrix *above)
 static inline int gltf_scene(gltf *g, int counting)
 {
     static const gather_matrix one = { { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
-    uint32_t scene = 0, roots, at = json_member(&g->j, JSON_ROOT, "scene");
+    uint32_t scene = 0, roots, node, at = json_member(&g->j, JSON_ROOT, "scene");
     int failed = 0;
     g->counting = counting;
     g->nodes = 0;
@@ -1038,13 +1073,13 @@ static inline int gltf_scene(gltf *g, int counting)
     roots = json_of(&g->j, scene, "nodes", JSON_ARRAY);
     at = roots + 1;
     for (uint32_t i = 0; scene && roots && i < g->j.value[roots].count && !failed; i++) {
-        failed = gltf_node(g, at, &one);
+        failed = gltf_item(g, GLTF_NODE, at, &node) || gltf_node(g, node, &one);
         at = g->j.value[at].end;
     }
     for (uint32_t i = 0; !scene && i < g->count[GLTF_NODE] && !failed; i++) {
-        const uint32_t node = g->item[GLTF_NODE][i];
-        if (g->parent[i] || g->j.value[node].kind != JSON_OBJECT) continue;
-        if (json_member(&g->j, node, "mesh")) failed = gltf_mesh(g, node, &one);
+        node = g->item[GLTF_NODE][i];
+        if (!g->parent[i] && g->j.value[node].kind == JSON_OBJECT)
+            failed = gltf_node(g, node, &one);
     }
     return failed;
 }

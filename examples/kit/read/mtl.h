@@ -54,16 +54,20 @@ static inline int mtl_number(mesh_reader *r, float lowest, float highest, float 
     return 0;
 }
 
-/* What a surface says of its transparency besides the number */
+/* What a surface says of its transparency besides the number, and of the places of pictures other
+   than map_Kd */
 typedef struct mtl_clear {
-    int has_d, mapped; /* mapped: there is a map_d */
+    int has_d, mapped, others; /* mapped: there is a map_d; others: another picture */
     char *map;
+    float move[4];
 } mtl_clear;
+static const mtl_clear mtl_fresh = { 0, 0, 0, NULL, { 0, 0, 1, 1 } };
 
 /* The name of a picture behind options, which begin with a dash: the numbers after one are its
    own, and of those that take a word the word.  What may be missing: *strength becomes the number
-   behind -bm, move the first two numbers behind -o and then those behind -s. */
-static inline int mtl_map(mesh_reader *r, char **map, float *strength, float *move)
+   behind -bm, move the first two numbers behind -o and then those behind -s.  -clamp on and -mm are
+   told. */
+static inline int mtl_map(mesh_reader *r, model *m, char **map, float *strength, float *move)
 {
     static const char *const worded[6] = { "-blendu", "-blendv",  "-cc",
                                            "-clamp",  "-imfchan", "-type" };
@@ -77,6 +81,12 @@ static inline int mtl_map(mesh_reader *r, char **map, float *strength, float *mo
         mesh_skip_blanks(r, 0);
         if (r->at == r->end || *r->at != '-') break;
         bm = strength && r->end - r->at > 3 && !memcmp(r->at, "-bm", 3);
+        ahead = *r;
+        if (mesh_take_word(&ahead, "-mm")) known_take(r, m, KNOWN_TOLD, 0, "-mm", 3);
+        if (mesh_take_word(&ahead, "-clamp")) {
+            mesh_skip_blanks(&ahead, 0);
+            if (mesh_take_word(&ahead, "on")) known_take(r, m, KNOWN_TOLD, 0, "-clamp on", 9);
+        }
         if (move && r->end - r->at > 3 && !memcmp(r->at, "-o ", 3)) to = move;
         if (move && r->end - r->at > 3 && !memcmp(r->at, "-s ", 3)) to = move + 2;
         while (k < 6 && !mesh_take_word(r, worded[k])) k++;
@@ -101,10 +111,17 @@ static inline int mtl_map(mesh_reader *r, char **map, float *strength, float *mo
 }
 
 /* A picture of its own for d is left out; mostly map_d names that of map_Kd again. */
-static inline int mtl_map_of_d(mesh_reader *r, mtl_clear *c)
+static inline int mtl_map_of_d(mesh_reader *r, model *m, mtl_clear *c)
 {
     c->mapped = 1;
-    return mtl_map(r, &c->map, NULL, NULL);
+    return mtl_map(r, m, &c->map, NULL, NULL);
+}
+
+/* A picture that moves as map_Kd does, or there is a warning */
+static inline int mtl_other(mesh_reader *r, model *m, mtl_clear *c, char **map, float *strength)
+{
+    c->others = 1;
+    return mtl_map(r, m, map, strength, c->move);
 }
 
 /* One statement about a surface.  Programs disagree about Tr: d is believed where both stand. */
@@ -116,12 +133,12 @@ static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_
     if (mesh_take_word(r, "ks")) return mtl_color(r, &k->specular);
     if (mesh_take_word(r, "ke")) return mtl_color(r, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
-    if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map, NULL, s->move);
-    if (mesh_take_word(r, "map_ke")) return mtl_map(r, &s->glow_map, NULL, NULL);
-    if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, c);
+    if (mesh_take_word(r, "map_kd")) return mtl_map(r, m, &s->map, NULL, s->move);
+    if (mesh_take_word(r, "map_ke")) return mtl_other(r, m, c, &s->glow_map, NULL);
+    if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, m, c);
     if (mesh_take_word(r, "map_bump") || mesh_take_word(r, "bump") || mesh_take_word(r, "norm") ||
         mesh_take_word(r, "map_kn"))
-        return mtl_map(r, &s->relief.map, &s->relief.strength, NULL);
+        return mtl_other(r, m, c, &s->relief.map, &s->relief.strength);
     if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, c->has_d ? &number : &s->transparency);
     if (!mesh_take_word(r, "d")) return known_word(r, m, mtl_known);
     if (mtl_number(r, 0, 1, &number)) return 1;
@@ -133,31 +150,35 @@ static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_
 /* The surface s, which may be NULL, is complete: decides whether the alpha of its map counts. */
 static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
 {
-    static const mtl_clear fresh;
+    if (s && c->others && !s->map) memcpy(s->move, c->move, sizeof s->move);
+    if (s && c->others && memcmp(c->move, s->move, sizeof s->move) != 0)
+        model_warn(m, s->map, "its -o and -s are not those of the other pictures");
     if (s && s->map) s->opaque = !c->mapped && s->transparency <= 0;
     if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))
         model_warn(m, c->map, "map_d counts only where it is the picture of map_Kd");
     free(c->map);
-    *c = fresh;
+    *c = mtl_fresh;
 }
 
-/* Fills the surfaces of m that stand in the text.  0: all is well; else the rest of the file is
-   not read, and r->error says why. */
+/* Fills the surfaces of m that stand in the text; of two with one name the first counts.  A
+   statement that is wrong costs no other one.  0: all is well; else r->error names the first. */
 static inline int mtl_read(mesh_reader *r, model *m)
 {
     model_surface *s = NULL;
-    mtl_clear clear = { 0, 0, NULL };
+    mtl_clear clear = mtl_fresh;
     int failed = 0;
-    while (r->at < r->end && !failed) {
+    while (r->at < r->end) {
         mesh_skip_blanks(r, 1);
         if (mesh_take_word(r, "newmtl")) {
             const unsigned char *begin = mesh_take_line(r);
             int number = model_find_surface(m, begin, (size_t)(r->at - begin), 0);
             mtl_finish(m, s, &clear);
-            s = number < 0 ? NULL : &m->surface[number];
+            s = number < 0 || m->surface[number].set ? NULL : &m->surface[number];
             if (s) s->set = 1;
-        } else if (s && r->at < r->end && *r->at != '#')
-            failed = mtl_statement(r, m, s, &clear);
+        } else if (s && r->at < r->end && *r->at != '#' && mtl_statement(r, m, s, &clear)) {
+            failed = 1;
+            r->error_size = 0;
+        }
         mesh_next_line(r, 1);
     }
     mtl_finish(m, s, &clear);

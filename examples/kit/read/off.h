@@ -1,17 +1,18 @@
 /* off.h - reads OFF files of text: OFF with C (colours of vertices), N (normals), ST (texture
-   coordinates, which are skipped), counts, one vertex or face a line, comments; colours behind the
-   corners of faces, as whole numbers to 255 or as fractions with a point.  Polygons may be concave.
-   4OFF, nOFF and OFF BINARY are refused. */
+   coordinates, which are skipped) in any order, counts, comments; each vertex and face begins a
+   line and may go on in the next ones; colours behind the corners of faces, as whole numbers to 255
+   or as fractions.  Polygons may be concave.  4OFF, nOFF and OFF BINARY are refused. */
 #ifndef MODEL_OFF_H
 #define MODEL_OFF_H
 
 #include "faces.h"
 
 /* What a file may begin with.  Normals are made anew. */
-static const known_name off_known[] = { { "OFF", KNOWN_DRAWN },          { "COFF", KNOWN_DRAWN },
-                                        { "NOFF", KNOWN_DRAWN },         { "CNOFF", KNOWN_DRAWN },
-                                        { "STOFF", KNOWN_TOLD },         { "4OFF", KNOWN_REFUSED },
-                                        { "OFF BINARY", KNOWN_REFUSED }, { NULL, KNOWN_REFUSED } };
+static const known_name off_known[] = { { "OFF", KNOWN_DRAWN },    { "COFF", KNOWN_DRAWN },
+                                        { "NOFF", KNOWN_DRAWN },   { "CNOFF", KNOWN_DRAWN },
+                                        { "NCOFF", KNOWN_DRAWN },  { "STOFF", KNOWN_TOLD },
+                                        { "4OFF", KNOWN_REFUSED }, { "OFF BINARY", KNOWN_REFUSED },
+                                        { NULL, KNOWN_REFUSED } };
 
 typedef struct off_data {
     mesh_floats position, color; /* color: of vertices, three each; of those before, where there */
@@ -19,6 +20,8 @@ typedef struct off_data {
     mesh_origin origin;
     faces faces;
     int has_color, has_normal, tinted;
+    int others;       /* there are numbers behind vertices or faces that are no colours */
+    double brightest; /* of whole numbers: to 1 they are fractions */
 } off_data;
 
 /* Moves to the next line with something on it.  Returns 1 where there is none. */
@@ -32,16 +35,23 @@ static inline int off_line(mesh_reader *r)
     }
 }
 
-/* The next number of a line */
+/* Moves to the next number, which may stand on the next line. */
+static inline void off_next(mesh_reader *r)
+{
+    const long long line = r->line;
+    mesh_skip_blanks(r, 0);
+    if (mesh_at_word_end(r) && off_line(r)) r->line = line;
+}
+
 static inline int off_number(mesh_reader *r, double *out)
 {
-    mesh_skip_blanks(r, 0);
+    off_next(r);
     return mesh_take_double(r, out);
 }
 
 static inline int off_coordinate(mesh_reader *r, double *out)
 {
-    mesh_skip_blanks(r, 0);
+    off_next(r);
     return mesh_take_coordinate(r, out);
 }
 
@@ -52,8 +62,15 @@ static inline int off_count(mesh_reader *r, double *out)
     return mesh_fail(r, "a count is no whole number");
 }
 
+/* 1: there is more on the line. */
+static inline int off_goes_on(mesh_reader *r)
+{
+    mesh_skip_blanks(r, 0);
+    return !mesh_at_word_end(r);
+}
+
 /* The rest of a line as red, green and blue; 0: there are none. */
-static inline int off_color(mesh_reader *r, uint32_t rgb[3])
+static inline int off_color(mesh_reader *r, off_data *o, uint32_t rgb[3])
 {
     mesh_reader ahead = *r;
     double value[3];
@@ -70,6 +87,7 @@ static inline int off_color(mesh_reader *r, uint32_t rgb[3])
     }
     for (int k = 0; k < 3; k++) {
         const double v = whole ? value[k] : 255 * value[k];
+        o->brightest = fmax(o->brightest, v);
         rgb[k] = (uint32_t)(fmin(255, fmax(0, v)) + 0.5);
     }
     return 1;
@@ -93,9 +111,10 @@ static inline int off_vertex(mesh_reader *r, off_data *o)
         if (off_coordinate(r, &unused)) return 1;
     mesh_relative(&o->origin, v, place);
     if (mesh_push(&o->position, place, 3)) return mesh_fail(r, "out of memory");
+    if (!o->has_color) o->others |= off_goes_on(r);
     if (!o->has_color) return 0;
-    if (!off_color(r, rgb)) return mesh_fail(r, "a vertex of COFF has no colour");
-    c = off_linear(rgb);
+    if (!off_color(r, o, rgb)) return mesh_fail(r, "a vertex of COFF has no colour");
+    c = shade_v3((float)rgb[0], (float)rgb[1], (float)rgb[2]);
     return mesh_push(&o->color, (const float *)&c, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -113,30 +132,51 @@ static inline int off_face(mesh_reader *r, off_data *o, double vertices)
         if (faces_corner(&o->faces, (uint32_t)corner)) return mesh_fail(r, "out of memory");
     }
     if (faces_end(&o->faces)) return mesh_fail(r, "out of memory");
-    if (off_color(r, rgb)) tint = 1 + (rgb[0] << 16 | rgb[1] << 8 | rgb[2]);
+    if (off_color(r, o, rgb))
+        tint = 1 + (rgb[0] << 16 | rgb[1] << 8 | rgb[2]);
+    else
+        o->others |= off_goes_on(r);
     o->tinted |= tint != 0;
     if (o->faces.triangles > before && mesh_push_uint(&o->tint, tint))
         return mesh_fail(r, "out of memory");
     return mesh_check_triangles(r, o->faces.triangles);
 }
 
+/* Takes OFF with the letters before it; the counts may follow without a blank. */
+static inline int off_letters(mesh_reader *r)
+{
+    const unsigned char *p = r->at;
+    mesh_reader behind = *r;
+    while (r->end - p > 3 && strchr("STCN", *p) && *p) p++;
+    behind.at = p;
+    if (r->end - p > 3 && !memcmp(p, "OFF", 3) && p[3] >= '0' && p[3] <= '9')
+        behind.at += 3;
+    else if (!mesh_take_word(&behind, "off"))
+        return 0;
+    r->at = behind.at;
+    return 1;
+}
+
 static inline int off_header(mesh_reader *r, off_data *o, model *m, double *vertices, double *count)
 {
+    const unsigned char *begin;
+    double edges;
+    long long line;
     mesh_skip_lines(r);
     while (r->at < r->end && *r->at == '#') off_line(r);
-    if (r->end - r->at > 2 && r->at[0] == 'S' && r->at[1] == 'T') {
-        known_take(r, m, KNOWN_TOLD, 0, r->at, 2);
-        r->at += 2;
+    begin = r->at;
+    if (!off_letters(r)) return mesh_fail(r, "expected OFF, found %s", mesh_here(r).text);
+    for (; begin < r->at; begin++) {
+        o->has_color |= *begin == 'C';
+        o->has_normal |= *begin == 'N';
+        if (*begin == 'T') known_take(r, m, KNOWN_TOLD, 0, "ST", 2);
     }
-    o->has_color = r->at < r->end && *r->at == 'C';
-    r->at += o->has_color;
-    o->has_normal = r->at < r->end && *r->at == 'N';
-    r->at += o->has_normal;
-    if (!mesh_take_word(r, "off")) return mesh_fail(r, "expected OFF, found %s", mesh_here(r).text);
     mesh_skip_blanks(r, 0);
     if (mesh_take_word(r, "binary")) return mesh_fail(r, "binary OFF is not read");
     if (mesh_at_word_end(r) && off_line(r)) return mesh_fail(r, "ends before the counts");
-    return off_count(r, vertices) || off_count(r, count);
+    line = r->line;
+    if (off_count(r, vertices) || off_count(r, count)) return 1;
+    return r->line != line && off_count(r, &edges); /* which some leave out on one line */
 }
 
 /* Gives each vertex one for each colour that its faces have, and counts these. */
@@ -174,15 +214,21 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
         const size_t vertex = o->tinted ? made.triple[i].k[0] : i;
         const uint32_t tint = o->tinted ? made.triple[i].k[1] : 0;
         const uint32_t bits = tint ? tint - 1 : 0xBFBFBFu;
-        const uint32_t rgb[3] = { bits >> 16, bits >> 8 & 255, bits & 255 };
+        uint32_t rgb[3] = { bits >> 16, bits >> 8 & 255, bits & 255 };
         shade_vec3 c;
         memcpy(m->positions + 3 * i, o->position.v + 3 * vertex, 12);
         if (!m->colors) continue;
+        for (int k = 0; k < 3; k++) {
+            if (!tint && o->has_color) rgb[k] = (uint32_t)o->color.v[3 * vertex + (size_t)k];
+            if ((tint || o->has_color) && o->brightest <= 1) rgb[k] *= 255;
+        }
         c = off_linear(rgb);
-        memcpy(m->colors + 3 * i, !tint && o->has_color ? o->color.v + 3 * vertex : &c.x, 12);
+        memcpy(m->colors + 3 * i, &c, sizeof c);
     }
     mesh_set_free(&made);
     if (failed) return mesh_fail(r, "out of memory");
+    if (o->others && !out->unread[0])
+        model_warn(out, r->name, "numbers behind its vertices or faces that are no colours");
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);
@@ -219,9 +265,6 @@ static inline int off_begins(const unsigned char *bytes, size_t size)
     mesh_reader r = mesh_of(bytes, size, "", NULL, 0);
     mesh_skip_lines(&r);
     while (r.at < r.end && *r.at == '#') off_line(&r);
-    if (r.end - r.at > 2 && r.at[0] == 'S' && r.at[1] == 'T') r.at += 2;
-    r.at += r.at < r.end && *r.at == 'C';
-    r.at += r.at < r.end && *r.at == 'N';
-    return r.end - r.at > 2 && !memcmp(r.at, "OFF", 3) && mesh_take_word(&r, "off");
+    return r.end - r.at > 2 && *r.at != 'o' && off_letters(&r);
 }
 #endif

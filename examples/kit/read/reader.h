@@ -579,15 +579,27 @@ static inline int mesh_take_double(mesh_reader *r, double *out)
     return 0;
 }
 
+/* Takes what C libraries of Windows print for a number that is none: 1.#IND00, 1.#QNAN0, 1.#INF00,
+   nan(ind).  The # does not begin a comment there. */
+static inline int mesh_take_undefined(mesh_reader *r)
+{
+    const unsigned char *p = r->at;
+    if (r->end - p < 6 || (memcmp(p, "1.#", 3) != 0 && memcmp(p, "nan(", 4) != 0)) return 0;
+    if (*p == '1' && memcmp(p + 3, "IN", 2) != 0 && memcmp(p + 4, "NA", 2) != 0) return 0;
+    while (r->at < r->end && !mesh_is_blank(*r->at)) r->at++;
+    return 1;
+}
+
 /* The same for a position, which scanners write as nan, -nan or inf where they saw nothing */
 static inline int mesh_take_coordinate(mesh_reader *r, double *out)
 {
     const unsigned char *const at = r->at;
-    int next; /* words begin with a letter: numbers do not wait for their comparison */
+    int next; /* words begin with a letter or 1.#: other numbers do not wait for comparisons */
     r->at += at < r->end && (*at == '-' || *at == '+');
     next = r->at < r->end ? *r->at : 0;
-    if (next > '9' &&
-        (mesh_take_word(r, "nan") || mesh_take_word(r, "inf") || mesh_take_word(r, "infinity"))) {
+    if ((next > '9' || next == '1') &&
+        (mesh_take_undefined(r) || mesh_take_word(r, "nan") || mesh_take_word(r, "inf") ||
+         mesh_take_word(r, "infinity"))) {
         *out = (double)NAN;
         return 0;
     }

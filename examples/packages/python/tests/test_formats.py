@@ -440,6 +440,7 @@ def test_two_meshes_of_one_object_count_their_own_vertices():
     (lambda t: t.replace(b'unit="millimeter"', b'unit="ell"'), "unit of model is none of 3MF"),
     (lambda t: t.replace(b'v1="0"', b'v1="99"'), "a vertex that is not there"),
     (lambda t: t.replace(b'objectid="1"', b'objectid="2"'), "there is no object 2"),
+    (lambda t: t.replace(b"<triangle ", b"<zebra "), "no faces in it, but zebra, which is not read"),
     (lambda t: t.decode().encode("utf-16"), "UTF-16, which is not read"),
     (lambda t: t + b"<model/>", "its XML is wrong")])
 def test_damaged_3mf_is_refused(change, words):
