@@ -56,7 +56,7 @@ static inline int stl_word(mesh_reader *r, stl_data *s, uint32_t word)
 enum { STL_BLOCK = MESH_BLOCK / 3 };
 static inline int stl_block(mesh_reader *r, stl_data *s, size_t n)
 {
-    float p[3 * MESH_BLOCK];
+    float p[3 * MESH_BLOCK] = { 0 }; /* gcc does not know that n is not 0 */
     uint32_t number[MESH_BLOCK];
     int finite = 1, failed = 0;
     for (size_t i = 0; i < n; i++)
