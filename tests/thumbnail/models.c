@@ -317,7 +317,7 @@ static void surfaces(void)
 {
     text("flat.mtl", "newmtl flat\nKe 0.7 0.4 0.2\nKd 0 0 0\n");
     text("flat.obj", "mtllib flat.mtl\nusemtl flat\n" SQUARE "f 1 2 3 4\n");
-    text("map.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd -clamp on the map.tga\n");
+    text("map.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd -clamp off the map.tga\n");
     text("map.obj", "mtllib map.mtl\nusemtl map\n" SQUARE "f 1/1 2/2 3/3 4/4\n");
     text("holes.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd holes.tga\nmap_d holes.tga\n");
     text("whole.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd holes.tga\n");

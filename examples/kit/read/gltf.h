@@ -782,10 +782,9 @@ static inline int gltf_colors(gltf *g, uint32_t attributes, int surface, size_t 
     type = json_number_of(&g->j, object, "componentType", 0);
     if (!json_of(&g->j, object, "normalized", JSON_TRUE))
         most = type == 5121 ? 255 : type == 5123 ? 65535 : 1;
-    for (size_t i = 0; i < n * (size_t)out->width; i++) {
-        out->v[i] /= most;
-        clear |= out->width == 4 && i % 4 == 3 && out->v[i] < 1;
-    }
+    if (most > 1 && !out->v && gltf_copy(g, out)) return 1;
+    for (size_t i = 0; most > 1 && i < n * (size_t)out->width; i++) out->v[i] /= most;
+    for (size_t i = 0; i < n && out->width == 4; i++) clear |= gltf_value(out, i, 3) < 1;
     if (clear && surface != g->plain && !g->m->surface[surface].opaque)
         model_warn(g->m, g->r->name, "the alpha of its COLOR_0 does not count");
     return 0;
