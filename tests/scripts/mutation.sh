@@ -30,7 +30,7 @@ python3 tests/scripts/mutate.py shade.h "$seed" $((want * 2)) "$T" ${since:+"$T/
 
 printf '#include "%s"\n' "$H"/tests/unit/*.c >"$T/tests.c"
 # Mutants of the implementation are linked to tests compiled once; of inline functions, to all.
-FLAGS="-std=c99 -w -DSHADE_NO_DISPATCH -include $H/tests/unit/count.h"
+FLAGS="-std=c99 -w -D_DEFAULT_SOURCE -DSHADE_NO_DISPATCH -include $H/tests/unit/count.h"
 gcc $FLAGS -O2 -I. -DSHADE__IMPLEMENTED -c "$T/tests.c" -o "$T/tests.o" || exit 1
 build() {                       # the folder of a shade.h, public or implementation
     if [ "$2" = public ]; then gcc $FLAGS -O1 -I"$1" "$T/tests.c" -lm -o "$T/run"
