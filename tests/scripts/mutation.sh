@@ -54,7 +54,7 @@ first() {                       # sections of the tests that know a section of s
     texture) echo texture ;; check) echo check ;; drive) echo drive resolve ;;
     mesh) echo mesh texture own ;; lines) echo lines ;; shape) echo shape ;;
     camera) echo camera ray ;; chunks) echo chunks ;; rays) echo ray camera ;;
-    survey | explain) echo explain ;; replay) echo explain_pipelines ;;
+    survey | explain) echo explain_more explain ;; replay) echo explain_pipelines ;;
     image) echo resolve texture drive store ;;
     esac
 }
