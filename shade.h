@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8140  why nothing is seen   >>replay    9310  of lines, pipelines
-       >>image     9637  mipmaps, PPM           >>presets   9949  classic materials
+       >>explain   8140  why nothing is seen   >>replay    9306  of lines, pipelines
+       >>image     9633  mipmaps, PPM           >>presets   9945  classic materials
      Sources
-       >>refs     10025                        >>history  10055
-       >>license  10061
+       >>refs     10021                        >>history  10051
+       >>license  10057
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8295,16 +8295,15 @@ typedef struct shade__rung {
     const char *sentence;                /* NULL: this may be meant, the ladder ends */
 } shade__rung;
 
-/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault,
-   and two faults at once are found as well. */
+/* Returns the sentence of the first true rung; the last one always is.  Changes are kept in q: the
+   last one names the fault, and two faults at once are found as well. */
 static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
 {
-    for (; rung->change; rung++)
-        if (rung->change(q)) return rung->sentence;
-    return NULL;
+    while (!rung->change(q)) rung++;
+    return rung->sentence;
 }
 
-/* The same, but each rung changes a copy. */
+/* Returns the first true sentence, or NULL; each rung changes a copy. */
 static const char *shade__climb(const shade__survey *s, const shade__rung *rung)
 {
     for (; rung->change; rung++) {
@@ -8452,7 +8451,6 @@ static const shade__rung shade__nothing[] = {
     { shade__always,
       "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen edge-on, "
       "or lies beside the picture; check state.model and state.view." },
-    { NULL, NULL }
 };
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
@@ -8881,7 +8879,6 @@ static const shade__rung shade__black[] = {
     { shade__lamps_are_many, shade__multiply },
     { shade__sides_show, shade__multiply },
     { shade__always, shade__no_color },
-    { NULL, NULL }
 };
 
 /* ---- the mesh is lit, but wrongly */
@@ -9058,7 +9055,6 @@ static const shade__rung shade__flat[] = {
     { shade__lamps_are_many, NULL },
     { shade__sides_show, NULL },
     { shade__always, shade__no_color },
-    { NULL, NULL }
 };
 
 /* ---- numbers that may be meant, but seldom are */

@@ -10,7 +10,7 @@ H=$PWD
 for tool in gcc gcov python3; do
     command -v $tool >/dev/null || { echo "left out: no $tool"; exit 0; }
 done
-FLAGS="-std=c99 -D_DEFAULT_SOURCE -DTEST_SHARE=8 -w -O0 --coverage -fprofile-filter-files=shade\.h$ -Dalways_inline=unused -DSHADE__AS_COMPILED"
+FLAGS="-std=c99 -D_DEFAULT_SOURCE -w -O0 --coverage -fprofile-filter-files=shade\.h$ -Dalways_inline=unused -DSHADE__AS_COMPILED"
 
 # An option build: its folder, its options, then the sections to run ("": all).
 build() {

@@ -193,6 +193,12 @@ NEAR(inside_out)
     if (!miss) stage_turn(s, 0);
     s->lamps[0].position = shade_v4(0, 1, 9, 1);
     s->lamps[1] = shade_directional_light(shade_v3(0, 1, 0.4f), WHITE);
+    if (miss == 2) {    /* a model that holds the camera may mean anything */
+        stage_turn(s, 0);
+        s->state.model = shade_mat4_mul(s->state.projection, s->state.view);
+        memset(&s->state.view, 0, sizeof s->state.view);
+        memset(&s->state.projection, 0, sizeof s->state.projection);
+    }
 }
 NEAR(later)
 {
@@ -272,6 +278,14 @@ NEAR(emission)
     if (miss == 5) s->material.emission.y = 0.99f;
 }
 NEAR(bias) { s->state.raster.depth_bias = miss ? -0.9f : -1.0f; }
+/* A mesh that a view without its last 1 puts at one depth, beyond far or not */
+NEAR(beside_of_one_depth)
+{
+    s->state.view.col[3].w = 0;
+    s->state.projection = shade_mat4_mul(s->state.projection, s->state.view);
+    memset(&s->state.view, 0, sizeof s->state.view);
+    if (miss) s->state.projection = shade_mat4_perspective(s->fovy, s->aspect, 50, 90);
+}
 NEAR(clip)
 {
     s->target.clip_x = 40;
@@ -382,11 +396,12 @@ static const struct near {
     ROW_OF(second_eye, "Highlights belong", 2), ROW(view_by_rows, "state.view looks transposed"),
     ROW(beyond_far, "beyond the far plane"), ROW(behind_of_pixels, "Every lamp is behind"),
     ROW(material_of_twins, "state.material reflects"),
-    ROW(inside_out, "inside out"), ROW(later, "Triangles drawn later"),
+    ROW_OF(inside_out, "inside out", 2), ROW(later, "Triangles drawn later"),
     ROW(always, "Triangles drawn later"), ROW_OF(test_is_turned, "does not fit", 2),
     ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),
     ROW(stored_alpha, "stored as alpha"), ROW(shininess, "shininess is below 1"),
     ROW_OF(emission, "emission alone", 5), ROW(bias, "depth of all pixels"),
+    ROW(beside_of_one_depth, "beside the picture, before near"),
     ROW(clip, "lies beyond the picture"), ROW_OF(box, "does not hold its triangles", 2),
     ROW_OF(unset_view, "state.view is unset", 2), ROW_OF(texels, "reach the width", 2),
     ROW_OF(aspect, "The aspect of", 4), ROW(aspect_of_cells, "The aspect of"),
