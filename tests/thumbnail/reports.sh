@@ -237,6 +237,8 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     check "whose alpha is told" said "the alpha of its COLOR_0 does not count"
     printf '\377\376v\000 \0001\000' >"$T/wide.obj"
     bad_model "UTF-16" wide.obj "wide.obj:1: its text is UTF-16, which is not read"
+    printf 'OFF\n4 4\n6\n0\n0 0 2\n0 0 0\n1.5 0 0\n0 1\n3 0 1 2\n3 0 1 3\n' >"$T/flows.off"
+    bad_model "vertices that end within lines" flows.off "flows.off:5: a vertex ends in the middle"
     library() {                 # the name of a library, statements of a material that is red at last
         printf "newmtl r\n$2\nKd 1 0 0\n" >"$T/library.mtl"
         printf 'mtllib %s\nusemtl r\n'"$wedge$faces" "$1" >"$T/library.obj"

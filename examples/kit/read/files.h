@@ -146,7 +146,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
     else if (mesh_is_utf16(begin, size))
-        failed = mesh_fail(&r, "its text is UTF-16, which is not read");
+        failed =
+            mesh_fail(&r, "its text is UTF-16, which is not read: save OBJ and others as UTF-8");
     else if (mesh_is_threemf(name, begin, size))
         failed = threemf_read(&r, m);
     else if (mesh_is_gltf(name, begin, size))

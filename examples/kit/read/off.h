@@ -105,13 +105,19 @@ static inline int off_vertex(mesh_reader *r, off_data *o)
     uint32_t rgb[3];
     shade_vec3 c;
     float place[3];
-    for (int k = 0; k < 3; k++)
+    long long line = 0;
+    for (int k = 0; k < 3; k++) {
         if (off_coordinate(r, &v[k])) return 1;
+        if (!k) line = r->line;
+    }
     for (int k = 0; k < 3 && o->has_normal; k++)
         if (off_coordinate(r, &unused)) return 1;
     mesh_relative(&o->origin, v, place);
     if (mesh_push(&o->position, place, 3)) return mesh_fail(r, "out of memory");
-    if (!o->has_color) o->others |= off_goes_on(r);
+    if (!o->has_color && off_goes_on(r)) { /* of the next vertex, where lines break anywhere */
+        if (r->line != line) return mesh_fail(r, "a vertex ends in the middle of the line");
+        o->others = 1;
+    }
     if (!o->has_color) return 0;
     if (!off_color(r, o, rgb)) return mesh_fail(r, "a vertex of COFF has no colour");
     c = shade_v3((float)rgb[0], (float)rgb[1], (float)rgb[2]);
