@@ -44,6 +44,9 @@ alike() {                       # two such lines: as many triangles, edges in th
 formats=$(sed -n '/model_by_assimp\[\] = {/,/};/{s/^[^{]*{//;s/NULL//;s/[^a-z0-9]/ /g;p;}' examples/kit/read/read.h)
 check "formats of assimp" test $(echo $formats | wc -w) -gt 15
 for k in $formats; do check "$k is compared" grep -qi "^[^# ]*\.$k " tests/thumbnail/compared.txt; done
+for k in $("$THUMBNAIL" --help | sed -n 's/^formats: .* by assimp \(.*\) and more$/\1/p' | tr -d , | tr A-Z a-z); do
+    check "$k, which --help names" among "$k" "$(echo $formats)"
+done
 for k in blend ifc bvh xyz; do
     printf 'BLENDER-v276' >"$T/other.$k"
     bad_model ".$k is not asked for" other.$k "other.$k: \.$k files are not read"

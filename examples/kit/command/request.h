@@ -33,7 +33,7 @@
 /* After all options: what is read, as this program is built */
 #ifdef MODEL_ASSIMP
 #define MODEL_FORMATS                                                                              \
-    "formats: OBJ with MTL, STL, PLY, OFF, glTF, GLB, 3MF; by assimp FBX, 3DS, DAE, BLEND and "    \
+    "formats: OBJ with MTL, STL, PLY, OFF, glTF, GLB, 3MF; by assimp FBX, 3DS, DAE, LWO and "      \
     "more\n"
 #else
 #define MODEL_FORMATS "formats: OBJ with MTL, STL, PLY, OFF, glTF, GLB, 3MF\n"

@@ -325,11 +325,7 @@ static int tree_finish(tree *t, model *m)
 /* 1: the format says which axis is up, once for all files or in each, and assimp turns it to y. */
 static int tells_up(const char *kind)
 {
-    static const char *const told[] = { "",     "dae", "fbx", "wrl",  "vrml", "x3d",
-                                        "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
-    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
-        if (!strcmp(kind, told[i])) return 1;
-    return 0;
+    return !*kind || !strcmp(kind, "dae") || !strcmp(kind, "fbx");
 }
 
 /* The message of assimp in one line */
@@ -405,7 +401,7 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     }
     t.reader = &r;
     t.model = m;
-    m->z_up = !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
+    m->z_up = !strcmp(kind.text, "amf");
     m->up_told = m->z_up || tells_up(kind.text);
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)
