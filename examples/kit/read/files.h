@@ -333,15 +333,15 @@ static inline void model_read_libraries(const char *path, model *m)
     for (int i = 0; i < m->library_count; i++) {
         char error[300] = "out of memory", unheard[300] = "out of memory";
         char *name = m->library[i], *blank = strchr(name, ' ');
+        const char *last = model_last(name);
         if (!model_read_library(path, name, m, error, sizeof error)) continue;
-        if (!model_read_library(path, model_last(name), m, unheard, sizeof unheard)) continue;
+        if (last > name && !model_read_library(path, last, m, unheard, sizeof unheard)) continue;
         if (!blank) model_warn(m, path, error);
         while (blank) {
-            char *last = blank;
-            *last = 0;
+            *blank = 0;
             if (*name && model_read_library(path, name, m, error, sizeof error))
                 model_warn(m, path, error);
-            name = last + 1;
+            name = blank + 1;
             blank = strchr(name, ' ');
             if (!blank && *name && model_read_library(path, name, m, error, sizeof error))
                 model_warn(m, path, error);
