@@ -360,8 +360,10 @@ static inline int gltf_count_of(gltf *g, uint32_t at, double *count)
     return gltf_item(g, GLTF_ACCESSORS, at, &object) || gltf_whole(g, object, "count", -1, count);
 }
 
-/* The values of an accessor of least to most components; free v afterwards, also where it fails. */
-static inline int gltf_read_values(gltf *g, uint32_t at, int least, int most, gltf_values *out)
+/* The values of an accessor of least to most components; free v afterwards, also where it fails.
+   fractions: whole numbers count as normalized also where the file does not say so */
+static inline int gltf_read_values(gltf *g, uint32_t at, int least, int most, int fractions,
+                                   gltf_values *out)
 {
     static const char *const types[] = { "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4" };
     static const int widths[] = { 1, 2, 3, 4, 16 };
@@ -378,7 +380,8 @@ static inline int gltf_read_values(gltf *g, uint32_t at, int least, int most, gl
     out->type = (int)type - GLTF_BYTE;
     if (out->width < least || out->width > most || out->type < 0 || out->type > 6 || out->type == 4)
         return mesh_fail(g->r, "an accessor has the wrong type");
-    out->normalized = json_of(&g->j, object, "normalized", JSON_TRUE) != 0;
+    out->normalized = json_of(&g->j, object, "normalized", JSON_TRUE) ||
+                      (fractions && (type == 5121 || type == 5123));
     view = json_member(&g->j, object, "bufferView");
     sparse = json_of(&g->j, object, "sparse", JSON_OBJECT);
     if (count > (view ? (double)INT_MAX : GLTF_BARE))
@@ -398,7 +401,7 @@ static inline int gltf_attribute(gltf *g, uint32_t attributes, const char *name,
     const uint32_t at = json_member(&g->j, attributes, name);
     *out = none;
     if (!at) return 0;
-    if (gltf_read_values(g, at, least, most, out)) return 1;
+    if (gltf_read_values(g, at, least, most, !strcmp(name, "COLOR_0"), out)) return 1;
     return out->count == count ? 0 : mesh_fail(g->r, "%s has not a value for each vertex", name);
 }
 
@@ -475,7 +478,7 @@ static inline int gltf_joints(gltf *g, uint32_t node, gather_matrix **out, uint3
     if (!joints) return mesh_fail(g->r, "a skin has no joints");
     *count = g->j.value[joints].count;
     inverse = json_member(&g->j, skin, "inverseBindMatrices");
-    if (inverse && (gltf_read_values(g, inverse, 16, 16, &bind) || bind.count < *count)) {
+    if (inverse && (gltf_read_values(g, inverse, 16, 16, 0, &bind) || bind.count < *count)) {
         free(bind.v);
         return mesh_fail(g->r, "a skin has not a matrix for each joint");
     }
@@ -769,21 +772,11 @@ static inline int gltf_tell(gltf *g, uint32_t attributes)
     return 0;
 }
 
-/* Colours of vertices.  Integers are fractions also where a file forgets to say so: nothing else is
-   allowed. */
+/* Colours of vertices, whose alpha is told of where it would show */
 static inline int gltf_colors(gltf *g, uint32_t attributes, int surface, size_t n, gltf_values *out)
 {
-    const uint32_t at = json_member(&g->j, attributes, "COLOR_0");
-    uint32_t object;
-    double type, most = 1;
     int clear = 0;
     if (gltf_attribute(g, attributes, "COLOR_0", 3, 4, n, out)) return 1;
-    if (!at || gltf_item(g, GLTF_ACCESSORS, at, &object)) return at != 0;
-    type = json_number_of(&g->j, object, "componentType", 0);
-    if (!json_of(&g->j, object, "normalized", JSON_TRUE))
-        most = type == 5121 ? 255 : type == 5123 ? 65535 : 1;
-    if (most > 1 && !out->v && gltf_copy(g, out)) return 1;
-    for (size_t i = 0; most > 1 && i < n * (size_t)out->width; i++) out->v[i] /= most;
     for (size_t i = 0; i < n && out->width == 4; i++) clear |= gltf_value(out, i, 3) < 1;
     if (clear && surface != g->plain && !g->m->surface[surface].opaque)
         model_warn(g->m, g->r->name, "the alpha of its COLOR_0 does not count");
@@ -797,7 +790,7 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
     char uv[24];
     size_t n;
     if (gltf_tell(g, attributes)) return 1;
-    if (gltf_read_values(g, json_member(&g->j, attributes, "POSITION"), 3, 3, &v->position))
+    if (gltf_read_values(g, json_member(&g->j, attributes, "POSITION"), 3, 3, 0, &v->position))
         return 1;
     n = v->position.count;
     snprintf(uv, sizeof uv, "TEXCOORD_%d", surface == g->plain ? 0 : (int)g->place[surface].set);
@@ -809,7 +802,7 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
         gltf_attribute(g, attributes, "JOINTS_1", 4, 4, n, &v->joint[1]) ||
         gltf_attribute(g, attributes, "WEIGHTS_1", 4, 4, n, &v->weight[1]))
         return 1;
-    if (index && gltf_read_values(g, index, 1, 1, &v->index)) return 1;
+    if (index && gltf_read_values(g, index, 1, 1, 0, &v->index)) return 1;
     for (size_t i = 0; i < v->index.count; i++)
         if (!(gltf_value(&v->index, i, 0) >= 0 && gltf_value(&v->index, i, 0) < (double)n))
             return mesh_fail(g->r, "an index points behind the vertices");
