@@ -61,13 +61,19 @@ def _vector(name: str, value: Any, length: int) -> Array:
 
 
 class _Attribute:
-    """An attribute of an object that is checked when it is set."""
+    """An attribute of an object that is checked when it is set: checked returns what it becomes."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
 
     def __get__(self, one: Any, kind: type | None = None) -> Any:
         return one.__dict__[self.name]
+
+    def __set__(self, one: Any, value: Any) -> None:
+        one.__dict__[self.name] = self.checked(one, value)
+
+    def checked(self, one: Any, value: Any) -> Any:
+        raise NotImplementedError
 
 
 class _Number(_Attribute):
@@ -77,10 +83,9 @@ class _Number(_Attribute):
     def __init__(self, low: float | str, high: float | str, open_low: bool = True, none: bool = False) -> None:
         self.low, self.high, self.open_low, self.none = low, high, open_low, none
 
-    def __set__(self, one: Any, value: Any) -> None:
+    def checked(self, one: Any, value: Any) -> Any:
         if value is None and self.none:
-            one.__dict__[self.name] = None
-            return
+            return None
         if value is None:
             raise TypeError(f"{self.name} must be a number, not None")
         low, high = (one.__dict__.get(end, math.inf) if isinstance(end, str) else end
@@ -88,7 +93,7 @@ class _Number(_Attribute):
         got = arguments.number(self.name, value, low, high)
         if self.open_low and got <= low:
             raise Error(f"{self.name} must be above {low:g}, not {got:g}")
-        one.__dict__[self.name] = got
+        return got
 
 
 class _Slot(_Attribute):
@@ -97,10 +102,10 @@ class _Slot(_Attribute):
     def __init__(self, kind: type) -> None:
         self.kind = kind
 
-    def __set__(self, one: Any, value: Any) -> None:
+    def checked(self, one: Any, value: Any) -> Any:
         if value is not None and not isinstance(value, self.kind):
             raise TypeError(f"{self.name} must be a {self.kind.__name__}, not {arguments.shown(value)}")
-        one.__dict__[self.name] = value
+        return value
 
 
 class _Colour(_Attribute):
@@ -109,19 +114,19 @@ class _Colour(_Attribute):
     def __init__(self, channels: int) -> None:
         self.channels = channels
 
-    def __set__(self, one: Any, value: Any) -> None:
+    def checked(self, one: Any, value: Any) -> Any:
         if value is None:
             raise Error(f"{self.name} must be a colour, not None")
-        one.__dict__[self.name] = _vector(self.name, value, self.channels)
+        return _vector(self.name, value, self.channels)
 
 
 class _AlphaMode(_Attribute):
     """A word of glTF."""
 
-    def __set__(self, one: Any, value: Any) -> None:
+    def checked(self, one: Any, value: Any) -> Any:
         if arguments.choice(self.name, value, ["OPAQUE", "BLEND", "MASK"]) == "MASK":
-            warnings.warn("alphaMode: MASK is drawn as OPAQUE", stacklevel=2)
-        one.__dict__[self.name] = value
+            warnings.warn("alphaMode: MASK is drawn as OPAQUE", stacklevel=3)
+        return value
 
 
 class MetallicRoughnessMaterial:
