@@ -1032,7 +1032,7 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gather_matrix *at)
 
 static inline int gltf_node(gltf *g, uint32_t node, const gather_matrix *above)
 {
-    uint32_t children, lower, child;
+    uint32_t children, lower, below;
     gather_matrix local, here;
     int failed = 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
@@ -1045,7 +1045,7 @@ static inline int gltf_node(gltf *g, uint32_t node, const gather_matrix *above)
     lower = children + 1;
     g->depth++;
     for (uint32_t i = 0; children && i < g->j.value[children].count && !failed; i++) {
-        failed = gltf_item(g, GLTF_NODE, lower, &child) || gltf_node(g, child, &here);
+        failed = gltf_item(g, GLTF_NODE, lower, &below) || gltf_node(g, below, &here);
         lower = g->j.value[lower].end;
     }
     g->depth--;
