@@ -244,7 +244,7 @@ static inline int mesh_set_find(const mesh_set *s, mesh_triple t, uint32_t *numb
 /* The triples as floats whose bits they are, to be freed by the caller.  NULL: out of memory */
 static inline float *mesh_set_take(mesh_set *s)
 {
-    float *out = (float *)realloc(s->triple, (s->count + 1) * sizeof *s->triple);
+    float *out = (float *)realloc(s->triple, 3 * (s->count + 1) * sizeof *out);
     s->triple = out ? NULL : s->triple;
     for (size_t i = 0; out && i < 3 * s->count; i++) {
         float v;
