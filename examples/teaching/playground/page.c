@@ -108,7 +108,7 @@ static owned_mesh shape_of(int shape, int detail)
     }
 }
 
-static page_mesh *mesh_of(int shape)
+static page_mesh *shape_mesh(int shape)
 {
     page_mesh *m = &meshes[shape];
     int detail = (int)state.detail > 1 ? (int)state.detail : 1;
@@ -126,7 +126,7 @@ static page_mesh *mesh_of(int shape)
 PAGE(const float *, page_bounds)(int shape, int detail)
 {
     state.detail = (float)detail;
-    return mesh_of(shape)->bounds;
+    return shape_mesh(shape)->bounds;
 }
 
 /* Room for the bytes of a file and its name; NULL: none. */
@@ -152,7 +152,7 @@ PAGE(const char *, page_load)(void *bytes, size_t size, const char *name)
     return error;
 }
 
-PAGE(int, page_triangles)(int shape) { return mesh_of(shape)->mesh.view.index_count / 3; }
+PAGE(int, page_triangles)(int shape) { return shape_mesh(shape)->mesh.view.index_count / 3; }
 
 /* ---- the picture ----------------------------------------------------------------------------- */
 
@@ -220,7 +220,7 @@ static const owned_mesh *room_of(void)
 
 static void draw_panel(const shade_target *target, int panel)
 {
-    page_mesh *m = mesh_of((int)state.shape);
+    page_mesh *m = shape_mesh((int)state.shape);
     const shade_mesh *mesh = &m->mesh.view;
     shade_material material = material_of(panel);
     page_scene s;
@@ -354,7 +354,7 @@ typedef struct page_part {
 static page_part part_of(const page_scene *s, int part, int panel)
 {
     const shade_mat4 tilt = shade_mat4_rotation(state.pitch, shade_v3(1, 0, 0));
-    page_part p = { &mesh_of((int)state.shape)->mesh.view, s->draw.model, tilt,
+    page_part p = { &shape_mesh((int)state.shape)->mesh.view, s->draw.model, tilt,
                     material_of(panel) };
     p.turned = shade_mat4_mul(tilt, shade_mat4_rotation(state.yaw, shade_v3(0, 1, 0)));
     if (part == PAGE_MODEL) return p;
