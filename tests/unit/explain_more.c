@@ -110,6 +110,28 @@ NEAR(behind)
     s->eye = shade_v3(0, 0, 4);
     stage_look(s);
 }
+/* A small triangle with a highlight, and a large one with none.  Diffuse light is not asked for,
+   but decides whether the large one faces the lamp. */
+NEAR(behind_of_highlights)
+{
+    near_triangles(s);
+    for (int i = 0; i < 6; i++) {
+        s->position[i].x = s->position[i].x * (i < 3 ? 0.1f : 0.5f) + (i < 3 ? -1.5f : 0.5f);
+        if (i < 3) s->position[i].y *= 0.1f;
+        else s->normal[i] = shade_v3(0, 1, miss ? 0.1f : -0.1f);
+    }
+    s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_SPECULAR;
+    s->state.lighting.ambient = s->material.ambient = WHITE;
+    s->material.shininess = 60;
+}
+/* Emission of one channel is light, too. */
+NEAR(behind_of_emission)
+{
+    near_behind(s, 0);
+    if (miss == 1) s->material.emission.x = 0.5f;
+    if (miss == 2) s->material.emission.y = 0.5f;
+    if (miss == 3) s->material.emission.z = 0.5f;
+}
 /* A narrow cone on the ball: its light is before faces in view, though it meets few of them. */
 NEAR(behind_of_a_cone)
 {
@@ -198,6 +220,16 @@ NEAR(inside_out)
         s->state.model = shade_mat4_mul(s->state.projection, s->state.view);
         memset(&s->state.view, 0, sizeof s->state.view);
         memset(&s->state.projection, 0, sizeof s->state.projection);
+    }
+}
+/* Parallel sight; where the farthest fragment is asked for, backs are what one sees. */
+NEAR(inside_out_of_boxes)
+{
+    near_inside_out(s, 0);
+    s->state.projection = shade_mat4_ortho(-2, 2, -2, 2, 0.1f, 30);
+    if (miss) {
+        s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+        s->clear = 0;
     }
 }
 NEAR(later)
@@ -386,6 +418,8 @@ static const struct near {
     ROW(by_rows, "transposed"), ROW(equal, "is SHADE_COMPARE_EQUAL"),
     ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
     ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
+    ROW(behind_of_highlights, "Every lamp is behind"),
+    ROW_OF(behind_of_emission, "Every lamp is behind", 3),
     ROW(cone, "No cone"), ROW(no_colour, "no colour"), ROW(no_light, "There is no light"),
     ROW(material, "state.material reflects"), ROW(alpha, "Alpha is 0"),
     ROW(terms, "leaves out every term"), ROW(colors, "mesh.colors, or the texels"),
@@ -396,8 +430,9 @@ static const struct near {
     ROW_OF(second_eye, "Highlights belong", 2), ROW(view_by_rows, "state.view looks transposed"),
     ROW(beyond_far, "beyond the far plane"), ROW(behind_of_pixels, "Every lamp is behind"),
     ROW(material_of_twins, "state.material reflects"),
-    ROW_OF(inside_out, "inside out", 2), ROW(later, "Triangles drawn later"),
-    ROW(always, "Triangles drawn later"), ROW_OF(test_is_turned, "does not fit", 2),
+    ROW_OF(inside_out, "inside out", 2), ROW(inside_out_of_boxes, "inside out"),
+    ROW(later, "Triangles drawn later"), ROW(always, "Triangles drawn later"),
+    ROW_OF(test_is_turned, "does not fit", 2),
     ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),
     ROW(stored_alpha, "stored as alpha"), ROW(shininess, "shininess is below 1"),
     ROW_OF(emission, "emission alone", 5), ROW(bias, "depth of all pixels"),
