@@ -124,6 +124,31 @@ NEAR(behind_of_highlights)
     s->state.lighting.ambient = s->material.ambient = WHITE;
     s->material.shininess = 60;
 }
+/* Both triangles face away, but the small one shines at a flat angle where highlights are open. */
+NEAR(behind_of_open_highlights)
+{
+    near_behind_of_highlights(s, 0);
+    for (int i = 0; i < 6; i++)
+        s->normal[i] = i < 3 ? shade_v3(1, 0, -0.02f) : shade_v3(0, 1, -1);
+    s->material.shininess = 0.5f;
+    s->state.lighting.flags = miss ? 0 : SHADE_FLAG_UNGATED_SPECULAR;
+}
+/* Wide ones show on more than a tenth. */
+NEAR(behind_of_wide_highlights)
+{
+    near_behind(s, 0);
+    s->state.lighting.flags = miss ? SHADE_FLAG_UNGATED_SPECULAR : 0;
+}
+/* A dim lamp that grazes one vertex is not before the pixels to which its light spreads. */
+NEAR(behind_of_vertices)
+{
+    near_behind_of_pixels(s, 0);
+    s->state.shading = SHADE_SHADING_PER_VERTEX;
+    s->normal[0].z = miss ? -1.0f : -0.1f;
+    s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+    s->state.lighting.ambient = s->material.ambient = WHITE;
+    stage_lamp(s, shade_directional_light(shade_v3(0, 0, 1), shade_v3(0.3f, 0.3f, 0.3f)));
+}
 /* Emission of one channel is light, too. */
 NEAR(behind_of_emission)
 {
@@ -152,6 +177,15 @@ NEAR(attenuated)
 NEAR(cone)
 {
     stage_lamp(s, shade_spot_light(s->eye, shade_v3(0, miss ? -1.0f : 1.0f, -4), 0.2f, 0, WHITE));
+}
+/* The second lamp, which is dark, meets the mesh. */
+NEAR(cone_of_two)
+{
+    const shade_vec3 dark = shade_v3(1e-3f, 1e-3f, 1e-3f);
+    near_cone(s, 0);
+    s->lamps[1] =
+        shade_spot_light(s->eye, shade_v3(0, miss ? 0.0f : 1.0f, -4), 0.2f, 0, dark);
+    s->state.lighting.light_count = 2;
 }
 NEAR(no_colour)
 {
@@ -237,6 +271,13 @@ NEAR(later)
     s->state.raster.depth_read_only = 1;
     s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;
 }
+/* A ball of some 60 pixels */
+NEAR(later_of_few)
+{
+    near_later(s, miss);
+    s->eye = shade_v3(0, 0, 18);
+    stage_look(s);
+}
 NEAR(always)
 {
     s->state.raster.depth_test = SHADE_COMPARE_ALWAYS;
@@ -248,6 +289,14 @@ NEAR(test_is_turned)
     s->clear = 0;
     s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;    /* one face a pixel */
     if (miss == 2) s->state.projection = shade_mat4_ortho(-2, 2, -2, 2, 1, 9);
+}
+/* The nearer of two triangles comes last. */
+NEAR(test_is_turned_of_layers)
+{
+    near_triangles(s);
+    for (int i = 3; i < 6; i++) s->position[i].z = miss ? 0.0f : 1.0f;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
 }
 /* The matrix of perspective_reversed, and one whose planes of equal depth lean */
 NEAR(reversed)
@@ -299,6 +348,16 @@ NEAR(stored_alpha)
 {
     s->state.transparency = 0.5f;
     s->state.raster.blend = miss ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
+}
+/* What is white at half of its light as well */
+NEAR(stored_alpha_of_white)
+{
+    near_triangles(s);
+    near_stored_alpha(s, 0);
+    s->target.format = SHADE_FORMAT_RGBA32F;
+    s->mesh.vertex_count = 3;
+    s->material.specular = BLACK;
+    if (miss) stage_lamp(s, shade_directional_light(shade_v3(0, 0, -1), shade_v3(9, 9, 9)));
 }
 NEAR(shininess) { s->material.shininess = miss ? 1.0f : 0.9f; }
 NEAR(emission)
@@ -419,6 +478,11 @@ static const struct near {
     ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
     ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
     ROW(behind_of_highlights, "Every lamp is behind"),
+    ROW(behind_of_open_highlights, "Every lamp is behind"),
+    ROW(behind_of_wide_highlights, "Every lamp is behind"),
+    ROW(behind_of_vertices, "Every lamp is behind"), ROW(cone_of_two, "No cone"),
+    ROW(test_is_turned_of_layers, "does not fit"), ROW(later_of_few, "Triangles drawn later"),
+    ROW(stored_alpha_of_white, "stored as alpha"),
     ROW_OF(behind_of_emission, "Every lamp is behind", 3),
     ROW(cone, "No cone"), ROW(no_colour, "no colour"), ROW(no_light, "There is no light"),
     ROW(material, "state.material reflects"), ROW(alpha, "Alpha is 0"),
