@@ -55,7 +55,8 @@ typedef struct ply_data {
     faces faces;
     mesh_origin origin;
     double highest; /* corner */
-    float bright;   /* the greatest colour that is a float */
+    float bright;   /* the greatest colour of more than a byte, and ... */
+    double whole;   /* ... what full light is in its type; 0: floats */
     /* where faces have texture coordinates for their corners, as MeshLab writes them: */
     int by_corner;
     mesh_uints corner;       /* the vertex of each corner, which becomes a vertex at the end */
@@ -350,13 +351,21 @@ static inline int ply_list(mesh_reader *r, ply_data *p, const ply_property *at, 
     return mesh_check_triangles(r, p->faces.triangles);
 }
 
-/* Brings a colour of any integer type to 0 .. 1. */
-static inline double ply_value(const ply_property *at, double value)
+/* Colours of bytes go from 0 to 1 at once; the greatest value tells what others mean. */
+static inline double ply_color(ply_data *p, ply_type type, double value)
 {
-    static const double whole[6] = { 127, 255, 32767, 65535, 2147483647, 4294967295 };
-    if (at->meaning >= PLY_RED && at->meaning < PLY_U && at->type < PLY_FLOAT)
-        value /= whole[at->type];
+    static const double whole[PLY_TYPES] = { 127, 255, 32767, 65535, 2147483647, 4294967295, 0, 0 };
+    if (type < PLY_INT16) return value / whole[type];
+    p->bright = fmaxf(p->bright, mesh_or_zero(value));
+    p->whole = fmax(p->whole, whole[type]);
     return value;
+}
+
+/* What full light is: 1 or 255 in floats, 255 or the greatest value in integers of several bytes */
+static inline double ply_white(const ply_data *p)
+{
+    if (p->bright <= 2 && p->whole <= 0) return 1;
+    return p->bright > 255 && p->whole > 0 ? p->whole : 255;
 }
 
 /* 1: the file has such a column; normals may lack a coordinate. */
@@ -378,9 +387,9 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
             continue;
         }
         if (ply_number(r, p->format, at->type, &value)) return 1;
-        if (at->meaning < PLY_VALUES) v[at->meaning] = ply_value(at, value);
-        if (at->meaning >= PLY_RED && at->meaning < PLY_U && e->kind == PLY_VERTEX)
-            p->bright = fmaxf(p->bright, mesh_or_zero(v[at->meaning]));
+        if (at->meaning >= PLY_RED && at->meaning < PLY_U)
+            value = ply_color(p, at->type, value);
+        if (at->meaning < PLY_VALUES) v[at->meaning] = value;
     }
     if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
@@ -396,7 +405,7 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
     return 0;
 }
 
-static inline int ply_read_body(mesh_reader *r, ply_data *p)
+static inline int ply_read_body(mesh_reader *r, ply_data *p, model *m)
 {
     int strips = 0;
     for (int k = 0; k < p->elements; k++) strips |= p->element[k].kind == PLY_STRIP;
@@ -408,6 +417,8 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p)
             if (mesh_tell(r, (size_t)i) || ply_instance(r, p, e)) return 1;
         }
     }
+    mesh_skip_lines(r);
+    if (r->at < r->end) model_warn(m, r->name, "bytes behind the elements that its header counts");
     return 0;
 }
 
@@ -443,7 +454,7 @@ static inline float *ply_take(ply_data *p, int column)
 static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
 {
     size_t n = p->column->count / 3;
-    const float bright = p->bright > 2 ? 1 / 255.0f : 1; /* floats as other programs have bytes */
+    const float bright = (float)(1 / ply_white(p));
     owned_mesh *m = &out->mesh;
     int missing = 1, has_faces = 0;
     for (int k = 0; k < p->elements; k++)
@@ -486,7 +497,7 @@ static inline int ply_read(mesh_reader *r, model *m)
     int failed;
     if (!p) return mesh_fail(r, "out of memory");
     model_place(m, &p->origin);
-    failed = ply_read_header(r, p, m) || ply_read_body(r, p) || ply_finish(r, p, m);
+    failed = ply_read_header(r, p, m) || ply_read_body(r, p, m) || ply_finish(r, p, m);
     for (int k = 0; k < PLY_COLUMNS; k++) free(p->column[k].v);
     free(p->corner.v);
     free(p->place.v);
