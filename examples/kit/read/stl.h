@@ -18,6 +18,7 @@ typedef struct stl_data {
     mesh_uints indices;
     mesh_origin origin;         /* of text; binary files hold floats */
     size_t dropped;             /* triangles with a corner that is not finite */
+    size_t behind;              /* triangles beyond the count of a binary file */
     mesh_uints word;            /* the last two bytes of each triangle of a binary file */
     int colored;                /* some say more than nothing */
     const unsigned char *usual; /* the header of Materialise Magics: red, green, blue, alpha behind
@@ -78,13 +79,16 @@ static inline int stl_block(mesh_reader *r, stl_data *s, size_t n)
    two unused */
 static inline int stl_read_binary(mesh_reader *r, stl_data *s)
 {
-    uint64_t size = (uint64_t)(r->end - r->begin), count;
+    uint64_t size = (uint64_t)(r->end - r->begin), count, there;
     r->line = 0;
     if (size < 84) return mesh_fail(r, "neither text nor binary STL");
     count = mesh_uint32(r->begin + 80);
-    if (count > (size - 84) / 50)
-        return mesh_fail(r, "ends after %lld of %lld triangles", (long long)((size - 84) / 50),
+    there = (size - 84) / 50;
+    if (count > there)
+        return mesh_fail(r, "ends after %lld of %lld triangles", (long long)there,
                          (long long)count);
+    if (!count && (size - 84) % 50 == 0) count = there; /* who writes as it goes, may leave 0 */
+    s->behind = (size_t)(there - count);
     r->at = r->begin + 84;
     for (const unsigned char *p = r->begin; p < r->begin + 70 && !s->usual; p++)
         if (!memcmp(p, "COLOR=", 6)) s->usual = p + 6;
@@ -155,15 +159,11 @@ static inline int stl_fits(const unsigned char *bytes, size_t size)
     return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == mesh_uint32(bytes + 80);
 }
 
-/* Binary where the size fits the count to the byte; then text where it says solid and has no
-   zero bytes near. */
+/* Binary where the size fits the count to the byte; then text where no zero byte is near. */
 static inline int stl_is_text(const mesh_reader *r)
 {
-    mesh_reader copy = *r;
     size_t size = (size_t)(r->end - r->begin), head = size < 1024 ? size : 1024;
-    if (stl_fits(r->begin, size)) return 0;
-    mesh_skip_lines(&copy);
-    return mesh_take_word(&copy, "solid") && !memchr(r->begin, 0, head);
+    return !stl_fits(r->begin, size) && !memchr(r->begin, 0, head);
 }
 
 /* The colour of a word: with the highest bit triangles of Magics have the usual one, those of the
@@ -234,6 +234,12 @@ static inline int stl_read(mesh_reader *r, model *out)
         mesh_link(m, (int)n, (int)s.indices.count);
         model_placed(out, &s.origin);
         model_warn_dropped(out, r->name, s.dropped, "triangles have corners");
+        if (s.behind) {
+            char text[80];
+            snprintf(text, sizeof text, "%lu triangles beyond the %lu that it counts",
+                     (unsigned long)s.behind, (unsigned long)(s.dropped + s.indices.count / 3));
+            model_warn(out, r->name, text);
+        }
         failed = !m->positions || !m->normals || (s.colored && stl_paint(&s, out)) ||
                  mesh_fill_normals(m, !s.colored);
         if (failed) mesh_fail(r, "out of memory");
