@@ -218,7 +218,7 @@ break.obj" "is no OBJ"
         printf 'newmtl m\nmap_Kd pipe.obj\nmap_Ke /dev/zero\n' >"$T/piped.mtl"
         { printf 'mtllib piped.mtl\nusemtl m\n'; cat "$T/torus.obj"; } >"$T/piped.obj"
         check "a pipe for a picture" bounded draw piped.obj a.ppm $flat
-        check "is left out, too" grep "is no regular file (left out)" "$T/err"
+        check "is left out, too" grep "is no regular file; /dev/zero: it lies outside" "$T/err"
         check "and /dev/zero for a model" bounded refused "zero: is no regular file" "$THUMBNAIL" \
             /dev/zero "$T/none.ppm"
     fi

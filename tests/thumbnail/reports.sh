@@ -197,6 +197,24 @@ property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_
     done
     printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
     same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
+    polished() {                # file, what the material says: a triangle
+        printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+            "materials":[{"name":"m","doubleSided":true,"pbrMetallicRoughness":{
+            "baseColorFactor":[0.6,0.3,0.2,1],%s}}],"textures":[{"source":0}],"images":[{"uri":
+            "data:image/x-portable-pixmap;base64,UDYKMSAxCjI1NQoAgAA="}],"accessors":[{"count":3,
+            "type":"VEC3","componentType":5126,"bufferView":0},{"count":3,"type":"VEC2",
+            "componentType":5126,"bufferView":1}],"bufferViews":[{"buffer":0,"byteLength":36},
+            {"buffer":0,"byteOffset":36,"byteLength":24}],"buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAA
+AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_head" "$2" |
+            tr -d '\n' | sed 's/  *//g' >"$T/$1"
+    }
+    polished plain.gltf '"metallicFactor":0,"roughnessFactor":0.4015686'
+    polished rough.gltf '"roughnessFactor":0.8,"metallicRoughnessTexture":{"index":0}'
+    same "a picture of metal and roughness" plain.gltf rough.gltf 0 "--up y"
+    check "without a word" test ! -s "$T/err"
+    polished metal.gltf '"roughnessFactor":0.4015686'
+    check "metal" draw metal.gltf b.ppm --up y
+    check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
 }
 
 # What a writer of one of these files means, in a file without its habits
@@ -288,4 +306,40 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     { printf "OFF\n4 4 0\n"; rows; faces_of 7; } >"$T/more.off"
     same "a number in a map of colours" wedge.obj more.off 0 "$plain"
     check "is told" said "numbers behind its vertices or faces that are no colours"
+    stl_counts() {              # file, count, triangles behind those of the wedge
+        stl_colors $1 "made by hand" '\000\000' '\000\000' '\000\000' '\000\000'
+        { head -c 80 "$T/$1"; printf "$2\000\000\000"; tail -c +85 "$T/$1"
+            [ $3 -eq 0 ] || head -c $((84 + 50 * $3)) "$T/$1" | tail -c +85; } >"$T/a.stl"
+        mv "$T/a.stl" "$T/$1"
+    }
+    stl_counts more.stl '\004' 2
+    same "STL with more triangles than its count" wedge.obj more.stl 0 "--up y"
+    check "which is told" said "more.stl: 2 triangles beyond the 4 that it counts"
+    stl_counts none.stl '\000' 0
+    same "a count of 0, from a writer that did not know it yet" wedge.obj none.stl 0 "--up y"
+    check "without a word" test ! -s "$T/err"
+    stl_counts few.stl '\007' 0
+    bad_model "a count of more than there are" few.stl "few.stl: ends after 4 of 7 triangles"
+    { echo "; by hand"; echo solid; facets; } >"$T/note.stl"
+    bad_model "a comment in STL" note.stl 'note.stl:1: expected facet, found ";"'
+
+    ply_of() {                  # file, type and greatest value of colours
+        { printf "$ply_head" | sed "s/vertex 5/vertex 4/; s/double z/&\nproperty $2 red\\
+property $2 green\nproperty $2 blue/"; rows "$3 0 0"; printf "$ply_faces"; } >"$T/$1"
+    }
+    for k in "ushort 255" "int 255" "ushort 65535" "short 32767" "uint 4294967295"; do
+        ply_of wide.ply $k
+        same "PLY with colours of $k" four.obj wide.ply 0 "$plain"
+        check "without a word" test ! -s "$T/err"
+    done
+    { cat "$T/wide.ply"; echo 3 0 1 2; } >"$T/more.ply"
+    same "PLY with more rows than its header counts" four.obj more.ply 0 "$plain"
+    check "which is told" said "more.ply: bytes behind the elements that its header counts"
+    sed 's/property list/property float what\n&/; s/^3/0 3/' "$T/more.ply" >"$T/both.ply"
+    same "two things that are left out" four.obj both.ply 0 "$plain"
+    check "are told both" said "both.ply: bytes behind the .*; it has what, which is not read"
+    sed 's/"materials"/"extensionsUsed":["KHR_materials_transmission"],&/' "$T/bytes.gltf" \
+        >"$T/glass.gltf"
+    check "a material of glass" draw glass.gltf a.ppm
+    check "is told" said "glass.*COLOR_0 does not count; it has KHR_materials_transmission, which is not read"
 }

@@ -12,7 +12,7 @@ static inline void picture_fill(model_picture *p, void *pixels, int width, int h
     p->map.pixels = pixels;
     p->map.width = width;
     p->map.height = height;
-    p->map.srgb = !p->relief;
+    p->map.srgb = p->what == PICTURE_COLORS;
 }
 
 /* Points each texture to its levels, once the array of pictures no longer moves. */
@@ -100,14 +100,14 @@ static const char *picture_decode(model_picture *p, const unsigned char *bytes, 
    slash: names from other machines contain folders that do not exist here.  A name that leaves the
    folder of the model counts only where the caller wants that: who draws models of strangers does
    not show them the pictures of others. */
-static int picture_load(model *m, const char *path, const char *name, int as_relief, int outside)
+static int picture_load(model *m, const char *path, const char *name, int what, int outside)
 {
     const int beside_model = outside || model_is_beside(name);
     char error[300] = "out of memory";
     unsigned char *bytes = NULL;
     const char *last = model_last(name);
     size_t size = 0;
-    int number = picture_add(m, name, as_relief), failed = 1;
+    int number = picture_add(m, name, what), failed = 1;
     if (!beside_model)
         snprintf(error, sizeof error,
                  "%s: it lies outside of the model's folder; --outside reads it", name);
@@ -131,10 +131,10 @@ static int picture_load(model *m, const char *path, const char *name, int as_rel
 }
 
 /* The number of a picture that a surface names, which is read if it is not there yet */
-static int picture_of(model *m, const char *path, const char *name, int as_relief, int outside)
+static int picture_of(model *m, const char *path, const char *name, int what, int outside)
 {
-    const int known = picture_find(m, name, as_relief);
-    return known < 0 ? picture_load(m, path, name, as_relief, outside) : known;
+    const int known = picture_find(m, name, what);
+    return known < 0 ? picture_load(m, path, name, what, outside) : known;
 }
 
 /* Decodes the pictures that the model's file holds. */
@@ -146,6 +146,27 @@ static void decode_pictures(model *m)
         if (wrong) model_warn(m, p->name, wrong);
         free(p->bytes);
         p->bytes = NULL;
+    }
+}
+
+/* Metal and roughness become the factors of the file times the means of their pictures at corners
+   of faces, some ten thousand at most. */
+static void picture_polish(model *m)
+{
+    for (int i = 0; i < m->part_count && m->surface_count && m->mesh.texcoords; i++) {
+        const model_part *part = &m->part[i];
+        model_surface *s = &m->surface[part->surface];
+        shade_vec4 mean = shade_v4(0, 0, 0, 0);
+        const int step = 1 + part->count / 10000, n = (part->count + step - 1) / step;
+        if (s->polish < 0 || !m->picture[s->polish].pixels) continue;
+        for (int k = 0; k < part->count; k += step) {
+            const float *uv = m->mesh.texcoords + 2 * (size_t)m->mesh.indices[part->first + k];
+            const shade_vec4 at = shade_sample(&m->picture[s->polish].map, uv[0], uv[1], 0);
+            mean = shade_add4(mean, shade_scale4(at, 1 / (float)n));
+        }
+        s->polish = -1;
+        s->material.diffuse = shade_scale(s->material.diffuse, 1 / (1 - 0.55f * s->metal));
+        model_rough(s, s->metal * mean.z, s->rough * mean.y);
     }
 }
 
@@ -165,9 +186,10 @@ static void read_pictures(model *m, const char *path, int outside)
     }
     for (int i = 0; i < m->picture_count; i++) {
         model_picture *p = &m->picture[i];
-        if (p->relief && p->pixels) picture_look_at_relief(p);
-        picture_mipmaps(p);
+        if (p->what == PICTURE_RELIEF && p->pixels) picture_look_at_relief(p);
+        if (p->what != PICTURE_POLISH) picture_mipmaps(p);
     }
+    picture_polish(m);
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
         int clear;

@@ -261,9 +261,9 @@ static const struct aiTexture *find_embedded(const struct aiScene *scene, const 
 
 /* Embedded pictures: a file in memory where the height is 0, else texels of B, G, R, A.  Returns
    the number of the picture, or -1: out of memory. */
-static int embedded_picture(model *m, const char *name, const struct aiTexture *t, int as_relief)
+static int embedded_picture(model *m, const char *name, const struct aiTexture *t, int what)
 {
-    const int number = picture_add(m, name, as_relief);
+    const int number = picture_add(m, name, what);
     model_picture *p;
     if (number < 0) return number;
     p = &m->picture[number];
@@ -285,11 +285,11 @@ static int embedded_picture(model *m, const char *name, const struct aiTexture *
 }
 
 /* The number of a picture inside the file; -1: it is beside it, or there is none. */
-static int tree_picture(tree *t, const char *name, int as_relief)
+static int tree_picture(tree *t, const char *name, int what)
 {
-    const int known = name ? picture_find(t->model, name, as_relief) : -1;
+    const int known = name ? picture_find(t->model, name, what) : -1;
     const struct aiTexture *embedded = name && known < 0 ? find_embedded(t->scene, name) : NULL;
-    return embedded ? embedded_picture(t->model, name, embedded, as_relief) : known;
+    return embedded ? embedded_picture(t->model, name, embedded, what) : known;
 }
 
 static int tree_surfaces(tree *t, model *m)

@@ -40,11 +40,7 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "EXT_mesh_gpu_instancing", KNOWN_DRAWN },
                                          { "KHR_materials_specular", KNOWN_SILENT },
                                          { "KHR_materials_ior", KNOWN_SILENT },
-                                         { "KHR_materials_clearcoat", KNOWN_SILENT },
-                                         { "KHR_materials_sheen", KNOWN_SILENT },
-                                         { "KHR_materials_transmission", KNOWN_SILENT },
                                          { "KHR_materials_volume", KNOWN_SILENT },
-                                         { "KHR_materials_iridescence", KNOWN_SILENT },
                                          { "KHR_materials_anisotropy", KNOWN_SILENT },
                                          { "KHR_materials_dispersion", KNOWN_SILENT },
                                          { "KHR_materials_variants", KNOWN_SILENT },
@@ -53,6 +49,10 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_xmp_json_ld", KNOWN_SILENT },
                                          { "FB_ngon_encoding", KNOWN_SILENT },
                                          { "VRM", KNOWN_SILENT },
+                                         { "KHR_materials_clearcoat", KNOWN_TOLD },
+                                         { "KHR_materials_sheen", KNOWN_TOLD },
+                                         { "KHR_materials_transmission", KNOWN_TOLD },
+                                         { "KHR_materials_iridescence", KNOWN_TOLD },
                                          { "EXT_meshopt_compression", KNOWN_TOLD },
                                          { "EXT_texture_webp", KNOWN_TOLD },
                                          { "KHR_texture_basisu", KNOWN_TOLD },
@@ -518,7 +518,7 @@ static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
 
 /* The picture of an image, with how it goes on beyond its edges.  *number is -1 where it cannot be
    read, which is a warning. */
-static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int as_relief, int *number)
+static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what, int *number)
 {
     const int wrap[2] = { gltf_wrap(g, sampler, "wrapS"), gltf_wrap(g, sampler, "wrapT") };
     const uint32_t view = json_member(&g->j, image, "bufferView");
@@ -529,7 +529,7 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int as_r
     double stride;
     int failed;
     snprintf(name, sizeof name, "picture %lu, %d, %d", (unsigned long)image, wrap[0], wrap[1]);
-    *number = picture_find(g->m, name, as_relief);
+    *number = picture_find(g->m, name, what);
     if (*number >= 0) return 0;
     quiet.error = error;
     quiet.error_size = sizeof error;
@@ -537,7 +537,7 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int as_r
     failed = view ? gltf_view(g, view, &bytes, &stride)
                   : gltf_uri(g, json_member(&g->j, image, "uri"), &bytes, &path);
     g->r = outer;
-    *number = picture_add(g->m, name, as_relief);
+    *number = picture_add(g->m, name, what);
     if (*number < 0) {
         free(bytes.owned);
         free(path);
@@ -587,9 +587,9 @@ static inline gltf_place gltf_placed(const gltf *g, uint32_t info)
 }
 
 /* A texture of a material, unless its coordinates differ from those of the pictures before it.
-   *map becomes its name and *number its picture. */
+   *number becomes its picture, and *map its name. */
 static inline int gltf_texture(gltf *g, gltf_place *place, uint32_t material, const char *name,
-                               int as_relief, char **map, int *number)
+                               int what, char **map, int *number)
 {
     const uint32_t info = json_of(&g->j, material, name, JSON_OBJECT);
     const gltf_place own = gltf_placed(g, info);
@@ -611,9 +611,10 @@ static inline int gltf_texture(gltf *g, gltf_place *place, uint32_t material, co
     at = json_member(&g->j, texture, "sampler");
     if (gltf_item(g, GLTF_IMAGES, source, &image) ||
         (at && gltf_item(g, GLTF_SAMPLERS, at, &sampler)) ||
-        gltf_image(g, image, sampler, as_relief, number))
+        gltf_image(g, image, sampler, what, number))
         return 1;
     *place = own;
+    if (!map) return 0;
     *map = model_text(g->m->picture[*number].name, strlen(g->m->picture[*number].name));
     return *map ? 0 : mesh_fail(g->r, "out of memory");
 }
@@ -636,11 +637,24 @@ static inline shade_vec3 gltf_color(const double *v)
     return shade_clamp(c, shade_v3(0, 0, 0), shade_v3(1, 1, 1));
 }
 
+/* The picture of metal and roughness */
+static inline int gltf_polish(gltf *g, gltf_place *place, uint32_t rough, model_surface *s)
+{
+    static const char name[] = "metallicRoughnessTexture";
+    if (g->m->polish_wanted)
+        return gltf_texture(g, place, rough, name, PICTURE_POLISH, NULL, &s->polish);
+    return json_member(&g->j, rough, name)
+               ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1)
+               : 0;
+}
+
 static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gltf_place *place)
 {
     const uint32_t gloss = gltf_extended(g, material, "KHR_materials_pbrSpecularGlossiness");
     const uint32_t shine = gltf_extended(g, material, "KHR_materials_emissive_strength");
     const uint32_t rough = json_of(&g->j, material, "pbrMetallicRoughness", JSON_OBJECT);
+    const uint32_t unlit = gltf_extended(g, material, "KHR_materials_unlit");
+    const int physical = !gloss && !unlit;
     const uint32_t from = gloss ? gloss : rough, named = json_member(&g->j, material, "name");
     const uint32_t bumps = json_of(&g->j, material, "normalTexture", JSON_OBJECT);
     double base[4] = { 1, 1, 1, 1 }, glow[3] = { 0, 0, 0 }, metal, roughness, strength;
@@ -659,19 +673,22 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     s->set = named || gloss || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
              base[2] < 1 || glow[0] + glow[1] + glow[2] > 0;
     model_rough(s, (float)metal, (float)roughness);
-    if (gltf_extended(g, material, "KHR_materials_unlit")) {
+    if (unlit) {
         s->material.diffuse = s->material.ambient = gltf_color(base);
         s->material.specular = shade_v3(0, 0, 0);
         s->metal = 0;
     }
     gltf_alpha(g, s, material, base[3]);
-    if (gltf_texture(g, place, from, gloss ? "diffuseTexture" : "baseColorTexture", 0, &s->map,
-                     &s->picture) ||
-        gltf_texture(g, place, material, "normalTexture", 1, &s->relief.map, &s->relief.picture) ||
-        gltf_texture(g, place, material, "emissiveTexture", 0, &s->glow_map, &s->glow_picture))
+    if (gltf_texture(g, place, from, gloss ? "diffuseTexture" : "baseColorTexture", PICTURE_COLORS,
+                     &s->map, &s->picture) ||
+        gltf_texture(g, place, material, "normalTexture", PICTURE_RELIEF, &s->relief.map,
+                     &s->relief.picture) ||
+        gltf_texture(g, place, material, "emissiveTexture", PICTURE_COLORS, &s->glow_map,
+                     &s->glow_picture) ||
+        (physical && gltf_polish(g, place, rough, s)))
         return 1;
     if (s->relief.map) s->relief.strength = (float)fabs(json_number_of(&g->j, bumps, "scale", 1));
-    if (s->map || s->glow_map) s->set = 1;
+    if (s->map || s->glow_map || s->polish >= 0) s->set = 1;
     if (json_of(&g->j, material, "emissiveTexture", JSON_OBJECT) && !s->glow_map)
         s->material.emission = shade_v3(0, 0, 0);
     model_glow(s, 1);

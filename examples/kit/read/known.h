@@ -67,11 +67,11 @@ static inline int known_word(mesh_reader *r, model *m, const known_name *list)
 /* Warns of what was noted. */
 static inline void known_tell(model *m, const char *about)
 {
-    const size_t there = strlen(m->warning);
+    char text[sizeof m->unread + 40];
     const char *many = strchr(m->unread, ',') ? "are" : "is";
-    if (m->unread[0] && there + strlen(m->unread) + 40 < sizeof m->warning)
-        snprintf(m->warning + there, sizeof m->warning - there, "%s%s it has %s, which %s not read",
-                 there ? "" : about, there ? ";" : ":", m->unread, many);
+    if (!m->unread[0]) return;
+    snprintf(text, sizeof text, "it has %s, which %s not read", m->unread, many);
+    model_warn(m, about, text);
     m->unread[0] = 0;
 }
 #endif

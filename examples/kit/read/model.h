@@ -10,13 +10,15 @@
 #define MODEL_PICTURE_BYTES 5e8
 #define MODEL_LIBRARY_BYTES 1e8
 
+enum { PICTURE_COLORS, PICTURE_RELIEF, PICTURE_POLISH };
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
     char *name, *path;         /* in the file; where it was found, or NULL */
     unsigned char *bytes;      /* PNG or another format, until it is decoded; NULL: none */
     char kind[24];             /* of the bytes, as image/png; "": the file does not say */
     size_t size;
-    int relief;          /* it is no picture of colours, but a bump or normal map: */
+    int what;            /* it shows: colours; a bump or normal map; roughness in green and
+                            metal in blue */
     int heights;         /* a bump map, and the mean square of the slopes of its heights, */
     double slope_square; /* which go from 0 to 1, in pictures whose edges are 1 long */
     void *pixels, *mipmaps;
@@ -46,6 +48,7 @@ typedef struct model_surface {
     char *glow_map; /* the picture of what shines by itself, or NULL; its number, its factor */
     int glow_picture;
     shade_vec3 glow;
+    int polish; /* the picture of metal and roughness, which are its factors; -1: none */
 } model_surface;
 
 typedef struct model_part {
@@ -78,13 +81,15 @@ typedef struct model {
     int up;                    /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
     double origin[3];          /* of the positions, in the coordinates of the file */
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
+    int polish_wanted;         /* said to the reader: pictures of metal and roughness count */
     const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
     model_load_beside *beside;
     zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */
     int movable;          /* the file has more digits than floats: read again, about another
                                   origin, the positions are more exact */
     char unread[200];     /* names of what is left out, with commas between (known.h) */
-    char warning[400];    /* what the picture lacks; "": nothing */
+    char warning[600];    /* what the picture lacks; "": nothing */
+    size_t warned;        /* where the last line of the warning begins, with whom it is about */
     char note[200];       /* what it shows otherwise than the file has it; "": nothing */
 } model;
 
@@ -134,10 +139,18 @@ static inline int model_is_section(const model *m, int part)
     return m->surface_count && m->surface[m->part[part].surface].section;
 }
 
-/* Keeps the first warning. */
+/* Adds to the warning, once.  What does not fit any more is left out. */
 static inline void model_warn(model *m, const char *about, const char *what)
 {
-    if (!m->warning[0]) snprintf(m->warning, sizeof m->warning, "%s: %s", about, what);
+    const size_t there = strlen(m->warning), room = sizeof m->warning, n = strlen(about);
+    const char *last = m->warning + m->warned, *before = there ? "; " : "";
+    const int same = there && !strncmp(last, about, n) && last[n] == ':';
+    if (!there || there + (same ? 0 : n) + strlen(what) + 5 < room) {
+        if (same && strstr(last, what)) return;
+        if (!same) m->warned = there + strlen(before);
+        snprintf(m->warning + there, room - there, "%s%s%s%s", before, same ? "" : about,
+                 same ? "" : ": ", what);
+    }
 }
 
 /* Warns of what is left out because it has a position that is not finite. */
@@ -224,7 +237,8 @@ static inline int model_add_surface(model *m, const void *name, size_t n)
                                          .picture = -1,
                                          .move = { 0, 0, 1, 1 },
                                          .relief = { .picture = -1 },
-                                         .glow_picture = -1 };
+                                         .glow_picture = -1,
+                                         .polish = -1 };
     model_surface *grown = (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count,
                                                       &m->surface_room, sizeof *grown);
     if (!grown) return -1;
@@ -243,16 +257,16 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
     return add && m->surface_count < MODEL_SURFACES ? model_add_surface(m, name, n) : -1;
 }
 
-/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
-static inline int picture_find(const model *m, const char *name, int as_relief)
+/* The number of the picture of that name and kind; -1: there is none */
+static inline int picture_find(const model *m, const char *name, int what)
 {
     for (int i = 0; i < m->picture_count; i++)
-        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
+        if (m->picture[i].what == what && !strcmp(m->picture[i].name, name)) return i;
     return -1;
 }
 
 /* The number of a new picture without pixels, or -1: out of memory */
-static inline int picture_add(model *m, const char *name, int as_relief)
+static inline int picture_add(model *m, const char *name, int what)
 {
     static const model_picture empty;
     model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
@@ -260,7 +274,7 @@ static inline int picture_add(model *m, const char *name, int as_relief)
     if (!grown) return -1;
     m->picture = grown;
     grown[m->picture_count] = empty;
-    grown[m->picture_count].relief = as_relief;
+    grown[m->picture_count].what = what;
     grown[m->picture_count].name = model_text(name, strlen(name));
     return grown[m->picture_count].name ? m->picture_count++ : -1;
 }
