@@ -134,7 +134,7 @@ def wrong_answer(row):
     score, says = judged(task, handed_in(f"{abs(hash(text))}.c", text))
     if not 0 <= score < full(task):
         return name, False, f"has {score} points\n{says}"
-    if expected.startswith("hint "):
+    if expected.startswith(("hint ", "says ")):
         return name, expected[5:] in says, says
     sentences = [m[3] for m in task.mistakes if m[0] in expected.split("+")]
     sure = re.sub(r"In this case, perhaps: .*", "", says)

@@ -216,10 +216,54 @@ class Judge:
         alike = self.alike(asked)
         if not alike:
             for mistake in self.task.mistakes:
-                if self.gives(asked, mistake):
+                if self.gives(asked, mistake) and not self.spoils(mistake):
                     return f"In this case, perhaps: {mistake[3]}"
         if any(map(math.isnan, got)):
             return "A NaN comes from 0 / 0, or from a root or a power of a negative number."
         if any(map(math.isinf, got)):
             return "An infinity comes from a division by 0."
-        return ("Your answer is the same for every input. " if alike else "") + case.hint
+        if alike:
+            return f"Your answer is the same for every input. {case.hint}"
+        return self.term(asked) or f"{self.common(asked)}{case.hint}"
+
+    def spoils(self, mistake):
+        """Tells whether a mistake would be seen in a case that is all right."""
+        wrong = self.wrong[(mistake[0],)]
+        return any(not self.task.near(self.task.compared(v, wrong(v)), want, part, LOOSE)
+                   for result in self.results if all(self.good(*one) for one in result.asked)
+                   for v, _, want, part in result.asked)
+
+    def common(self, asked):
+        """Returns what all answers of a case have in common with right ones, or nothing: a factor,
+        a number that is added, or parts that are right."""
+        pairs = [(got[part], want[part]) for _, got, want, part in asked if got is not None]
+        size = len(pairs[0][1])
+        if len(pairs) < len(asked) or size > 9:
+            return ""
+        near = self.task.near
+        g, w = max(((g[k], w[k]) for g, w in pairs for k in range(size)), key=lambda x: abs(x[1]))
+        factor, more = g / w if w else 0, pairs[0][0][0] - pairs[0][1][0]
+        if factor and all(near(g, tools.scale(factor, w), times=LOOSE) for g, w in pairs):
+            return f"Each of your answers is {factor:.4g} times the right one. "
+        if all(near(g, [x + more for x in w], times=LOOSE) for g, w in pairs):
+            return f"Each of your answers is the right one and {more:.4g}. "
+        right = [k for k in range(size) if all(near(g[k:k + 1], w[k:k + 1]) for g, w in pairs)]
+        names = getattr(self.task.module, "PARTS", "xyz")
+        if right and size == len(names):
+            wrong = [names[k] for k in range(size) if k not in right]
+            return f"All is right but {' and '.join(wrong)}. "
+        return ""
+
+    def term(self, asked):
+        """Returns a sentence of the term that is wrong, where the task has terms: what is off has
+        the colour that right answers lose without it."""
+        for start, end, says in getattr(self.task.module, "TERMS", []):
+            for v, got, want, _ in asked:
+                without = [0.0 if start <= k < end else x for k, x in enumerate(v)]
+                term = tools.sub(want, self.right(without)) if got else [0, 0, 0]
+                off = tools.cross(tools.sub(got or term, want), term)
+                if not 1e-3 < tools.length(term) or tools.length(off) > 1e-3 * tools.length(term):
+                    break
+            else:
+                return says
+        return ""
