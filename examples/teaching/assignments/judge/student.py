@@ -19,20 +19,25 @@ REFUSED = 3  # the exit status where the file is not run
 NOBODY = 65534
 
 
+def bound(megabytes, seconds, written):
+    """Bounds what this process takes, and how large its files may be."""
+    for what, most in ((resource.RLIMIT_AS, megabytes << 20), (resource.RLIMIT_CPU, seconds),
+                       (resource.RLIMIT_FSIZE, written), (resource.RLIMIT_CORE, 0)):
+        try:
+            # A hard bound of time would kill without a word.
+            resource.setrlimit(what, (most, most + (what == resource.RLIMIT_CPU)))
+        except (ValueError, OSError):
+            pass  # macOS has no bound of memory
+
+
 def limit(seconds):
     """Bounds this process: its user, memory, time, files and children."""
     if os.geteuid() == 0:
         os.setgroups([])
         os.setgid(NOBODY)
         os.setuid(NOBODY)
-    for what, most in ((resource.RLIMIT_AS, MEGABYTES << 20), (resource.RLIMIT_CPU, seconds),
-                       (resource.RLIMIT_FSIZE, PRINTED), (resource.RLIMIT_CORE, 0),
-                       (resource.RLIMIT_NPROC, 0)):
-        try:
-            # A hard bound of time would kill without a word.
-            resource.setrlimit(what, (most, most + (what == resource.RLIMIT_CPU)))
-        except (ValueError, OSError):
-            pass  # macOS has no bound of memory
+    bound(MEGABYTES, seconds, PRINTED)
+    resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
     signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
 
 
