@@ -80,6 +80,12 @@ MISTAKES = [
 ]
 
 
+def terms(_, inputs):
+    """Returns what an answer may have too much or too little of, and what to say then."""
+    return [(inputs[3:6], "All is right but how much of N it has: 2 (N.L) of it, and once."),
+            (inputs[0:3], "All is right but how much of L it has: L is subtracted once.")]
+
+
 def place(x, y):
     """The inputs of a place of the picture, or None."""
     N = ball(x, y)

@@ -240,6 +240,14 @@ MISTAKES = [
 ]
 
 
+def terms(right, inputs):
+    """Returns what right answers lose without a term, and what to say where it alone is wrong."""
+    def without(start, end):
+        return [0.0 if start <= k < end else x for k, x in enumerate(inputs)]
+    whole = right(inputs)
+    return [(sub(whole, right(without(start, end))), says) for start, end, says in TERMS]
+
+
 def shown(inputs):
     """How many of the inputs mean something: lamps that are not lit do not."""
     return 26 + 20 * int(inputs[25])

@@ -235,7 +235,7 @@ class Judge:
 
     def common(self, asked):
         """Returns what all answers of a case have in common with right ones, or nothing: a factor,
-        a number that is added, or parts that are right."""
+        a number that is added, a power, directions or parts that are right."""
         pairs = [(got[part], want[part]) for _, got, want, part in asked if got is not None]
         size = len(pairs[0][1])
         if len(pairs) < len(asked) or size > 9:
@@ -247,6 +247,15 @@ class Judge:
             return f"Each of your answers is {factor:.4g} times the right one. "
         if all(near(g, [x + more for x in w], times=LOOSE) for g, w in pairs):
             return f"Each of your answers is the right one and {more:.4g}. "
+        if all(x == int(x) for g, _ in pairs for x in g):
+            return "Your answers are whole numbers: an int or a // cuts them. "
+        if size == 1 and min(g[0] for g, _ in pairs) >= 0 < min(w[0] for _, w in pairs):
+            g, w = min(pairs, key=lambda pair: abs(pair[1][0] - 0.5))
+            power = math.log(max(g[0], 1e-30)) / (math.log(w[0]) or 1)
+            if all(near(g, [w[0] ** power], times=LOOSE) for g, w in pairs):
+                return f"Each of your answers is the right one to the power {power:.3g}. "
+        if size == 3 and all(near(tools.unit(g), tools.unit(w), times=LOOSE) for g, w in pairs):
+            return "Your directions are right, but their lengths are not. "
         right = [k for k in range(size) if all(near(g[k:k + 1], w[k:k + 1]) for g, w in pairs)]
         names = getattr(self.task.module, "PARTS", "xyz")
         if right and size == len(names):
@@ -255,15 +264,14 @@ class Judge:
         return ""
 
     def term(self, asked):
-        """Returns a sentence of the term that is wrong, where the task has terms: what is off has
-        the colour that right answers lose without it."""
-        for start, end, says in getattr(self.task.module, "TERMS", []):
-            for v, got, want, _ in asked:
-                without = [0.0 if start <= k < end else x for k, x in enumerate(v)]
-                term = tools.sub(want, self.right(without)) if got else [0, 0, 0]
-                off = tools.cross(tools.sub(got or term, want), term)
-                if not 1e-3 < tools.length(term) or tools.length(off) > 1e-3 * tools.length(term):
-                    break
-            else:
+        """Returns a sentence of the term that is wrong, where the task has terms: all that is off
+        lies along it."""
+        terms = getattr(self.task.module, "terms", None)
+        if not terms or any(got is None for _, got, _, _ in asked):
+            return ""
+        off = [(tools.sub(got, want), terms(self.right, v)) for v, got, want, _ in asked]
+        for k, (_, says) in enumerate(off[0][1]):
+            if all(1e-3 < tools.length(along[k][0]) and tools.length(tools.cross(
+                    by, along[k][0])) < 1e-3 * tools.length(along[k][0]) for by, along in off):
                 return says
         return ""

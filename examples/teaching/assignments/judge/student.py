@@ -87,6 +87,8 @@ def flat(answer):
     """Returns the numbers of an answer, which may be lists in lists."""
     if isinstance(answer, (list, tuple)):
         return [x for part in answer for x in flat(part)]
+    if answer is None:
+        raise TypeError("the function returns nothing: is a return missing?")
     return [float(answer)]
 
 
@@ -157,6 +159,7 @@ def reply(call, functions, numbers, outputs):
         says = f"returns {len(answer)} numbers; right are {outputs}"
     except BaseException as error:  # whatever a student's function raises
         says = f"raises {type(error).__name__}: {str(error)[:200]}"
+        says += ": a power is **" if "for ^" in says else ""
     os.write(2, f"\0{says}\0".encode())
     return [0] + outputs * [math.nan]
 
