@@ -26,7 +26,7 @@ static void add_up(const canvas *c, const float *z)
     }
     float sum = z[first], dz = z[first + 1] - sum, off = 0;
     for (int i = first; i <= first + count; i++, sum += dz) off = fmaxf(off, fabsf(sum - z[i]));
-    label_print(c, 80, 532, 34, white, "z along x: %d sums z + dz stray by %.1e", count,
+    label_print(c, 80, 529, 32, white, "z along x: %d sums z + dz stray by %.1e", count,
                 (double)off);
 }
 
@@ -39,7 +39,7 @@ static void plot(const canvas *c, const float *z, const shade_vec4 *color)
     sketch_ink(&s, white, 1);
     sketch_arrow(&s, at(0, 0.4f), at(W, 0.4f));
     sketch_arrow(&s, at(0, 0.4f), at(0, 1.05f));
-    sketch_name(&s, at(-43, 1), 34, "FAR");
+    sketch_name(&s, at(-45, 1), 34, "FAR");
     sketch_name(&s, at(-40, 0.5f), 34, "0.5");
     for (int i = 0; i + 1 < W; i++) {
         sketch_ink(&s, z[i] < 1 ? shade_v3(color[i].x, color[i].y, color[i].z) : grey, 4);
