@@ -26,12 +26,12 @@ static void add_up(const canvas *c, const float *z)
     }
     float sum = z[first], dz = z[first + 1] - sum, off = 0;
     for (int i = first; i <= first + count; i++, sum += dz) off = fmaxf(off, fabsf(sum - z[i]));
-    label_print(c, 80, 530, 28, white, "z along x: %d sums z + dz stray by %.1e", count,
+    label_print(c, 80, 529, 32, white, "z along x: %d sums z + dz stray by %.1e", count,
                 (double)off);
 }
 
 /* Where the plot has sample x of the row, at depth z */
-static shade_vec3 at(int x, float z) { return shade_v3((float)x * 860 / W, 360 * (z - 0.4f), 0); }
+static shade_vec3 at(int x, float z) { return shade_v3((float)x * 860 / W, 345 * (z - 0.4f), 0); }
 
 static void plot(const canvas *c, const float *z, const shade_vec4 *color)
 {
@@ -39,8 +39,8 @@ static void plot(const canvas *c, const float *z, const shade_vec4 *color)
     sketch_ink(&s, white, 1);
     sketch_arrow(&s, at(0, 0.4f), at(W, 0.4f));
     sketch_arrow(&s, at(0, 0.4f), at(0, 1.05f));
-    sketch_name(&s, at(-44, 1), 28, "FAR");
-    sketch_name(&s, at(-44, 0.5f), 28, "0.5");
+    sketch_name(&s, at(-45, 1), 34, "FAR");
+    sketch_name(&s, at(-40, 0.5f), 34, "0.5");
     for (int i = 0; i + 1 < W; i++) {
         sketch_ink(&s, z[i] < 1 ? shade_v3(color[i].x, color[i].y, color[i].z) : grey, 4);
         if (fabsf(z[i + 1] - z[i]) < 0.01f) sketch_line(&s, at(i, z[i]), at(i + 1, z[i + 1]));
@@ -73,7 +73,7 @@ int main(int argc, char **argv)
     plot(&c, z, (const shade_vec4 *)picture.color + ROW * 2 * W);
     add_up(&c, z);
     canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);
-    label_draw(&c, W / 2 + 12, 34, 30, white, "its z-buffer: near is bright");
+    label_draw(&c, W / 2 + 12, 38, 36, white, "its z-buffer: near is bright");
     mesh_free(&cube);
     return canvas_save(&c, argc, argv, "z_buffer.ppm");
 }

@@ -134,7 +134,7 @@ def wrong_answer(row):
     score, says = judged(task, handed_in(f"{abs(hash(text))}.c", text))
     if not 0 <= score < full(task):
         return name, False, f"has {score} points\n{says}"
-    if expected.startswith("hint "):
+    if expected.startswith(("hint ", "says ")):
         return name, expected[5:] in says, says
     sentences = [m[3] for m in task.mistakes if m[0] in expected.split("+")]
     sure = re.sub(r"In this case, perhaps: .*", "", says)
@@ -202,6 +202,20 @@ def cheats():
             check(f"{language} that {name} gets a sentence", good, (score, said))
 
 
+def links():
+    """A link is not read: what a compiler says of its lines would tell them, as those with the
+    seed."""
+    folder = FOLDER / "links"
+    folder.mkdir()
+    for name in ("my.c", "my.py"):
+        (folder / name).symlink_to(handed_in("secret.txt", "SEED=4711\n"))
+        for path in (folder / name, folder):
+            score, said = judged(TASKS["01_lambert"], path)
+            check(f"{name} that is a link gets a sentence", score == 0 and said.endswith(
+                "is a link: hand in the file itself."), said)
+        (folder / name).unlink()
+
+
 def broken_out():
     """A program that no rule has looked at is held by its process."""
     lambert = TASKS["01_lambert"]
@@ -243,6 +257,8 @@ def main():
         check("wrong.txt has each known mistake", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
     cheats()
+    if wanted("links"):
+        links()
     if wanted("process"):
         broken_out()
     subprocess.run(["rm", "-rf", str(FOLDER)], check=True)

@@ -176,6 +176,10 @@ check('slides with live pictures', moving.length > 75, moving.length);
 
 // ---- slides on all screens: nothing beyond them, letters for a hall, ink on paper -------------------
 
+// Of each drawing the size of its letters
+const drawings = path.join(folder, 'pictures');
+const letters = Object.fromEntries(fs.readdirSync(drawings).filter(name => name.endsWith('.svg')).map(name =>
+    [name, +fs.readFileSync(path.join(drawings, name), 'utf8').match(/font: (\d+)px/)[1]]));
 for (const name of decks) {
     const page = await openDeck(name, {}, '', false);               // the frames' turn comes below
     for (const [width, height, colorScheme] of [[1024, 768, 'light'], [1366, 768, 'dark'], [1920, 1080, 'light'],
@@ -184,7 +188,7 @@ for (const name of decks) {
         await page.setViewportSize({ width, height });
         await page.emulateMedia({ colorScheme });
         await page.waitForFunction(width => innerWidth === width && Reveal.getConfig().width === width, width);
-        const wrong = await page.evaluate(() => {
+        const wrong = await page.evaluate(letters => {
             const upright = innerWidth < innerHeight, wrong = [];
             const letter = parseFloat(getComputedStyle(document.documentElement).fontSize);
             Reveal.getSlides().forEach((slide, i) => {
@@ -217,6 +221,11 @@ for (const name of decks) {
                     if (!upright && rows > lines) say(`code of ${lines} lines stands in ${rows}`);
                 }
                 if (figure && !upright && figure.height < 0.3 * innerHeight) say('the picture is small');
+                const drawing = slide.querySelector('figure img[src$=".svg"]'), size = drawing && letters[drawing.src.replace(/.*\//, '')];
+                const scale = drawing && Math.min(drawing.clientWidth / drawing.naturalWidth, drawing.clientHeight / drawing.naturalHeight);
+                if (drawing && !upright && 0.7 * size * scale < (innerWidth > 1.5 * innerHeight ? 0.03 : 0.023) * innerHeight)
+                    say(`letters of the drawing: ${(70 * size * scale / innerHeight).toFixed(1)} %`);
+                if (!slide.matches('.first') && !slide.querySelector('figure, pre:not(.notes pre), .equation')) say('text alone');
                 if (slide.querySelectorAll('.equation math').length > 1) say('more than one equation');
                 // all letters but indices, and the tools' signs
                 const nodes = document.createTreeWalker(slide, NodeFilter.SHOW_TEXT);
@@ -239,7 +248,7 @@ for (const name of decks) {
                 wrong.push('the number is small');
             if (document.documentElement.scrollWidth > innerWidth) wrong.push('the page scrolls sideways');
             return wrong;
-        });
+        }, letters);
         check('slides on the screen: ' + what, !wrong.length, wrong);
         const [paper, ink] = await page.evaluate(() => [[document.body, 'backgroundColor'],
             [document.querySelector('.reveal p'), 'color']].map(([part, of]) => {

@@ -281,11 +281,11 @@ local function sections(heading, slide)
         local answer = pandoc.List{ html('<div class="statement"><div class="fragment answer">') }
         answer:extend(moving(ask.answer, asked))
         answer:insert(html('</div>'))
-        local picture = figure(asked)
+        local listing = slide.listings[1]               -- below the answer, where there is room for it
+        local picture = not listing and figure(asked)
         local class = 'ask ' .. (picture and layout(asked) or 'words')
         local inlines = unlinked(ask.question)[1].content
-        local listing = slide.listings[1]               -- below the answer, where there is room for it
-        if not picture and listing and select(2, listing.text:gsub('\n', '')) < 11 then answer:insert(listing) end
+        if listing and select(2, listing.text:gsub('\n', '')) < 11 then answer:insert(listing) end
         answer:insert(html('</div>'))
         out:extend(section(class, inlines, place,
             { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))

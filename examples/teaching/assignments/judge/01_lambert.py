@@ -65,6 +65,10 @@ MISTAKES = [
      "ends at 0."),
     ("distance", "max(0, dot(N, L))", "length([n - l for n, l in zip(N, L)])",
      "This is the distance between the tips of N and L. The light goes with N.L."),
+    ("cosine_of_cosine", "dot(N, L)", "math.cos(dot(N, L))",
+     "N.L is a cosine already: this takes the cosine of a cosine."),
+    ("even_fall", "max(0, dot(N, L))", "max(0, 1 - math.acos(dot(N, L)) / (math.pi / 2))",
+     "This falls evenly with the angle. The light falls with its cosine, N.L."),
 ]
 
 

@@ -66,7 +66,24 @@ MISTAKES = [
      "formula."),
     ("absolute", "dot(N, L)", "abs(dot(N, L))",
      "The absolute value of N.L brings R to the front for a lamp behind. Leave the sign as it is."),
+    ("zero_behind", "    return ", "    if dot(N, L) < 0:\n        return [0, 0, 0]\n    return ",
+     "A lamp behind the surface gets the zero vector here. It has its mirror direction too, by the "
+     "same formula."),
+    ("about_z", RIGHT, "[-L[0], -L[1], L[2]]",
+     "This turns x and y round, which is right where N is the z axis alone. N is any direction: R "
+     "is 2 (N.L) N - L."),
+    ("two_normals", RIGHT, "unit(sub(scale(2, N), L))",
+     "2 N - L has another direction than R, and to make it unit does not help. Take only as much "
+     "of N as L has along it, (N.L) N."),
+    ("both_doubled", RIGHT, "scale(2, sub(scale(dot(N, L), N), L))",
+     "L is doubled too: the factor 2 stands before (N.L) N alone."),
 ]
+
+
+def terms(_, inputs):
+    """Returns what an answer may have too much or too little of, and what to say then."""
+    return [(inputs[3:6], "All is right but how much of N it has: 2 (N.L) of it, and once."),
+            (inputs[0:3], "All is right but how much of L it has: L is subtracted once.")]
 
 
 def place(x, y):

@@ -44,9 +44,13 @@ def far_from_R(draw):
 
 
 def behind(draw):
-    """Lamps behind, viewers on both sides, exponents that let the lobe be seen."""
+    """Lamps behind, viewers on both sides, exponents that let the lobe be seen; one lamp in ten is
+    at the horizon, where N.L is 0 to the bit."""
     n = draw.spread(0.5, 8)
-    return scene(draw, -1, -0.05, n, draw.lobe(n, 0.2))
+    if draw.random() < 0.9:
+        return scene(draw, -1, -0.05, n, draw.lobe(n, 0.2))
+    N, L, *_ = draw.axes()
+    return N + L + draw.at(scale(-1, L), draw.lobe(n, 0.2)) + [n]
 
 
 def opposite(draw):
@@ -66,8 +70,12 @@ CASES = [
     Case(1, "the lobe, viewers far from R, where R.V is negative", far_from_R,
          "A viewer more than 90 degrees off R sees no highlight: the lobe is 0.", slice(3, 4)),
     Case(2, "the lobe, lamps behind", behind,
-         "B is 0 where N.L is not above 0, and so is the lobe.", slice(3, 4)),
+         "B is 0 where N.L is not above 0, and so is the lobe. One lamp in ten is at the horizon, "
+         "where N.L is 0.", slice(3, 4)),
 ]
+CLAMPED = """max(0, dot(R, V))
+    B = 1 if dot(N, L) > 0 else 0
+    return B * pow(cosine, n)"""
 MISTAKES = [
     ("not_unit", "return unit(H)", "return scale(0.5, H)",
      "(L + V) / 2 is shorter than 1, but for L = V. Divide the sum by its length."),
@@ -111,6 +119,22 @@ MISTAKES = [
     ("weighted", "B * pow(cosine, n)", "B * dot(N, L) * pow(cosine, n)",
      "The lobe is multiplied by N.L too. Phong's highlight has no such factor, only B, which is 1 "
      "or 0."),
+    ("gate_at_horizon", "if dot(N, L) > 0", "if dot(N, L) >= 0",
+     "B is 0 where N.L is 0 as well, for a lamp at the horizon gives no light. Compare with >, not "
+     "with >=."),
+    ("gated_by_both", "if dot(N, L) > 0", "if dot(N, L) > 0 and dot(N, V) > 0",
+     "B is 0 here where the viewer is below the surface too. It asks for the lamp alone."),
+    ("whole_power", "pow(cosine, n)", "pow(cosine, math.floor(n))",
+     "n is cut to a whole number. An exponent may be any number, as powf and ** take it."),
+    ("blinn_times_4", "max(0, dot(R, V))", "max(0, dot(N, unit(add(L, V)))) ** 4",
+     "This is Blinn's lobe with 4 n, which looks much like Phong's and is not it: raise R.V to the "
+     "power n."),
+    ("mirror_exchanged", "R = sub(scale(2 * dot(N, L), N), L)",
+     "R = sub(scale(2 * dot(N, L), L), N)",
+     "This mirrors N at L. R is L mirrored at N, 2 (N.L) N - L."),
+    ("cut_after_power", CLAMPED, CLAMPED.replace("max(0, dot(R, V))", "dot(R, V)").replace(
+        "pow(cosine, n)", "max(0, pow(cosine, n))"),
+     "R.V is cut off at 0 after the power, where an even n has made it positive: cut it before."),
 ]
 
 

@@ -67,6 +67,16 @@ MISTAKES = [
      "This is the root of the factor: divide 1 by the sum itself."),
     ("squared_sum", RIGHT, "1 / (a + b * r + c * r * r) ** 2",
      "This is the square of the factor: divide 1 by the sum once."),
+    ("exchanged", SUM, "(a + c * r + b * r * r)",
+     "b and c are exchanged: b stands before r, c before r^2."),
+    ("one_added", SUM, "(1 + a + b * r + c * r * r)",
+     "A 1 is added below the line: the sum is a + b r + c r^2."),
+    ("multiplied", SUM, "(a * b * r * c * r * r)",
+     "The three parts are multiplied: add them, a + b r + c r^2."),
+    ("higher_powers", SUM, "(a * r + b * r * r + c * r * r * r)",
+     "Each power is one too high: a stands alone, b before r, c before r^2."),
+    ("one_at_lamp", "    return 1", "    if r == 0:\n        return 1\n    return 1",
+     "Where r is 0 the answer is 1 / a, and not always 1."),
 ]
 
 

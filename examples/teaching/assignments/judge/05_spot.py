@@ -99,6 +99,14 @@ MISTAKES = [
      "power."),
     ("absolute", "cosine = dot(L, S)", "cosine = abs(dot(L, S))",
      "The absolute value gives a second cone behind the lamp: use L.S with its sign."),
+    ("cosine_of_cutoff", "cosine >= cos_cutoff", "cosine >= math.cos(cos_cutoff)",
+     "cos_cutoff is a cosine already: this takes the cosine of a cosine."),
+    ("divided_by_square", "unit(aim)", "scale(1 / dot(aim, aim), aim)",
+     "aim is divided by the square of its length: the root is missing."),
+    ("less_cutoff", POWER, "pow(cosine - cos_cutoff, e)",
+     "cos_cutoff is subtracted before the power. It only cuts: the light falls as (L.S)^e."),
+    ("held_at_rim", POWER + " if cosine >= cos_cutoff else 0", "pow(max(0, cosine, cos_cutoff), e)",
+     "Outside of the cone the light is as bright as at its rim: there the answer is 0."),
 ]
 
 

@@ -102,6 +102,19 @@ MISTAKES = [
     ("diagonal", RIGHT, "[1 / x[0], 0, 0, 0, 1 / y[1], 0, 0, 0, 1 / z[2]]",
      "Only the diagonal is inverted, which is the inverse of a matrix that scales and does nothing "
      "else."),
+    ("adjugate", RIGHT, "[columns[k][i] for i in range(3) for k in range(3)]",
+     "This is the adjugate, the inverse times the determinant: divide by the determinant, whose "
+     "sign counts, and transpose."),
+    ("minors", RIGHT, "[(-1) ** (k + i) * e / determinant for k, column in enumerate(columns) for "
+                      "i, e in enumerate(column)]",
+     "Every other number has the wrong sign. Minors become cofactors by the signs of a chessboard: "
+     "+ - +, - + -, + - +."),
+    ("unit_then_inverted", "model[0:3], model[4:7], model[8:11]",
+     "unit(model[0:3]), unit(model[4:7]), unit(model[8:11])",
+     "The columns are made unit before the matrix is inverted. That takes the scale away, whose "
+     "inverse normals need."),
+    ("result_unit", RIGHT, "[e for c in columns for e in unit(scale(1 / determinant, c))]",
+     "The columns of the result are made unit: a normal mixes them, so their lengths count."),
 ]
 
 

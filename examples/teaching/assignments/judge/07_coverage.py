@@ -97,6 +97,16 @@ MISTAKES = [
     ("box", "if edge < 0 or edge == 0 and not (top or left):",
      "if not (min(x) <= px < max(x) and min(y) <= py < max(y)):",
      "This is the box around the triangle: the three edge functions are missing."),
+    ("rows_up", "256 * j + 128", "256 * (7 - j) + 128",
+     "Rows are counted from below here. y runs down: row 0 is the top one."),
+    ("left_border", "256 * i + 128", "256 * i",
+     "x is taken at the left border of the pixel: its centre is at 256 i + 128."),
+    ("upper_border", "256 * j + 128", "256 * j",
+     "y is taken at the upper border of the pixel: its centre is at 256 j + 128."),
+    ("whole_pixels", "    px, py", "    x, y = [a // 256 * 256 for a in x], [a // 256 * 256 for a "
+                                   "in y]\n    px, py",
+     "Corners are cut to whole pixels: leave them in 1/256 pixel, and give the centre of the pixel "
+     "in the same unit."),
 ]
 
 

@@ -42,8 +42,10 @@ CASES = [
          "The near plane, z = -w, has the depth 0; the far plane, z = w, has 1."),
 ]
 MIXED = "abc[0] * z[0] / w[0] + abc[1] * z[1] / w[1] + abc[2] * z[2] / w[2]"
+TWICE = " + ".join(f"{part} / w[{k}]" for k, part in enumerate(MIXED.split(" + ")))
 OVER_W = "(abc[0] / w[0] + abc[1] / w[1] + abc[2] / w[2])"
 HALF = "0.5 * mixed + 0.5"
+WHOLE = "mixed = " + MIXED + "\n    return 0.5 * mixed + 0.5"
 MISTAKES = [
     ("perspective", MIXED, f"({MIXED}) / {OVER_W}",
      "z/w is linear on the screen already. Dividing by the interpolated 1/w is for texture "
@@ -57,8 +59,7 @@ MISTAKES = [
      "at the corners."),
     ("reversed", HALF, "0.5 - 0.5 * mixed",
      "This is 1 near and 0 far: the window has it the other way."),
-    ("undivided_unmapped", "mixed = " + MIXED + "\n    return 0.5 * mixed + 0.5", "return dot(abc, "
-                                                                                  "z)",
+    ("undivided_unmapped", WHOLE, "return dot(abc, z)",
      "This mixes z of clip space: divide by w at each corner, and bring -1 .. 1 to 0 .. 1."),
     ("centre", MIXED, "(z[0] / w[0] + z[1] / w[1] + z[2] / w[2]) / 3",
      "This is the same all over the triangle: the weights of the corners are abc."),
@@ -66,7 +67,7 @@ MISTAKES = [
     ("plus_one", HALF, "mixed + 1", "z/w + 1 runs from 0 to 2: halve it."),
     ("clamped", HALF, "max(0, mixed)",
      "Depth in front of the middle is cut to 0: bring -1 .. 1 to 0 .. 1 by (z/w + 1) / 2."),
-    ("distance", "mixed = " + MIXED + "\n    return 0.5 * mixed + 0.5", "return dot(abc, w)",
+    ("distance", WHOLE, "return dot(abc, w)",
      "This mixes w, the distance from the eye. Window depth is made of z/w."),
     ("turned_weights", MIXED, "abc[1] * z[0] / w[0] + abc[2] * z[1] / w[1] + abc[0] * z[2] / w[2]",
      "The weights belong to other corners: abc[k] belongs to corner k."),
@@ -74,6 +75,12 @@ MISTAKES = [
      "The weights are in the reverse order: abc[k] belongs to corner k."),
     ("one_corner", MIXED, "z[0] / w[0]",
      "This is the depth of the first corner: mix all three by abc."),
+    ("as_attribute", MIXED, f"({TWICE}) / {OVER_W}",
+     "z/w is treated as a texture coordinate, divided by w once more. It is linear on the screen "
+     "as it is: mix it by abc."),
+    ("w_added", WHOLE, "return (dot(abc, z) + dot(abc, w)) / 2",
+     "(z + w) / 2 is depth times w: divide by w at each corner before you mix."),
+    ("inverse_w", WHOLE, f"return {OVER_W}", "This mixes 1/w. Window depth is made of z/w."),
 ]
 
 

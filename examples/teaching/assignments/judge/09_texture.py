@@ -3,6 +3,7 @@ from .points import Case
 from .tools import dot
 
 INPUTS, OUTPUTS, TOLERANCE = "w3 uv6 abc3", "2", 1e-5
+PARTS = "uv"
 
 
 def texture_at(w, uv, abc):
@@ -76,6 +77,14 @@ MISTAKES = [
      "The weights belong to other corners: abc[k] belongs to corner k."),
     ("u_alone", RETURN, "[u / whole, sum(a * t[1] for a, t in zip(abc, uv))]",
      "u is in perspective and v is linear on the screen: v needs the same."),
+    ("turned_corners", "zip(weight, uv)", "zip(weight, uv[1:] + uv[:1])",
+     "uv belongs to other corners: uv[k] goes with w[k] and abc[k]."),
+    ("u_twice", "t[1]", "t[0]",
+     "v is made of the u of the corners: take the second number of uv[k]."),
+    ("u_turned", RETURN, "[1 - u / whole, v / whole]",
+     "u is turned round: return it as it is mixed."),
+    ("w_alone", "whole = sum(weight)", "whole = sum(1 / k for k in w)",
+     "1/w is added up without abc: mix it by abc, as u/w and v/w are."),
 ]
 
 

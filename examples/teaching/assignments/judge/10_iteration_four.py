@@ -9,6 +9,18 @@ LAMP = "position3 spot_direction3 cos_cutoff1 e1 I_La3 I_d3 I_s3 a1 b1 c1"
 INPUTS = "eye3 P3 N3 k_e3 k_a3 k_d3 k_s3 n1 I_a3 lamps1" + "".join(
     f" lights[{k}].{LAMP}" for k in range(LAMPS))
 OUTPUTS, TOLERANCE = "3", 1e-4
+PARTS = ["red", "green", "blue"]
+TERMS = [  # numbers of the inputs that make a term, and what to say where it alone is wrong
+    (9, 12, "All is right but k_e."),
+    (22, 25, "All is right but k_a I_a, the ambient light of the scene."),
+    (34, 37, "All is right but k_a I_La, the ambient light of a lamp: no cone, no distance and no B "
+             "stands before it."),
+    (37, 40, "All is right but the diffuse term: k_d I_d (N.L), times spot / (a + b r + c r^2)."),
+    (40, 43, "All is right but the highlight: k_s I_s (N.H)^n, times spot / (a + b r + c r^2). Look "
+             "at H, at the exponent, at what stands before k_s."),
+    (37, 43, "All is right but the factor that dims both terms, spot / (a + b r + c r^2): look at r "
+             "and at the cone."),
+]
 
 
 def iteration_four(lighting, material, eye, P, N):
@@ -37,9 +49,12 @@ FUNCTIONS = [iteration_four]
 
 def fill(draw, lamps, side, lit=True):
     """Returns a scene in which each term of each lamp can be seen: all lamps in front of the
-    surface or behind it, with the point in their cones or outside."""
+    surface or behind it, and the point in their cones or, not lit, outside of the first one.  In one
+    of ten scenes with lamps behind they are at the horizon, where N.L is 0 to the bit."""
     N, P, n = draw.direction(), draw.some(-0.6, 0.6, 3), draw.spread(1, 80 if side > 0 else 4)
     to = [draw.at(N, side * draw.between(0.1, 1)) for _ in range(LAMPS)]
+    if side < 0 and draw.random() < 0.1:
+        N, *to = draw.axes()
     while True:
         H = draw.at(N, draw.lobe(n, 0.2))
         V = sub(scale(2 * dot(H, to[0]), H), to[0])
@@ -48,10 +63,11 @@ def fill(draw, lamps, side, lit=True):
             break
     inputs = add(P, scale(draw.between(1.5, 4), V)) + P + N
     inputs += draw.some(0.05, 0.9, 12) + [n] + draw.some(0.05, 0.5, 3) + [lamps]
-    for L in to:
+    for k, L in enumerate(to):
         e = 0 if draw.random() < 0.1 else draw.spread(0.5, 40)
-        cosine = draw.lobe(e, 0.2) if lit else draw.between(0.3, 0.9)
-        cutoff = draw.between(-0.5, cosine - 0.01) if lit else draw.between(cosine + 0.01, 1)
+        here = lit or k and draw.random() < 0.5
+        cosine = draw.lobe(e, 0.2) if here else draw.between(0.3, 0.9)
+        cutoff = draw.between(-0.5, cosine - 0.01) if here else draw.between(cosine + 0.01, 1)
         inputs += add(P, scale(draw.between(0.6, 2.5), L))
         inputs += scale(-draw.spread(0.3, 4), draw.at(L, cosine)) + [cutoff, e]
         inputs += draw.some(0.05, 0.4, 3) + draw.some(0.3, 2, 6)
@@ -71,7 +87,7 @@ CASES = [
          "r, cone and B."),
     Case(4, "lamps behind the surface", lambda draw: fill(draw, draw.randint(1, 3), -1),
          "Where N.L is not above 0 a lamp adds its ambient light alone, k_a I_La."),
-    Case(3, "outside of the cones", lambda draw: fill(draw, draw.randint(1, 3), 1, False),
+    Case(3, "outside of a cone", lambda draw: fill(draw, draw.randint(1, 3), 1, False),
          "Outside of its cone a lamp adds its ambient light alone, k_a I_La."),
 ]
 CUT = "spot = spot if dot(L, S) >= lamp.spot_cos_cutoff else 0"
@@ -79,6 +95,7 @@ AMBIENT = "light = add(light, mul(material.ambient, lamp.ambient))"
 START = "light = add(material.emission, mul(material.ambient, lighting.ambient))"
 LIGHTS = """mul(material.diffuse, lamp.diffuse))
         specular = scale(B * lobe, mul(material.specular, lamp.specular))"""
+BOTH = "scale(spot * fall, add(diffuse, specular))"
 OFTEN = AMBIENT + "\n        light = add(light, scale(1 if lamp is not lighting.lights[0] else 0, "
 MISTAKES = [
     ("ungated", "scale(B * lobe,", "scale(lobe,",
@@ -197,7 +214,38 @@ MISTAKES = [
      "The lamps are divided by their number: light adds up."),
     ("clamped", "return light", "return [min(1, c) for c in light]",
      "The sum is cut off at 1: return it as it is, a display cuts later."),
+    ("gate_at_horizon", "if dot(N, L) > 0", "if dot(N, L) >= 0",
+     "B is 0 where N.L is 0 as well, for a lamp at the horizon gives no light. Compare with >, not "
+     "with >=."),
+    ("exponent_of_lamp", "material.shininess)", "lamp.spot_exponent)",
+     "The highlight has the exponent of the lamp, spot_exponent: n is the material's shininess."),
+    ("cone_by_shininess", "lamp.spot_exponent)", "material.shininess)",
+     "The cone has the material's shininess: its exponent is the lamp's spot_exponent."),
+    ("lamp_ambient_without_k", AMBIENT, "light = add(light, lamp.ambient)",
+     "I_La is added without k_a: the surface returns the share k_a of it."),
+    ("highlight_undimmed", BOTH, "add(scale(spot * fall, diffuse), specular)",
+     "Cone and distance dim the diffuse term alone: they stand before the bracket, for both."),
+    ("diffuse_undimmed", BOTH, "add(diffuse, scale(spot * fall, specular))",
+     "Cone and distance dim the highlight alone: they stand before the bracket, for both."),
+    ("cone_cuts_ambient", AMBIENT, "light = add(light, scale(1 if spot else 0, mul("
+                                   "material.ambient, lamp.ambient)))",
+     "Outside of its cone a lamp adds no ambient light here: k_a I_La stands outside of cone and "
+     "distance."),
+    ("stops_at_cone", AMBIENT, "if not spot:\n            break\n        " + AMBIENT,
+     "The first lamp that does not reach P ends the sum: go on with the next one."),
+    ("stops_behind", AMBIENT, AMBIENT + "\n        if not B:\n            break",
+     "The first lamp behind the surface ends the sum: go on with the next one."),
+    ("distance_of_eye", "length(to)", "length(sub(eye, P))",
+     "r is the distance to the eye: take that to the lamp."),
 ]
+
+
+def terms(right, inputs):
+    """Returns what right answers lose without a term, and what to say where it alone is wrong."""
+    def without(start, end):
+        return [0.0 if start <= k < end else x for k, x in enumerate(inputs)]
+    whole = right(inputs)
+    return [(sub(whole, right(without(start, end))), says) for start, end, says in TERMS]
 
 
 def shown(inputs):

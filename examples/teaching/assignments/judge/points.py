@@ -216,10 +216,62 @@ class Judge:
         alike = self.alike(asked)
         if not alike:
             for mistake in self.task.mistakes:
-                if self.gives(asked, mistake):
+                if self.gives(asked, mistake) and not self.spoils(mistake):
                     return f"In this case, perhaps: {mistake[3]}"
         if any(map(math.isnan, got)):
             return "A NaN comes from 0 / 0, or from a root or a power of a negative number."
         if any(map(math.isinf, got)):
             return "An infinity comes from a division by 0."
-        return ("Your answer is the same for every input. " if alike else "") + case.hint
+        if alike:
+            return f"Your answer is the same for every input. {case.hint}"
+        return self.term(asked) or f"{self.common(asked)}{case.hint}"
+
+    def spoils(self, mistake):
+        """Tells whether a mistake would be seen in a case that is all right."""
+        wrong = self.wrong[(mistake[0],)]
+        return any(not self.task.near(self.task.compared(v, wrong(v)), want, part, LOOSE)
+                   for result in self.results if all(self.good(*one) for one in result.asked)
+                   for v, _, want, part in result.asked)
+
+    def common(self, asked):
+        """Returns what all answers of a case have in common with right ones, or nothing: a factor,
+        a number that is added, a power, directions or parts that are right."""
+        pairs = [(got[part], want[part]) for _, got, want, part in asked if got is not None]
+        size = len(pairs[0][1])
+        if len(pairs) < len(asked) or size > 9:
+            return ""
+        near = self.task.near
+        g, w = max(((g[k], w[k]) for g, w in pairs for k in range(size)), key=lambda x: abs(x[1]))
+        factor, more = g / w if w else 0, pairs[0][0][0] - pairs[0][1][0]
+        if factor and all(near(g, tools.scale(factor, w), times=LOOSE) for g, w in pairs):
+            return f"Each of your answers is {factor:.4g} times the right one. "
+        if all(near(g, [x + more for x in w], times=LOOSE) for g, w in pairs):
+            return f"Each of your answers is the right one and {more:.4g}. "
+        if all(x == int(x) for g, _ in pairs for x in g):
+            return "Your answers are whole numbers: an int or a // cuts them. "
+        if size == 1 and min(g[0] for g, _ in pairs) >= 0 < min(w[0] for _, w in pairs):
+            g, w = min(pairs, key=lambda pair: abs(pair[1][0] - 0.5))
+            power = math.log(max(g[0], 1e-30)) / (math.log(w[0]) or 1)
+            if all(near(g, [w[0] ** power], times=LOOSE) for g, w in pairs):
+                return f"Each of your answers is the right one to the power {power:.3g}. "
+        if size == 3 and all(near(tools.unit(g), tools.unit(w), times=LOOSE) for g, w in pairs):
+            return "Your directions are right, but their lengths are not. "
+        right = [k for k in range(size) if all(near(g[k:k + 1], w[k:k + 1]) for g, w in pairs)]
+        names = getattr(self.task.module, "PARTS", "xyz")
+        if right and size == len(names):
+            wrong = [names[k] for k in range(size) if k not in right]
+            return f"All is right but {' and '.join(wrong)}. "
+        return ""
+
+    def term(self, asked):
+        """Returns a sentence of the term that is wrong, where the task has terms: all that is off
+        lies along it."""
+        terms = getattr(self.task.module, "terms", None)
+        if not terms or any(got is None for _, got, _, _ in asked):
+            return ""
+        off = [(tools.sub(got, want), terms(self.right, v)) for v, got, want, _ in asked]
+        for k, (_, says) in enumerate(off[0][1]):
+            if all(1e-3 < tools.length(along[k][0]) and tools.length(tools.cross(
+                    by, along[k][0])) < 1e-3 * tools.length(along[k][0]) for by, along in off):
+                return says
+        return ""

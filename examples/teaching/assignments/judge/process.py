@@ -21,6 +21,8 @@ from . import student
 HERE = Path(__file__).resolve().parent
 ROOT = next(folder for folder in HERE.parents if (folder / "shade.h").is_file())
 PATIENCE = 10  # a busy machine takes this many times the seconds of the processor that are allowed
+BUILD = 2048, 30, 16 << 20  # megabytes, seconds and bytes of a file, for a compiler
+TOO_MUCH = "Your file is too much for the compiler: large arrays with values, or macros in macros?"
 AT_ONCE = 50  # inputs in the pipe at a time: both pipes hold them, so neither side waits for ever
 
 HEADERS = "assert float inttypes limits math stdbool stddef stdint stdio stdlib string".split()
@@ -83,19 +85,21 @@ def run_tool(*command):
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, check=False, timeout=120,
-                              env={**os.environ, "LC_ALL": "C"})
+                              env={**os.environ, "LC_ALL": "C"},
+                              preexec_fn=lambda: student.bound(*BUILD))
     except FileNotFoundError as error:
         raise Refused(f"There is no {command[0]}: a C compiler and nm are needed.") from error
     except subprocess.TimeoutExpired as error:
-        raise Refused("Your file takes the compiler more than two minutes.") from error
-    return done.returncode, done.stdout.decode(errors="replace")
+        raise Refused(TOO_MUCH) from error
+    said = done.stdout.decode(errors="replace")
+    if done.returncode and re.search(r"signal|Killed|too large|memory|limit exceeded", said):
+        raise Refused(TOO_MUCH)
+    return done.returncode, said
 
 
 def build_c(task, path, folder):
     """Compiles a student's C file in a folder; returns the command that runs it."""
     source = path.read_text(encoding="utf-8", errors="replace")
-    if len(source) > 1 << 16:
-        raise Refused("Your file is longer than 64 kB.")
     check_c(source)
     cc = [*shlex.split(os.environ.get("CC", "cc")), "-std=gnu99", "-O0", "-w"]
     made, library = folder / "answer.o", []
@@ -139,6 +143,10 @@ def one_file(path):
         raise Refused(f"Hand in one file, a .c or a .py: there are {len(found)}.")
     if not found[0].is_file() or found[0].suffix not in (".c", ".py"):
         raise Refused(f"{found[0].name} is no .c and no .py file.")
+    if found[0].is_symlink():  # to what, compilers would tell
+        raise Refused(f"{found[0].name} is a link: hand in the file itself.")
+    if found[0].stat().st_size > 1 << 16:
+        raise Refused("Your file is longer than 64 kB.")
     return found[0].resolve()
 
 

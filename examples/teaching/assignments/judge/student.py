@@ -19,20 +19,25 @@ REFUSED = 3  # the exit status where the file is not run
 NOBODY = 65534
 
 
+def bound(megabytes, seconds, written):
+    """Bounds what this process takes, and how large its files may be."""
+    for what, most in ((resource.RLIMIT_AS, megabytes << 20), (resource.RLIMIT_CPU, seconds),
+                       (resource.RLIMIT_FSIZE, written), (resource.RLIMIT_CORE, 0)):
+        try:
+            # A hard bound of time would kill without a word.
+            resource.setrlimit(what, (most, most + (what == resource.RLIMIT_CPU)))
+        except (ValueError, OSError):
+            pass  # macOS has no bound of memory
+
+
 def limit(seconds):
     """Bounds this process: its user, memory, time, files and children."""
     if os.geteuid() == 0:
         os.setgroups([])
         os.setgid(NOBODY)
         os.setuid(NOBODY)
-    for what, most in ((resource.RLIMIT_AS, MEGABYTES << 20), (resource.RLIMIT_CPU, seconds),
-                       (resource.RLIMIT_FSIZE, PRINTED), (resource.RLIMIT_CORE, 0),
-                       (resource.RLIMIT_NPROC, 0)):
-        try:
-            # A hard bound of time would kill without a word.
-            resource.setrlimit(what, (most, most + (what == resource.RLIMIT_CPU)))
-        except (ValueError, OSError):
-            pass  # macOS has no bound of memory
+    bound(MEGABYTES, seconds, PRINTED)
+    resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
     signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
 
 
@@ -82,6 +87,8 @@ def flat(answer):
     """Returns the numbers of an answer, which may be lists in lists."""
     if isinstance(answer, (list, tuple)):
         return [x for part in answer for x in flat(part)]
+    if answer is None:
+        raise TypeError("the function returns nothing: is a return missing?")
     return [float(answer)]
 
 
@@ -152,6 +159,7 @@ def reply(call, functions, numbers, outputs):
         says = f"returns {len(answer)} numbers; right are {outputs}"
     except BaseException as error:  # whatever a student's function raises
         says = f"raises {type(error).__name__}: {str(error)[:200]}"
+        says += ": a power is **" if "for ^" in says else ""
     os.write(2, f"\0{says}\0".encode())
     return [0] + outputs * [math.nan]
 

@@ -83,6 +83,13 @@ class Draw(random.Random):
         side = unit(cross(axis, self.direction()))
         return add(scale(cosine, axis), scale(math.sqrt(max(0, 1 - cosine * cosine)), side))
 
+    def axes(self):
+        """Returns an axis, and the two others and one of them turned round: at right angles to it,
+        to the bit."""
+        k, sign = self.randrange(3), self.choice([-1.0, 1.0])
+        x, y, z = ([sign * (i == (k + j) % 3) for i in range(3)] for j in range(3))
+        return [x, y, z, scale(-1, y)]
+
     def weights(self):
         """Returns three numbers above 0 with the sum 1."""
         a, b = sorted(self.some(0.02, 0.98, 2))
