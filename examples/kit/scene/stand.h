@@ -71,9 +71,10 @@ static inline stand_end stand_look(const owned_mesh *m, int k, double sign, doub
             low[1] = fmin(low[1], (double)p[c][b]);
             high[1] = fmax(high[1], (double)p[c][b]);
         }
+        if (inside < 3) continue;
         n = shade_cross(shade_sub(v[1], v[0]), shade_sub(v[2], v[0]));
         memcpy(normal, &n, sizeof normal);
-        if (inside == 3 && sign * (double)normal[k] > 0.99 * (double)shade_length(n))
+        if (sign * (double)normal[k] > 0.99 * (double)shade_length(n))
             area += 0.5 * sign * (double)normal[k];
     }
     end.flat = box > 0 ? fmin(1, area / box) : 0;
