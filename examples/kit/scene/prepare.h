@@ -95,7 +95,8 @@ typedef struct crease_part {
    holds it for floats of any size, so that nothing needs a root */
 static double crease_face(const owned_mesh *m, const uint32_t *corner, double *face)
 {
-    const float *a = m->positions + 3 * (size_t)corner[0], *b = m->positions + 3 * (size_t)corner[1];
+    const float *a = m->positions + 3 * (size_t)corner[0];
+    const float *b = m->positions + 3 * (size_t)corner[1];
     const float *c = m->positions + 3 * (size_t)corner[2];
     double u[3], v[3];
     for (int k = 0; k < 3; k++) {
