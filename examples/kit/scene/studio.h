@@ -395,7 +395,7 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
     const int sky_size = pixels <= 128 ? 128 : 256, key_size = 2 * sky_size;
     double draws = corners / (double)m->mesh.view.index_count;
     int sky = draws > most ? most : draws > 12 ? (int)draws : 12;
-    int key = draws > most ? STUDIO_KEY * most / STUDIO_SKY : 4;
+    int key = sky > 16 ? STUDIO_KEY * sky / STUDIO_SKY : 4;
     size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
     s->ground = pixels <= 128 ? STUDIO_GROUND / 2 : STUDIO_GROUND;
     studio_place(s, sky, key);
@@ -417,12 +417,14 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
+    const double corners = studio_may_thin(m) ? 16e6 : 40e6;
+    const double draws = pixels <= 256 ? 8e6 : corners; /* there, maps took half of all time */
     shade_result result = SHADE_ERROR_CAPACITY;
     model thin;
     if (!studio_may_thin(m))
-        return studio_open_for(s, m, 40e6, pixels, turn, threads, progress, user);
+        return studio_open_for(s, m, draws, pixels, turn, threads, progress, user);
     if (!studio_thin(&thin, m))
-        result = studio_open_for(s, &thin, 16e6, pixels, turn, threads, progress, user);
+        result = studio_open_for(s, &thin, draws, pixels, turn, threads, progress, user);
     studio_thin_free(&thin);
     return result;
 }
