@@ -417,8 +417,8 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
-    const double corners = studio_may_thin(m) ? 16e6 : 40e6;
-    const double draws = pixels <= 256 ? 8e6 : corners; /* there, maps took half of all time */
+    const double own = pixels <= 256 ? 8e6 : 40e6; /* there, maps took half of all time */
+    const double draws = studio_may_thin(m) ? 16e6 : own;
     shade_result result = SHADE_ERROR_CAPACITY;
     model thin;
     if (!studio_may_thin(m))
