@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
-#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size] [copies] [read]
+#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size] [copies] [read] [thumbnails]
 #                            all where none is named
 #   BASE=revision run.sh     this shade.h against that of another revision, frames in turns
 #
@@ -131,6 +131,36 @@ read_files() {
     echo
 }
 
+# Thumbnails at 256 pixels, as programs from start to end, beside f3d, which needs a display.
+thumbnails() {
+    ${MAKE:-make} -s build/thumbnail
+    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/read.c -o "$build/bench_read" -lm
+    $cc $standard $flags bench/turns.c -o "$build/turns"
+    picture=$build/bench_read.ppm f3d= screen=
+    if can_build c '#include <stb/stb_image_write.h>' $cc "$build/probe.c"; then
+        picture=$build/bench_read.png
+    fi
+    if command -v f3d >/dev/null; then
+        f3d="-- f3d --dry-run --resolution 256,256 --output $build/bench_f3d.png"
+        if [ -z "${DISPLAY:-}" ]; then screen="xvfb-run -a"; fi
+    fi
+    echo "## Thumbnails of binary STL at 256 pixels, seconds of processor time"
+    echo
+    echo "| triangles | shade-thumbnail | with --quick | f3d | parts of it |"
+    echo "|---|---|---|---|---|"
+    for triangles in 1000 100000 2000000; do
+        "$build/bench_read" --only "STL, binary" --triangles "$triangles" --write "$build" >/dev/null
+        model=$build/a.stl
+        $screen "$build/turns" "${ROUNDS:-5}" build/thumbnail --size 256x256 "$model" "$picture" -- \
+            build/thumbnail --quick --size 256x256 "$model" "$picture" ${f3d:+$f3d "$model"} |
+            awk -v triangles="$triangles" '{
+                parts = NF > 2 ? sprintf("%.2f, %.2f", $1 / $3, $2 / $3) : "-"
+                print "| " triangles " | " $1 " | " $2 " | " (NF > 2 ? $3 : "-") " | " parts " |" }'
+    done
+    rm -f "$build/a.stl"
+    echo
+}
+
 size_of() {
     echo "## Size"
     echo
@@ -193,9 +223,9 @@ if [ -n "${BASE:-}" ]; then
     exit
 fi
 
-for part in ${*:-compare levels maths kernel scaling size copies read}; do
+for part in ${*:-compare levels maths kernel scaling size copies read thumbnails}; do
     case $part in
-    compare | levels | maths | kernel | scaling | copies) $part ;;
+    compare | levels | maths | kernel | scaling | copies | thumbnails) $part ;;
     size) size_of ;;
     read) read_files ;;
     *)

@@ -246,16 +246,19 @@ static inline float *mesh_tangents(const owned_mesh *m)
 static inline void mesh_box(const owned_mesh *m, double low[3], double high[3])
 {
     const size_t corners = m->indices ? (size_t)m->view.index_count : 0;
-    const size_t n = 3 * (corners ? corners : (size_t)m->view.vertex_count);
-    for (int k = 0; k < 3; k++) {
-        low[k] = 1e300;
-        high[k] = -1e300;
-    }
+    const size_t n = corners ? corners : (size_t)m->view.vertex_count;
+    float least[3] = { FLT_MAX, FLT_MAX, FLT_MAX };
+    float most[3] = { -FLT_MAX, -FLT_MAX, -FLT_MAX };
     for (size_t i = 0; i < n; i++) {
-        const size_t vertex = corners ? m->indices[i / 3] : i / 3;
-        double v = (double)m->positions[3 * vertex + i % 3];
-        if (v < low[i % 3]) low[i % 3] = v;
-        if (v > high[i % 3]) high[i % 3] = v;
+        const float *p = m->positions + 3 * (corners ? (size_t)m->indices[i] : i);
+        for (int k = 0; k < 3; k++) {
+            least[k] = p[k] < least[k] ? p[k] : least[k];
+            most[k] = p[k] > most[k] ? p[k] : most[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        low[k] = (double)least[k];
+        high[k] = (double)most[k];
     }
 }
 

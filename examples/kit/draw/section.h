@@ -461,7 +461,7 @@ static inline double section_side(int axis, int up, float turn, shade_vec3 eye)
 static inline int section_cut(section *s, model *m, const model_options *o)
 {
     double extent = 0;
-    int state = 0, failed = !m->normals_given && mesh_crease(&m->mesh, 0);
+    int state = 0, failed = !m->normals_given && mesh_crease(&m->mesh, 0, CREASE_40_DEGREES);
     m->normals_given = 1;
     for (int i = 0; i < 3; i++) extent = fmax(extent, s->high[i] - s->low[i]);
     failed = failed || section_clip(s);

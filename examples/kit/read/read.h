@@ -263,7 +263,7 @@ static int model_prepare(model *m, const model_options *o, float turn)
     int failed = 0;
     if (model_blank(m)) return 1;
     relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
-    if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
+    if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat, CREASE_40_DEGREES);
     if (!failed) failed = mesh_chunk_parts(m);
     return failed ? complain("out of memory") : 0;
 }

@@ -69,37 +69,53 @@ static shade_vec3 look_fresnel(const look *k, shade_vec3 albedo, float cosine)
     return shade_add(front, shade_scale(shade_sub(white, front), grazing));
 }
 
+/* What the studio sends to the lanes from first on, as many as a block has and count allows: the
+   light of its sky, its mirror image, and the part of the large lamp */
+static void look_studio(const look *k, const float *P, const float *N, const float *albedo,
+                        int first, int count, look_rows sky, look_rows mirror, float *visibility)
+{
+    studio_points p;
+    studio_rows E;
+    shade_vec3 V[STUDIO_BLOCK], R[STUDIO_BLOCK];
+    float open[STUDIO_BLOCK], lamp[STUDIO_BLOCK];
+    STUDIO_EACH(i)
+    {
+        const int lane = first + i < count ? first + i : count - 1;
+        const float *at = P + lane, *n = N + lane;
+        const shade_vec3 point = shade_v3(at[0], at[SHADE_LANES], at[2 * SHADE_LANES]);
+        shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
+        normal = shade_normalize(normal);
+        V[i] = shade_normalize(shade_sub(k->eye, point));
+        R[i] = shade_mirror(V[i], normal);
+        studio_put(p.P, i, point);
+        studio_put(p.N, i, normal);
+        studio_put(p.R, i, R[i]);
+    }
+    studio_sky(k->studio, &p, E, open);
+    studio_lamp(k->studio, &p, lamp);
+    for (int i = 0; i < STUDIO_BLOCK && first + i < count; i++) {
+        const float *c = albedo + first + i;
+        const shade_vec3 own = shade_v3(c[0], c[SHADE_LANES], c[2 * SHADE_LANES]);
+        const shade_vec3 normal = shade_v3(p.N[0][i], p.N[1][i], p.N[2][i]);
+        lane_put(sky[0], first + i, shade_v3(E[0][i], E[1][i], E[2][i]));
+        visibility[first + i] = lamp[i];
+        if (!k->mirrors) continue;
+        lane_put(mirror[0], first + i,
+                 shade_mul(look_fresnel(k, own, shade_dot(normal, V[i])),
+                           studio_mirror(k->studio, R[i], k->rough, open[i], lamp[i])));
+    }
+}
+
 /* The light that leaves P toward the eye; only the first count lanes are computed.  glow, which may
    be NULL, is the light that P sends by itself. */
 static void look_light(const look *k, const float *P, const float *N, const float *albedo,
                        const float *glow, int count, look_rows out)
 {
     float visibility[SHADE_LANES * 2];
-    look_rows sky, mirror;
-    SHADE_EACH_LANE(i)
-    {
-        int lane = i < count ? i : count - 1;
-        const float *p = P + lane, *n = N + lane;
-        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]);
-        shade_vec3 E = shade_v3(0, 0, 0), M = E;
-        shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
-        normal = shade_normalize(normal);
-        visibility[i] = visibility[SHADE_LANES + i] = 1;
-        if (k->shadows && i < count) {
-            shade_vec3 V = shade_normalize(shade_sub(k->eye, at)), R = shade_mirror(V, normal);
-            float open;
-            E = studio_sky(k->studio, at, normal, R, &open);
-            visibility[i] = studio_lamp(k->studio, at, normal);
-            if (k->mirrors) {
-                const float *c = albedo + lane;
-                shade_vec3 own = shade_v3(c[0], c[SHADE_LANES], c[2 * SHADE_LANES]);
-                M = shade_mul(look_fresnel(k, own, shade_dot(normal, V)),
-                              studio_mirror(k->studio, R, k->rough, open, visibility[i]));
-            }
-        }
-        lane_put(sky[0], i, E);
-        lane_put(mirror[0], i, M);
-    }
+    look_rows sky = { { 0 } }, mirror = { { 0 } };
+    for (int i = 0; i < 2 * SHADE_LANES; i++) visibility[i] = 1;
+    for (int first = 0; first < count && k->shadows; first += STUDIO_BLOCK)
+        look_studio(k, P, N, albedo, first, count, sky, mirror, visibility);
     shade_lit_lanes(
         &k->lighting, &k->material, k->eye,
         &(shade_rows){ .position = P, .normal = N, .albedo = albedo, .visibility = visibility },

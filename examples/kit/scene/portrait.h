@@ -168,19 +168,21 @@ static inline shade_result portrait_light(studio *light, const model *m, const p
     return studio_open(light, m, pixels, 0, how->threads, progress, user);
 }
 
-/* The data that all bands share, and the result of each band */
-enum { PORTRAIT_BANDS = 64 };
+/* The data that all bands share, and the result of each band.  Bands of fewer rows would draw most
+   triangles of a large model twice. */
+enum { PORTRAIT_BANDS = 64, PORTRAIT_ROWS = 32 };
 typedef struct portrait_work {
     const shade_target *target;
     const exhibit *exhibit;
     camera camera;
+    int bands;
     shade_result result[PORTRAIT_BANDS];
 } portrait_work;
 
 static inline void portrait_band(void *data, int band)
 {
     portrait_work *w = (portrait_work *)data;
-    const shade_target rows = bands_rows(w->target, band, PORTRAIT_BANDS);
+    const shade_target rows = bands_rows(w->target, band, w->bands);
     w->result[band] = exhibit_draw(w->exhibit, &rows, w->camera.view, w->camera.projection);
 }
 
@@ -198,11 +200,13 @@ static inline shade_result portrait_draw(const canvas *c, const model *m, const 
     exhibit e;
     portrait_work w = { .target = &c->target, .exhibit = &e };
     shade_result result = SHADE_ERROR_CAPACITY;
+    w.bands = c->target.height / PORTRAIT_ROWS + 1;
+    if (w.bands > PORTRAIT_BANDS) w.bands = PORTRAIT_BANDS;
     w.camera = camera_frame(&m->mesh, (float)p->width / (float)p->height, how);
     if (!exhibit_open(&e, m, light, how, w.camera.eye)) {
         portrait_background(&c->target, p);
         exhibit_aim(&e, shade_mat4_mul(w.camera.projection, w.camera.view));
-        bands_run_told(how->threads, PORTRAIT_BANDS, portrait_band, &w, progress, user);
+        bands_run_told(how->threads, w.bands, portrait_band, &w, progress, user);
         result = SHADE_OK;
     }
     for (int i = 0; i < PORTRAIT_BANDS; i++)

@@ -5,25 +5,32 @@
 #include "../read/files.h"
 #include "stand.h"
 
-/* The sum of the squares of how many corners meet at each position: what corner normals cost.
-   0: out of memory */
-static double crease_cost(const owned_mesh *m)
+/* The number of each vertex's position, which the caller frees.  NULL: out of memory */
+static uint32_t *crease_places(const owned_mesh *m)
 {
     static const mesh_set empty;
+    const size_t n = (size_t)m->view.vertex_count;
     mesh_set places = empty;
-    size_t vertices = (size_t)m->view.vertex_count;
-    uint32_t *place = (uint32_t *)calloc(2 * vertices + 1, sizeof *place);
-    double cost = 0;
-    int failed = !place;
-    if (!failed) failed = mesh_set_positions(&places, m->positions, vertices, place);
-    if (!failed) {
-        uint32_t *count = place + vertices;
-        for (int i = 0; i < m->view.index_count; i++) count[place[m->indices[i]]]++;
-        for (size_t i = 0; i < places.count; i++) cost += (double)count[i] * (double)count[i];
+    uint32_t *place = (uint32_t *)malloc((n + 1) * sizeof *place);
+    if (place && mesh_set_positions(&places, m->positions, n, place)) {
+        free(place);
+        place = NULL;
     }
-    free(place);
     mesh_set_free(&places);
-    return failed ? 0 : cost;
+    return place;
+}
+
+/* The sum of the squares of how many corners meet at each position: what corner normals cost.
+   0: out of memory */
+static double crease_cost(const owned_mesh *m, const uint32_t *place)
+{
+    uint32_t *count = (uint32_t *)calloc((size_t)m->view.vertex_count + 1, sizeof *count);
+    double cost = 0;
+    for (int i = 0; count && i < m->view.index_count; i++) count[place[m->indices[i]]]++;
+    for (int i = 0; count && i < m->view.vertex_count; i++)
+        cost += (double)count[i] * (double)count[i];
+    free(count);
+    return cost;
 }
 
 /* An array with the elements of another for each new vertex; frees the other. */
@@ -57,71 +64,75 @@ static int mesh_unshare(owned_mesh *m)
     return lacks;
 }
 
-/* Normals for a model that has none: rounded where the cosine between faces is larger than least,
-   sharp elsewhere; of each face with flat.  A mesh where that would take long stays round all over.
-   Non-zero: out of memory. */
-static int mesh_crease_at(owned_mesh *m, int flat, float least)
+/* Gives each face its own normal.  Non-zero: out of memory */
+static int mesh_flatten(owned_mesh *m)
 {
-    size_t n = (size_t)m->view.index_count, bytes = shade_mesh_corner_normals_bytes(&m->view);
-    double cost = flat ? 0 : crease_cost(m);
-    void *memory = NULL;
-    shade_vec3 *normal;
-    int failed = 1;
-    if (!flat && !(cost > 0)) return 1;
-    if (cost > 20.0 * (double)n + 1e6) return 0;
-    normal = (shade_vec3 *)malloc((n + 1) * sizeof *normal);
-    if (!flat) memory = malloc(bytes);
-    if (normal && (memory || flat)) failed = 0;
-    if (!failed && !flat)
-        failed = shade_mesh_corner_normals(&m->view, least, normal, memory, bytes) != SHADE_OK;
-    free(memory);
-    if (!failed) failed = mesh_unshare(m);
-    for (size_t i = 0; i < n && !failed && flat; i++) {
-        shade_vec3 p[3];
-        memcpy(p, m->positions + 9 * (i / 3), sizeof p);
-        normal[i] = shade_face_normal(p[0], p[1], p[2]);
+    if (mesh_unshare(m)) return 1;
+    for (int i = 0; i < m->view.vertex_count; i++) {
+        shade_vec3 p[3], n;
+        memcpy(p, m->positions + 9 * (size_t)(i / 3), sizeof p);
+        n = shade_face_normal(p[0], p[1], p[2]);
+        if (shade_dot(n, n) > 0) memcpy(m->normals + 3 * (size_t)i, &n, sizeof n);
     }
-    for (size_t i = 0; i < n && !failed; i++) /* corners of faces without area keep their normals */
-        if (shade_dot(normal[i], normal[i]) > 0) memcpy(m->normals + 3 * i, &normal[i], 12);
-    free(normal);
-    return failed;
+    return 0;
 }
 
-/* ---- creases of large meshes ----------------------------------------------------------------- */
+/* ---- creases --------------------------------------------------------------------------------- */
 
-/* Most vertices of a large mesh have no crease: all faces there lean less from the vertex's normal
-   than half the angle of a crease, so that the normal serves all.  The corners of the others are
-   given vertices of their own.  2 million triangles of a torus take 0.3 s instead of 2.7, and keep
-   1 million vertices instead of 6. */
+/* Most vertices have no crease: all faces there lean less from the vertex's normal than half the
+   angle of a crease, so that the normal serves all.  The corners of the others are given vertices
+   of their own.  2 million triangles of a torus take 0.3 s instead of 2.7, and keep 1 million
+   vertices instead of 6, which all draws profit by. */
 typedef struct crease_part {
+    uint32_t *place;   /* by vertex; NULL while those of a large mesh count as apart */
     char *creased;     /* by vertex */
     owned_mesh around; /* the triangles with such a vertex; positions and indices alone */
     uint32_t *at;      /* where their indices stand in the whole mesh */
     size_t corners;    /* that get a vertex of their own */
 } crease_part;
 
+/* The cross product of two edges of a triangle, and the square of its length: in double, which
+   holds it for floats of any size, so that nothing needs a root */
+static double crease_face(const owned_mesh *m, const uint32_t *corner, double *face)
+{
+    const float *a = m->positions + 3 * (size_t)corner[0];
+    const float *b = m->positions + 3 * (size_t)corner[1];
+    const float *c = m->positions + 3 * (size_t)corner[2];
+    double u[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)b[k] - (double)a[k];
+        v[k] = (double)c[k] - (double)a[k];
+    }
+    for (int k = 0; k < 3; k++)
+        face[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    return face[0] * face[0] + face[1] * face[1] + face[2] * face[2];
+}
+
 /* Finds the vertices with creases.  Non-zero: out of memory */
 static int crease_find(crease_part *c, const owned_mesh *m, float least)
 {
-    const float lean = sqrtf((1 + fmaxf(least, 0)) / 2);
+    const double square = (1 + fmax((double)least, 0)) / 2; /* of the cosine of half the angle */
     const int n = m->view.index_count;
     int count = 0;
     c->creased = (char *)calloc((size_t)m->view.vertex_count + 1, 1);
     c->around.indices = (uint32_t *)malloc(((size_t)n + 1) * sizeof(uint32_t));
     c->at = (uint32_t *)malloc(((size_t)n + 1) * sizeof(uint32_t));
     if (!c->creased || !c->around.indices || !c->at) return 1;
-    for (int i = 0; i < n; i++) {
-        const uint32_t *corner = m->indices + i - i % 3;
-        shade_vec3 p[3], face, normal;
-        if (i % 3) continue;
-        for (int k = 0; k < 3; k++) memcpy(&p[k], m->positions + 3 * (size_t)corner[k], 12);
-        face = shade_face_normal(p[0], p[1], p[2]);
-        if (!(shade_dot(face, face) > 0)) continue;
+    for (int i = 0; i < n; i += 3) {
+        const uint32_t *corner = m->indices + i;
+        double face[3];
+        const double area = crease_face(m, corner, face); /* its square, four times */
+        if (!(area > 0)) continue;
         for (int k = 0; k < 3; k++) {
-            memcpy(&normal, m->normals + 3 * (size_t)corner[k], 12);
-            if (shade_dot(face, shade_normalize(normal)) < lean) c->creased[corner[k]] = 1;
+            const float *N = m->normals + 3 * (size_t)corner[k];
+            const double x = (double)N[0], y = (double)N[1], z = (double)N[2];
+            const double along = face[0] * x + face[1] * y + face[2] * z;
+            if (along < 0 || along * along < square * area * (x * x + y * y + z * z))
+                c->creased[c->place ? c->place[corner[k]] : corner[k]] = 1;
         }
     }
+    for (int i = m->view.vertex_count; c->place && i-- > 0;) /* places are not above vertices */
+        c->creased[i] = c->creased[c->place[i]];
     for (int i = 0; i < n; i++) {
         const uint32_t *corner = m->indices + i - i % 3;
         c->corners += c->creased[m->indices[i]] != 0;
@@ -169,16 +180,21 @@ static int crease_split(owned_mesh *m, crease_part *c, const shade_vec3 *normal)
     return 0;
 }
 
-static int crease_large(owned_mesh *m, float least)
+/* Rounds what meets at less than an angle, of which least is the cosine.  A mesh where that would
+   take long stays round all over.  Non-zero: out of memory */
+static int crease_round(owned_mesh *m, float least)
 {
     static const crease_part empty;
     crease_part c = empty;
     shade_vec3 *normal = NULL;
     void *memory = NULL;
-    int failed = crease_find(&c, m, least);
+    const int large = m->view.index_count / 3 > MESH_LARGE;
+    int failed = (!large && !(c.place = crease_places(m))) || crease_find(&c, m, least);
     const size_t n = (size_t)c.around.view.index_count;
     const size_t bytes = shade_mesh_corner_normals_bytes(&c.around.view);
-    double cost = failed || !n ? 0 : crease_cost(&c.around);
+    double cost = 0;
+    if (!failed && n && !c.place) failed = !(c.place = crease_places(m));
+    if (!failed && n) cost = crease_cost(&c.around, c.place);
     if (!failed && n && cost <= 20.0 * (double)n + 1e6 &&
         c.corners + (size_t)m->view.vertex_count < INT_MAX) {
         normal = (shade_vec3 *)malloc(n * sizeof *normal);
@@ -189,25 +205,27 @@ static int crease_large(owned_mesh *m, float least)
     }
     free(memory);
     free(normal);
+    free(c.place);
     free(c.creased);
     free(c.around.indices);
     free(c.at);
     return failed;
 }
 
-/* The same, rounded where faces meet at less than 40 degrees */
-static int mesh_crease(owned_mesh *m, int flat)
+/* Normals for a model that has none: rounded where faces meet at less than an angle, of which least
+   is the cosine, sharp elsewhere; of each face with flat.  Non-zero: out of memory */
+#define CREASE_40_DEGREES 0.766f
+static int mesh_crease(owned_mesh *m, int flat, float least)
 {
-    const int large = m->view.index_count / 3 > MESH_LARGE;
-    return large && !flat ? crease_large(m, 0.766f) : mesh_crease_at(m, flat, 0.766f);
+    return flat ? mesh_flatten(m) : crease_round(m, least);
 }
 
-/* Spreads 10 bits: two zeros stand between each two. */
+/* 8 bits of a sum of three coordinates, -3 .. 3: two zeros stand between each two. */
 static uint32_t chunk_spread(float x)
 {
-    uint32_t v = (uint32_t)fminf(1023, fmaxf(0, (x + 3) * (1024 / 6.0f)));
-    v = (v | v << 16) & 0x030000FFu;
-    v = (v | v << 8) & 0x0300F00Fu;
+    const float place = (x + 3) * (256 / 6.0f);
+    uint32_t v = place > 0 ? place < 255 ? (uint32_t)place : 255 : 0;
+    v = (v | v << 8) & 0x0000F00Fu;
     v = (v | v << 4) & 0x030C30C3u;
     return (v | v << 2) & 0x09249249u;
 }
@@ -217,7 +235,7 @@ typedef struct chunk_place {
     uint32_t place, corner[3];
 } chunk_place;
 
-/* Sorts the triangles of a mesh within the unit ball along that curve, 10 bits at a time, as
+/* Sorts the triangles of a mesh within the unit ball along that curve, 12 bits at a time, as
    shade_mesh_chunks would sort them in eight times the time: 2 million in 0.1 s.  Returns 1 where
    memory is out. */
 static int chunk_sort(const shade_mesh *m, uint32_t *sorted)
@@ -234,12 +252,12 @@ static int chunk_sort(const shade_mesh *m, uint32_t *sorted)
         }
         from[i].place = chunk_spread(sum.x) | chunk_spread(sum.y) << 1 | chunk_spread(sum.z) << 2;
     }
-    for (int shift = 0; list && shift < 30; shift += 10) {
+    for (int shift = 0; list && shift < 24; shift += 12) {
         chunk_place *other = from;
-        size_t first[1025] = { 0 };
-        for (size_t i = 0; i < n; i++) first[1 + (from[i].place >> shift & 1023)]++;
-        for (int k = 0; k < 1024; k++) first[k + 1] += first[k];
-        for (size_t i = 0; i < n; i++) to[first[from[i].place >> shift & 1023]++] = from[i];
+        size_t first[4097] = { 0 };
+        for (size_t i = 0; i < n; i++) first[1 + (from[i].place >> shift & 4095)]++;
+        for (int k = 0; k < 4096; k++) first[k + 1] += first[k];
+        for (size_t i = 0; i < n; i++) to[first[from[i].place >> shift & 4095]++] = from[i];
         from = to;
         to = other;
     }

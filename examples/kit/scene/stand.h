@@ -71,9 +71,10 @@ static inline stand_end stand_look(const owned_mesh *m, int k, double sign, doub
             low[1] = fmin(low[1], (double)p[c][b]);
             high[1] = fmax(high[1], (double)p[c][b]);
         }
+        if (inside < 3) continue;
         n = shade_cross(shade_sub(v[1], v[0]), shade_sub(v[2], v[0]));
         memcpy(normal, &n, sizeof normal);
-        if (inside == 3 && sign * (double)normal[k] > 0.99 * (double)shade_length(n))
+        if (sign * (double)normal[k] > 0.99 * (double)shade_length(n))
             area += 0.5 * sign * (double)normal[k];
     }
     end.flat = box > 0 ? fmin(1, area / box) : 0;
@@ -96,23 +97,28 @@ static inline stand_end stand_bottom(const owned_mesh *m, int up, const float *l
 static inline owned_mesh stand_ends(const owned_mesh *m, const float *low, const float *high)
 {
     owned_mesh ends = *m;
+    const size_t n = (size_t)m->view.vertex_count;
     uint32_t *to = (uint32_t *)malloc(((size_t)m->view.index_count + 1) * sizeof *to);
+    char *outer = (char *)calloc(n + 1, 1);
     float below[3], above[3];
     int count = 0;
     for (int k = 0; k < 3; k++) {
         below[k] = low[k] + 0.021f * (high[k] - low[k]);
         above[k] = high[k] - 0.021f * (high[k] - low[k]);
     }
-    for (int i = 0; i < m->view.index_count && to; i += 3) {
-        int inside = 0;
-        for (int c = 0; c < 3 && !inside; c++) {
-            const float *p = m->positions + 3 * (size_t)m->indices[i + c];
-            for (int k = 0; k < 3; k++) inside |= p[k] <= below[k] || p[k] >= above[k];
-        }
-        if (inside) memcpy(to + count, m->indices + i, 3 * sizeof *to);
-        if (inside) count += 3;
+    for (size_t i = 0; outer && i < n; i++) {
+        const float *p = m->positions + 3 * i;
+        for (int k = 0; k < 3; k++) outer[i] |= (char)((p[k] <= below[k]) | (p[k] >= above[k]));
     }
-    ends.indices = to;
+    for (int i = 0; i < m->view.index_count && to && outer; i += 3) {
+        const uint32_t *corner = m->indices + i;
+        if (!(outer[corner[0]] | outer[corner[1]] | outer[corner[2]])) continue;
+        memcpy(to + count, corner, 3 * sizeof *to);
+        count += 3;
+    }
+    if (!outer) free(to);
+    ends.indices = outer ? to : NULL;
+    free(outer);
     mesh_link(&ends, m->view.vertex_count, count);
     return ends;
 }

@@ -112,8 +112,7 @@ static int drawing_prepare(drawing *d)
     if (failed) return 1;
     drawing_stand(d);
     d->lit_by_faces = !m->normals_given && triangles > DRAWING_SMOOTH;
-    if (!m->normals_given && !d->lit_by_faces && mesh_crease_at(&m->mesh, 0, OUTLINE_CREASE))
-        return 1;
+    if (!m->normals_given && !d->lit_by_faces && mesh_crease(&m->mesh, 0, OUTLINE_CREASE)) return 1;
     if (drawing_chunks(m)) return 1;
     d->piece_of = (uint16_t *)malloc((size_t)triangles * sizeof *d->piece_of);
     d->color = (shade_vec3 *)malloc(((size_t)d->pieces.count + 1) * sizeof *d->color);

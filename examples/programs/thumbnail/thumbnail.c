@@ -17,6 +17,9 @@
 #include "options.h"
 #include "drawing.h"
 #include <time.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 /* ---- progress ------------------------------------------------------------------------------- */
 
@@ -98,6 +101,10 @@ int main(int argc, char **argv)
     progress p = { clock(), "", -1, 0, 0 };
     model m = { 0 };
     int end;
+#ifdef __GLIBC__ /* keeps what was freed for the next array: 2 million triangles take 0.1 s less */
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, -1);
+#endif
     path_arguments(&argc, &argv);
     end = read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
