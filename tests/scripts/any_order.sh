@@ -54,7 +54,8 @@ for python in python3 /usr/bin/python3; do
 done
 unset BUILD OUT SHADE BASE LEVELS MESH MAKEFLAGS MFLAGS MAKELEVEL
 PATH=$T/bin:$PATH CC=cc CXX=c++ CLANG=clang ROUNDS=1
-export PATH CC CXX CLANG MAKE ROUNDS
+REVEAL=$TOP/build/node_modules/reveal.js    # clones have nothing of npm
+export PATH CC CXX CLANG MAKE ROUNDS REVEAL
 
 # ---- the steps ----------------------------------------------------------------------------------
 steps= long=
@@ -70,7 +71,7 @@ step all "$MAKE -s $few all"
 step test "$MAKE -s T=math test"
 step pictures "$MAKE -s $few build/golden pictures; build/golden out/[0-9]*.ppm"
 long_step readme "sh tests/scripts/readme.sh"
-step course "sh tests/scripts/course.sh; $MAKE -s course"
+step course "sh tests/scripts/course.sh; $MAKE -s course || [ ! -d '$REVEAL' ]"
 step board "sh tests/scripts/microcontroller.sh"
 step microcontroller "$MAKE -s -C examples/microcontroller"
 step install "$MAKE -s install PREFIX=\$PWD/build/usr; $MAKE -s uninstall PREFIX=\$PWD/build/usr"
