@@ -387,8 +387,7 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
             continue;
         }
         if (ply_number(r, p->format, at->type, &value)) return 1;
-        if (at->meaning >= PLY_RED && at->meaning < PLY_U)
-            value = ply_color(p, at->type, value);
+        if (at->meaning >= PLY_RED && at->meaning < PLY_U) value = ply_color(p, at->type, value);
         if (at->meaning < PLY_VALUES) v[at->meaning] = value;
     }
     if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
