@@ -331,6 +331,7 @@ static inline void model_tell_missing(const char *path, model *m)
    warning, not an error.  A line of names is the name of one file, or else of several. */
 static inline void model_read_libraries(const char *path, model *m)
 {
+    const size_t before = strlen(m->warning);
     for (int i = 0; i < m->library_count; i++) {
         char error[300] = "out of memory", unheard[300] = "out of memory";
         char *name = m->library[i], *blank = strchr(name, ' ');
@@ -348,7 +349,7 @@ static inline void model_read_libraries(const char *path, model *m)
                 model_warn(m, path, error);
         }
     }
-    model_tell_missing(path, m);
+    if (strlen(m->warning) == before) model_tell_missing(path, m);
     known_tell(m, path);
     for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
         const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;

@@ -74,7 +74,7 @@ static shade_vec3 look_fresnel(const look *k, shade_vec3 albedo, float cosine)
 static void look_studio(const look *k, const float *P, const float *N, const float *albedo,
                         int first, int count, look_rows sky, look_rows mirror, float *visibility)
 {
-    studio_points p;
+    studio_points p = studio_nowhere;
     studio_rows E;
     shade_vec3 V[STUDIO_BLOCK], R[STUDIO_BLOCK];
     float open[STUDIO_BLOCK], lamp[STUDIO_BLOCK];

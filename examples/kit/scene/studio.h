@@ -138,6 +138,7 @@ typedef float studio_rows[3][STUDIO_BLOCK];
 typedef struct studio_points {
     studio_rows P, N, R;
 } studio_points;
+static const studio_points studio_nowhere;
 #define STUDIO_EACH(i) for (int i = 0; i < STUDIO_BLOCK; i++)
 #if defined(__GNUC__) && !defined(__clang__) /* which makes vectors at -O2 */
 #define STUDIO_VECTORS __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off")))
@@ -469,7 +470,7 @@ static void studio_shadow_row(void *data, int row)
     const int size = w->light->ground; /* blocks, without a rest */
     const float half = STUDIO_GROUND_HALF, step = 2 * half / (float)size;
     const shade_vec3 up = shade_v3(0, 1, 0);
-    studio_points p;
+    studio_points p = studio_nowhere;
     studio_rows sky;
     float unused[STUDIO_BLOCK], lamp[STUDIO_BLOCK], open;
     STUDIO_EACH(i)
