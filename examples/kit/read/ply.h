@@ -354,10 +354,11 @@ static inline int ply_list(mesh_reader *r, ply_data *p, const ply_property *at, 
 /* Colours of bytes go from 0 to 1 at once; the greatest value tells what others mean. */
 static inline double ply_color(ply_data *p, ply_type type, double value)
 {
-    static const double whole[PLY_TYPES] = { 127, 255, 32767, 65535, 2147483647, 4294967295, 0, 0 };
-    if (type < PLY_INT16) return value / whole[type];
+    static const double whole[PLY_FLOAT] = { 127, 255, 32767, 65535, 2147483647, 4294967295 };
+    const double white = type < PLY_FLOAT ? whole[type] : 0;
+    if (type < PLY_INT16) return value / white;
     p->bright = fmaxf(p->bright, mesh_or_zero(value));
-    p->whole = fmax(p->whole, whole[type]);
+    p->whole = fmax(p->whole, white);
     return value;
 }
 
