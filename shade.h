@@ -74,11 +74,11 @@
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
        >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
        >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8140  why nothing is seen   >>replay    9306  of lines, pipelines
-       >>image     9633  mipmaps, PPM           >>presets   9945  classic materials
+       >>explain   8140  why nothing is seen   >>replay    9307  of lines, pipelines
+       >>image     9634  mipmaps, PPM           >>presets   9946  classic materials
      Sources
-       >>refs     10021                        >>history  10051
-       >>license  10057
+       >>refs     10022                        >>history  10052
+       >>license  10058
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8890,7 +8890,8 @@ static int shade__is_clipped(shade__survey *q)
     q->material.emission = shade_v3(0, 0, 0);
     clipped = shade__count(q, 2);
     return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
-           q->state.raster.blend != SHADE_BLEND_OVER && lit > 0 &&
+           q->state.raster.blend != SHADE_BLEND_OVER &&
+           !shade__few(q, lit, shade__covered(q)) &&
            clipped * 8 >= lit * (8 - q->exact);
 }
 

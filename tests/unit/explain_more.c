@@ -168,6 +168,13 @@ NEAR(behind_of_a_cone)
         s->lamps[0].spot_direction.z = 1;
     }
 }
+/* A spot of light that is white may be meant. */
+NEAR(clipped)
+{
+    shade_light lamp = stage_spot(s, miss ? 0.02f : 0.25f, 0);
+    lamp.diffuse = lamp.specular = shade_v3(9, 9, 9);
+    stage_lamp(s, lamp);
+}
 NEAR(attenuated)
 {
     s->material.specular = BLACK;
@@ -477,7 +484,7 @@ static const struct near {
     ROW(by_rows, "transposed"), ROW(equal, "is SHADE_COMPARE_EQUAL"),
     ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
     ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
-    ROW(behind_of_highlights, "Every lamp is behind"),
+    ROW(clipped, "is clipped to white"), ROW(behind_of_highlights, "Every lamp is behind"),
     ROW(behind_of_open_highlights, "Every lamp is behind"),
     ROW(behind_of_wide_highlights, "Every lamp is behind"),
     ROW(behind_of_vertices, "Every lamp is behind"), ROW(cone_of_two, "No cone"),
