@@ -423,7 +423,10 @@ NEAR(second_eye)
     s->state.projection = shade_mat4_mul(
         shade_mat4_perspective(s->fovy, s->aspect, s->z_near, s->z_far), there);
     s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
-    if (miss == 1) s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+    if (miss == 1) {    /* the eye decides on sides, but there are no highlights */
+        s->state.lighting.terms = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+        s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
+    }
     if (miss == 2) {    /* highlights on hidden faces alone */
         for (int i = 0; i < STAGE_VERTICES; i++)
             if (s->position[i].z > -0.3f) s->normal[i] = BLACK;
