@@ -981,7 +981,7 @@ check('iteration three reads the same on every screen', read.size === 1 &&
     fs.writeFileSync(T + '/grid.obj', lines.join('\n'));
     const memory = () => page.evaluate(() => wasm.memory.buffer.byteLength);
     const memories = [];
-    for (let k = 0; k < 5; k++) {    // the third may find room that is too torn
+    for (let k = 0; k < 5; k++) {    // the third may not fit into the gaps of two
         await page.evaluate(() => say(''));
         await page.locator('input[type=file]').setInputFiles(T + '/grid.obj');
         await page.waitForFunction(() => /^grid.*500,000/.test($('#message').textContent), null,

@@ -168,10 +168,15 @@ NEAR(behind_of_a_cone)
         s->lamps[0].spot_direction.z = 1;
     }
 }
-/* A spot of light that is white may be meant. */
+/* A spot of light that is white may be meant, and a part of the picture does not tell. */
 NEAR(clipped)
 {
-    shade_light lamp = stage_spot(s, miss ? 0.02f : 0.25f, 0);
+    shade_light lamp = stage_spot(s, miss == 1 ? 0.02f : 0.25f, 0);
+    if (miss == 2) {
+        s->target.clip_x = 10;
+        s->target.clip_width = STAGE_WIDTH - 20;
+        s->target.clip_height = STAGE_HEIGHT;
+    }
     lamp.diffuse = lamp.specular = shade_v3(9, 9, 9);
     stage_lamp(s, lamp);
 }
@@ -272,6 +277,21 @@ NEAR(inside_out_of_boxes)
         s->state.raster.depth_test = SHADE_COMPARE_GREATER;
         s->clear = 0;
     }
+}
+/* A square, and before it the back of another, which leaves a twentieth or more of it in view */
+NEAR(inside_out_of_nine_tenths)
+{
+    static const float x[6] = { 0, 1, 1, 0, 1, 0 }, y[6] = { 0, 0, 1, 0, 1, 1 };
+    near_triangles(s);
+    s->mesh.vertex_count = 12;
+    for (int i = 0; i < 12; i++) {
+        const int back = i > 5, k = back ? 11 - i : i;
+        const float share = !back ? 1.8f : miss ? 1.8f * 0.85f : 1.8f * 0.95f;
+        s->position[i] = shade_v3(x[k] * share - 0.9f, y[k] * 1.8f - 0.9f, back ? 0.5f : 0.0f);
+        s->normal[i] = shade_v3(0, 0, 1);
+    }
+    s->state.projection = shade_mat4_ortho(-1, 1, -1, 1, 0.1f, 9);
+    s->state.raster.cull = SHADE_CULL_BACK;
 }
 NEAR(later)
 {
@@ -487,7 +507,7 @@ static const struct near {
     ROW(by_rows, "transposed"), ROW(equal, "is SHADE_COMPARE_EQUAL"),
     ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
     ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
-    ROW(clipped, "is clipped to white"), ROW(behind_of_highlights, "Every lamp is behind"),
+    ROW_OF(clipped, "is clipped to white", 2), ROW(behind_of_highlights, "Every lamp is behind"),
     ROW(behind_of_open_highlights, "Every lamp is behind"),
     ROW(behind_of_wide_highlights, "Every lamp is behind"),
     ROW(behind_of_vertices, "Every lamp is behind"), ROW(cone_of_two, "No cone"),
@@ -505,6 +525,7 @@ static const struct near {
     ROW(beyond_far, "beyond the far plane"), ROW(behind_of_pixels, "Every lamp is behind"),
     ROW(material_of_twins, "state.material reflects"),
     ROW_OF(inside_out, "inside out", 2), ROW(inside_out_of_boxes, "inside out"),
+    ROW(inside_out_of_nine_tenths, "inside out"),
     ROW(later, "Triangles drawn later"), ROW(always, "Triangles drawn later"),
     ROW_OF(test_is_turned, "does not fit", 2),
     ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),
