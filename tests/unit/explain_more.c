@@ -293,6 +293,14 @@ NEAR(inside_out_of_nine_tenths)
     s->state.projection = shade_mat4_ortho(-1, 1, -1, 1, 0.1f, 9);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
+/* With a triangle behind the eye, which is within the box then, it may be a room. */
+NEAR(inside_out_around_the_eye)
+{
+    near_inside_out_of_nine_tenths(s, 0);
+    stage_look(s);
+    for (int i = 12; i < 15; i++) s->position[i] = shade_v3((float)(i % 2), (float)(i - 13), 6);
+    if (miss) s->mesh.vertex_count = 15;
+}
 NEAR(later)
 {
     s->state.raster.depth_read_only = 1;
@@ -456,6 +464,13 @@ NEAR(second_eye)
         stage_lamp(s, shade_point_light(shade_v3(9, 0, -3), WHITE));
     }
 }
+/* Beside a map, which highlights do not multiply, they are lit apart. */
+NEAR(second_eye_of_vertices)
+{
+    near_second_eye(s, miss);
+    stage_map(s);
+    s->state.shading = SHADE_SHADING_PER_VERTEX;
+}
 NEAR(texels)
 {
     stage_map(s);
@@ -507,7 +522,8 @@ static const struct near {
     ROW(by_rows, "transposed"), ROW(equal, "is SHADE_COMPARE_EQUAL"),
     ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
     ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
-    ROW_OF(clipped, "is clipped to white", 2), ROW(behind_of_highlights, "Every lamp is behind"),
+    ROW(second_eye_of_vertices, "Highlights belong"), ROW_OF(clipped, "is clipped to white", 2),
+    ROW(behind_of_highlights, "Every lamp is behind"),
     ROW(behind_of_open_highlights, "Every lamp is behind"),
     ROW(behind_of_wide_highlights, "Every lamp is behind"),
     ROW(behind_of_vertices, "Every lamp is behind"), ROW(cone_of_two, "No cone"),
@@ -526,6 +542,7 @@ static const struct near {
     ROW(material_of_twins, "state.material reflects"),
     ROW_OF(inside_out, "inside out", 2), ROW(inside_out_of_boxes, "inside out"),
     ROW(inside_out_of_nine_tenths, "inside out"),
+    ROW(inside_out_around_the_eye, "inside out"),
     ROW(later, "Triangles drawn later"), ROW(always, "Triangles drawn later"),
     ROW_OF(test_is_turned, "does not fit", 2),
     ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),
