@@ -36,10 +36,11 @@ class Mesa:
         gl.glColor3f.argtypes = [ctypes.c_float] * 3
         gl.OSMesaCreateContextExt.restype = ctypes.c_void_p
         gl.OSMesaMakeCurrent.argtypes = [ctypes.c_void_p, ctypes.c_void_p, *[ctypes.c_int] * 3]
+        gl.OSMesaDestroyContext.argtypes = [ctypes.c_void_p]
         w, h = self.size = size
         self.bytes = np.zeros((h, w, 4), np.uint8)
         self.read, self.z = np.zeros((h, w, 4), np.uint8), np.zeros((h, w), np.float32)
-        context = gl.OSMesaCreateContextExt(_RGBA, 24, 0, 0, None)
+        context = self.context = gl.OSMesaCreateContextExt(_RGBA, 24, 0, 0, None)
         if not context or not gl.OSMesaMakeCurrent(context, self.bytes.ctypes.data, _BYTE, w, h):
             raise OSError("OSMesa gives no context")
         for what in (0x0B71, 0x0B44, _NORMALIZE, _LIGHTING, _LIGHT0, 0x0B57):
@@ -58,6 +59,12 @@ class Mesa:
             gl.glNormalPointer(_FLOAT, 0, ctypes.c_void_p(arrays[1].ctypes.data))
             gl.glDrawElements(4, arrays[2].size, _UINT, ctypes.c_void_p(arrays[2].ctypes.data))
             gl.glEndList()
+
+    def __del__(self):
+        """A context writes what it has left to draw; the array for that is still here."""
+        if getattr(self, "context", None):
+            self.gl.OSMesaMakeCurrent(None, None, 0, 0, 0)
+            self.gl.OSMesaDestroyContext(self.context)
 
     def draw(self, view, projection, places, poses, colors):
         """The mesh of each object, its pose and colour, to colours (bytes), window depth (0 to 1) and
