@@ -802,14 +802,16 @@ typedef struct python_part {
 SHADEDEF int python_part_of(const model *m, int i, python_part *part);
 int python_part_of(const model *m, int i, python_part *part)
 {
-    const model_part *from = m->part + i;
-    const model_surface *s = m->surface_count ? &m->surface[from->surface] : NULL;
+    const model_part *from;
+    const model_surface *s;
     const model_picture *picture;
     if (!part || i < 0 || i >= m->part_count) return m->part_count;
+    from = &m->part[i];
     memset(part, 0, sizeof *part);
     part->first = from->first;
     part->count = from->count;
-    if (!s) return m->part_count;
+    if (!m->surface_count) return m->part_count;
+    s = &m->surface[from->surface];
     memcpy(part->color, &s->material.diffuse, sizeof part->color);
     part->transparency = s->transparency >= 1 ? 0 : s->transparency;
     part->map = m->mesh.texcoords ? s->map : NULL;
