@@ -165,8 +165,7 @@ static void picture_polish(model *m)
             mean = shade_add4(mean, shade_scale4(at, 1 / (float)n));
         }
         s->polish = -1;
-        s->material.diffuse = shade_scale(s->material.diffuse, 1 / (1 - 0.55f * s->metal));
-        model_rough(s, s->metal * mean.z, s->rough * mean.y);
+        model_polish(s, mean.z, mean.y);
     }
 }
 

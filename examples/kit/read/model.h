@@ -145,12 +145,11 @@ static inline void model_warn(model *m, const char *about, const char *what)
     const size_t there = strlen(m->warning), room = sizeof m->warning, n = strlen(about);
     const char *last = m->warning + m->warned, *before = there ? "; " : "";
     const int same = there && !strncmp(last, about, n) && last[n] == ':';
-    if (!there || there + (same ? 0 : n) + strlen(what) + 5 < room) {
-        if (same && strstr(last, what)) return;
-        if (!same) m->warned = there + strlen(before);
-        snprintf(m->warning + there, room - there, "%s%s%s%s", before, same ? "" : about,
-                 same ? "" : ": ", what);
-    }
+    if (same && strstr(last, what)) return;
+    if (there && there + (same ? 0 : n) + strlen(what) + 5 >= room) return;
+    if (!same) m->warned = there + strlen(before);
+    snprintf(m->warning + there, room - there, "%s%s%s%s", before, same ? "" : about,
+             same ? "" : ": ", what);
 }
 
 /* Warns of what is left out because it has a position that is not finite. */
@@ -203,6 +202,7 @@ static inline float model_roughness(float shininess)
    highlight and the reflection; the studio is too plain to mirror alone, so that part of it stays
    diffuse.  Roughness r becomes the exponent of a lobe as wide, 2 / r^4 - 2, and rough highlights
    dim. */
+#define MODEL_METAL_DARK 0.55f
 static inline void model_rough(model_surface *s, float metal, float rough)
 {
     shade_material *k = &s->material;
@@ -213,10 +213,18 @@ static inline void model_rough(model_surface *s, float metal, float rough)
     square = rough * rough;
     gloss = (1 - rough) * (1 - 0.5f * rough);
     k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
-    k->diffuse = k->ambient = shade_scale(base, 1 - 0.55f * metal);
+    k->diffuse = k->ambient = shade_scale(base, 1 - MODEL_METAL_DARK * metal);
     s->metal = metal;
     s->rough = rough;
     k->shininess = fmaxf(1, 2 / (square * square) - 2);
+}
+
+/* The same once more, with factors of what model_rough was given */
+static inline void model_polish(model_surface *s, float metal, float rough)
+{
+    shade_vec3 *k = &s->material.diffuse;
+    *k = shade_scale(*k, 1 / (1 - MODEL_METAL_DARK * s->metal));
+    model_rough(s, s->metal * metal, s->rough * rough);
 }
 
 /* Where there is a picture of what shines, the colour of emission is its factor.  Files that are

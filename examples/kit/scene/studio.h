@@ -155,7 +155,7 @@ static void studio_put(studio_rows rows, int i, shade_vec3 v)
 
 /* The parts of the points that the lamp sees: four neighbours in the map, weighted by distance.
    Points are moved so many texels off their surfaces, or these would shade themselves.  *cosine is
-   that between normals and the lamp.  0: all surfaces face away, and *seen is not set. */
+   that between normals and the lamp.  0: all surfaces face away. */
 STUDIO_VECTORS static int studio_seen(const studio_map *m, float texels, const studio_points *p,
                                       float *cosine, float *seen)
 {
@@ -418,14 +418,13 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
-    const double own = pixels <= 256 ? 8e6 : 40e6; /* there, maps took half of all time */
-    const double draws = studio_may_thin(m) ? 16e6 : own;
+    const double own = pixels <= 256 ? 8e6 : 40e6; /* small pictures: half of all time was maps */
     shade_result result = SHADE_ERROR_CAPACITY;
     model thin;
     if (!studio_may_thin(m))
-        return studio_open_for(s, m, draws, pixels, turn, threads, progress, user);
+        return studio_open_for(s, m, own, pixels, turn, threads, progress, user);
     if (!studio_thin(&thin, m))
-        result = studio_open_for(s, &thin, draws, pixels, turn, threads, progress, user);
+        result = studio_open_for(s, &thin, 16e6, pixels, turn, threads, progress, user);
     studio_thin_free(&thin);
     return result;
 }
