@@ -72,13 +72,13 @@
        >>drive     6131  shade_draw            >>mesh      6326  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
        >>lines     6726  shade_draw_lines      >>camera    6915  where a draw is seen from
-       >>shape     6993  normals, edges        >>chunks    7347  how boxes are made
-       >>rays      7505  shade_pick            >>survey    7678  experiments on a draw
-       >>explain   8140  why nothing is seen   >>replay    9307  of lines, pipelines
-       >>image     9634  mipmaps, PPM           >>presets   9946  classic materials
+       >>shape     6997  normals, edges        >>chunks    7351  how boxes are made
+       >>rays      7509  shade_pick            >>survey    7682  experiments on a draw
+       >>explain   8144  why nothing is seen   >>replay    9311  of lines, pipelines
+       >>image     9638  mipmaps, PPM           >>presets   9950  classic materials
      Sources
-       >>refs     10022                        >>history  10052
-       >>license  10058
+       >>refs     10026                        >>history  10056
+       >>license  10062
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -6943,13 +6943,17 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
                                double *way)
 {
     const double *z = c->row[2], *w = c->row[3];
-    double a[4], b[4], start[4], p[3], q[3], along, w_there = 1;
+    double a[4], b[4], start[4], ab[3], aw[3], wb[3], p[3], q[3], along, w_there = 1;
     for (int k = 0; k < 4; k++) {
         a[k] = c->row[0][k] - x * w[k];
         b[k] = c->row[1][k] - y * w[k];
         start[k] = c->perspective ? w[k] : z[k] + w[k];
     }
-    shade__cross3(a, b, way);
+    /* a x b, without the term w x w that only rounding would leave */
+    shade__cross3(c->row[0], c->row[1], ab);
+    shade__cross3(c->row[0], w, aw);
+    shade__cross3(w, c->row[1], wb);
+    for (int k = 0; k < 3; k++) way[k] = ab[k] - y * aw[k] - x * wb[k];
     shade__cross3(b, start, p);
     shade__cross3(start, a, q);
     along = shade__dot3(start, way);
