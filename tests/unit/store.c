@@ -103,6 +103,48 @@ TEST(store, bytes_are_clamped_and_rounded_to_nearest)
     check_levels(SHADE_FORMAT_BGRA8);
 }
 
+/* One float of each 97 from 2^-17 to beyond 1, the floats around each change of byte, and some that
+   are none of a colour.  The byte is the nearest to the exact curve, and 255 times
+   shade_srgb_from_linear, rounded: the table and the curve of shade.h agree. */
+TEST(store, the_bytes_of_srgb_are_those_of_the_curve)
+{
+    enum { N = 3000, STRIDE = 97 };
+    static float in[N * 4];
+    static const uint32_t odd[] = { 0, 1, 0x80000000u, 0x7F800000, 0xFF800000u, 0x7FC00000,
+                                    0xFFC00000u, 0x7F800001, 0x7F7FFFFF, 0xBF800000u, 0x007FFFFF };
+    uint8_t out[N * 4];
+    shade_target from = { 0 }, to = { 0 };
+    uint32_t u = 0x37000000u + (uint32_t)rnd_int(0, STRIDE - 1), byte = 1;
+    from.width = to.width = N;
+    from.height = to.height = 1;
+    from.color = in;
+    from.format = SHADE_FORMAT_RGBA32F;
+    to.color = out;
+    to.srgb = 1;
+    while (u < 0x3F810000u || byte < 256) {
+        for (int i = 0; i < 4 * N; i++) {
+            uint32_t bits = u;
+            if (i % 4 == 3) bits = 0x3F000000;
+            else if (i < 44) bits = odd[i / 4];
+            else if (i < 4 * 200 && byte < 256) {    /* 450 floats around a step */
+                const float step = (float)ref_decode_srgb((byte - 0.5) / 255);
+                memcpy(&bits, &step, 4);
+                bits += (uint32_t)(i / 4 * 3 + i % 4) - 3 * 100;
+            } else u += STRIDE;
+            memcpy(&in[i], &bits, 4);
+        }
+        byte += byte < 256;
+        CHECK_INT(shade_resolve(&to, &from, 1), SHADE_OK);
+        for (int i = 0; i < 4 * N; i++) {
+            const float v = i % 4 == 3 ? in[i] : shade_srgb_from_linear(shade_v3(in[i], 0, 0)).x;
+            const double c = in[i] > 0 ? in[i] < 1 ? (double)in[i] : 1 : 0;
+            const double exact = 255 * (i % 4 == 3 ? c : ref_encode_srgb(c));
+            CHECK_SAY(out[i] == (int)(v * 255 + 0.5f) && near_level(out[i], exact),
+                      "%.9g: got %d, want %.6f", (double)in[i], out[i], exact);
+        }
+    }
+}
+
 TEST(store, rgb565_is_clamped_and_rounded_to_nearest)
 {
     check_levels(SHADE_FORMAT_RGB565);
@@ -623,6 +665,7 @@ TEST(store, a_ppm_of_nothing_is_refused)
 
 static const test_case store_cases[] = {
     CASE(store, bytes_are_clamped_and_rounded_to_nearest),
+    CASE(store, the_bytes_of_srgb_are_those_of_the_curve),
     CASE(store, rgb565_is_clamped_and_rounded_to_nearest),
     CASE(store, floats_are_stored_as_they_come),
     CASE(store, nan_is_stored_as_zero_and_infinity_clamped),
