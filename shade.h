@@ -5626,9 +5626,9 @@ SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba
     for (int k = 0; k < 3; k++) {
         const int shift = shade__shift(&l, k);
         SHADE__EACH_BLOCK(i, blocks) {
-            float v = rgba[i + k * SHADE_LANES];
-            v = shade__select(1 / 8192.0f, v, shade__mask(v > 1 / 8192.0f));    /* its byte is 0 */
-            c[i] = shade__min(shade__ordinal(v), 0x3F800000);    /* at most 1 */
+            const float v = rgba[i + k * SHADE_LANES], kept = shade__keep(v, shade__mask(v > 0));
+            /* from 2^-13, with byte 0, to 1 */
+            c[i] = shade__max(shade__min(shade__ordinal(kept), 0x3F800000), 0x39000000);
             const float root = shade__from_ordinal((c[i] >> 1) + 0x1FC00000);
             step[i] = (uint32_t)(int32_t)(root * 372) - 4;
         }
