@@ -152,7 +152,9 @@ bad_input() {
     sed 's/vertex 288/vertex 10/' "$T/torus.ply" >"$T/few.ply"
     printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$T/head.ply"
     head -c 1000 "$T/torus.binary.stl" >"$T/cut.stl"
-    head -c 100000 "$T/plain" >"$T/noise.obj"
+    # no letters: by chance they would begin a statement
+    awk 'BEGIN { for (i = 0; i < 100000; i++) { x = (x * 75 + 74) % 65537
+                 printf "%c", x % 97 ? 128 + x % 128 : 10 } }' >"$T/noise.obj"
     printf 'v 1e38 1e38 -1e38\nv -1e38 1e38 1e38\nv 1e38 -1e38 0\nf 1 2 3\n' >"$T/large.obj"
     printf 'v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n' >"$T/point.obj"
     printf 'hello\n' >"$T/words.xyzw"
