@@ -341,6 +341,7 @@ check('it ends while it turns', t.close())
 with tempfile.NamedTemporaryFile(suffix='.stl') as noise:    # 3 million triangles, all over the place
     noise.write(b'noise'.ljust(80) + struct.pack('<I', 3000000) + os.urandom(150000000))
     noise.flush()
+    signal.signal(signal.SIGINT, signal.default_int_handler)    # a script in the background ignores it
     t = Terminal('plain', noise.name)
     memory = f'/proc/{t.view.pid}/statm'
     while t.view.poll() is None and int(open(memory).read().split()[1]) * 4096 < 160e6:
