@@ -103,8 +103,8 @@ TEST(store, bytes_are_clamped_and_rounded_to_nearest)
     check_levels(SHADE_FORMAT_BGRA8);
 }
 
-/* One float of each STRIDE from 2^-17 to beyond 1, the floats around each change of byte, and some that
-   are none of a colour.  The byte is the nearest to the exact curve, and 255 times
+/* One float of each STRIDE from 2^-17 to beyond 1, the floats around each change of byte, and some
+   that are none of a colour.  The byte is the nearest to the exact curve, and 255 times
    shade_srgb_from_linear, rounded: the table and the curve of shade.h agree. */
 TEST(store, the_bytes_of_srgb_are_those_of_the_curve)
 {
