@@ -56,29 +56,29 @@
        >>math       990  vectors and matrices
      Inside: words that the rest is written in
        >>machine   1350  processors            >>base      1575  bits, masks, rows of vectors
-       >>matrix    1773  cameras, inverses     >>power     2049  x^n
-       >>pixels    2115  formats, sRGB
+       >>matrix    1773  cameras, inverses     >>power     2050  x^n
+       >>pixels    2116  formats, sRGB
      Inside: light
-       >>lamps     2415  attenuation, cones    >>terms     2667  one term at one point
-       >>surface   2742  material and lights   >>lit       2857  the whole sum, at many points
+       >>lamps     2416  attenuation, cones    >>terms     2668  one term at one point
+       >>surface   2743  material and lights   >>lit       2858  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3245  who owns what         >>vertices  3451  shading, projection
-       >>triangles 3660  dropped, cut, edges   >>clip      4021  near, far, behind the eye
-       >>tiles     4211  pixels, depth test    >>cover     4572  what is hidden, tile by tile
-       >>fragments 4841  interpolation, lod    >>texture   5125  texels, mipmaps
-       >>store     5572  blending, packing
+       >>state     3246  who owns what         >>vertices  3452  shading, projection
+       >>triangles 3661  dropped, cut, edges   >>clip      4022  near, far, behind the eye
+       >>tiles     4212  pixels, depth test    >>cover     4573  what is hidden, tile by tile
+       >>fragments 4842  interpolation, lod    >>texture   5126  texels, mipmaps
+       >>store     5573  blending, packing
      Inside: calls of the renderer
-       >>check     5821  refusals              >>seen      6023  what can be seen, chunks
-       >>drive     6145  shade_draw            >>mesh      6333  shade_draw_mesh
+       >>check     5822  refusals              >>seen      6024  what can be seen, chunks
+       >>drive     6146  shade_draw            >>mesh      6334  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6733  shade_draw_lines      >>camera    6922  where a draw is seen from
-       >>shape     7016  normals, edges        >>chunks    7381  how boxes are made
-       >>rays      7549  shade_pick            >>survey    7736  experiments on a draw
-       >>explain   8198  why nothing is seen   >>replay    9365  of lines, pipelines
-       >>image     9692  mipmaps, PPM           >>presets  10016  classic materials
+       >>lines     6734  shade_draw_lines      >>camera    6923  where a draw is seen from
+       >>shape     7017  normals, edges        >>chunks    7382  how boxes are made
+       >>rays      7550  shade_pick            >>survey    7737  experiments on a draw
+       >>explain   8199  why nothing is seen   >>replay    9366  of lines, pipelines
+       >>image     9693  mipmaps, PPM           >>presets  10017  classic materials
      Sources
-       >>refs     10101                        >>history  10131
-       >>license  10137
+       >>refs     10102                        >>history  10132
+       >>license  10138
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1992,7 +1992,8 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
 }
 
 /* A perspective in which the eye coordinate z becomes the depth (scale z + offset) / -z.  y is 1 /
-   tan(fovy / 2); outside (0, pi) a number that no float can hold, which makes it degenerate. */
+   tan(fovy / 2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the
+   camera degenerate. */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
@@ -5607,7 +5608,7 @@ SHADE__INLINE void shade__pack_channels(const shade__layout *layout, shade__in r
     }
 }
 
-/* Not inlined, because gcc would vectorise it, which takes longer. */
+/* Not inlined: clang would gather with AVX-512, and take 1.08 times as long. */
 static SHADE__NOINLINE void shade__find_steps(uint32_t *cell, int blocks)
 {
     for (int i = 0; i < blocks * SHADE__BLOCK; i++) cell[i] = shade__byte_steps[cell[i]];

@@ -104,7 +104,7 @@ TEST(store, bytes_are_clamped_and_rounded_to_nearest)
 }
 
 /* One float of each STRIDE from 2^-17 to beyond 1, the floats around each change of byte, and some
-   that are none of a colour.  The byte is the nearest to the exact curve, and 255 times
+   that no colour should be.  The byte is the nearest to the exact curve, and 255 times
    shade_srgb_from_linear, rounded: the table and the curve of shade.h agree. */
 TEST(store, the_bytes_of_srgb_are_those_of_the_curve)
 {
@@ -126,7 +126,7 @@ TEST(store, the_bytes_of_srgb_are_those_of_the_curve)
             uint32_t bits = u;
             if (i % 4 == 3) bits = 0x3F000000;
             else if (i < 44) bits = odd[i / 4];
-            else if (i < 4 * 200 && byte < 256) {    /* 450 floats around a step */
+            else if (i < 4 * 200 && byte < 256) {    /* around a step */
                 const float step = (float)ref_decode_srgb((byte - 0.5) / 255);
                 memcpy(&bits, &step, 4);
                 bits += (uint32_t)(i / 4 * 3 + i % 4) - 3 * 100;
