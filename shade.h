@@ -63,22 +63,22 @@
        >>surface   2743  material and lights   >>lit       2858  the whole sum, at many points
      Inside: the way of a triangle
        >>state     3246  who owns what         >>vertices  3452  shading, projection
-       >>triangles 3661  dropped, cut, edges   >>clip      4022  near, far, behind the eye
-       >>tiles     4212  pixels, depth test    >>cover     4573  what is hidden, tile by tile
-       >>fragments 4842  interpolation, lod    >>texture   5126  texels, mipmaps
-       >>store     5573  blending, packing
+       >>triangles 3661  dropped, cut, edges   >>clip      4020  near, far, behind the eye
+       >>tiles     4210  pixels, depth test    >>cover     4571  what is hidden, tile by tile
+       >>fragments 4840  interpolation, lod    >>texture   5124  texels, mipmaps
+       >>store     5567  blending, packing
      Inside: calls of the renderer
-       >>check     5822  refusals              >>seen      6024  what can be seen, chunks
-       >>drive     6146  shade_draw            >>mesh      6334  shade_draw_mesh
+       >>check     5816  refusals              >>seen      6018  what can be seen, chunks
+       >>drive     6140  shade_draw            >>mesh      6328  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6734  shade_draw_lines      >>camera    6923  where a draw is seen from
-       >>shape     7017  normals, edges        >>chunks    7382  how boxes are made
-       >>rays      7550  shade_pick            >>survey    7737  experiments on a draw
-       >>explain   8199  why nothing is seen   >>replay    9366  of lines, pipelines
-       >>image     9693  mipmaps, PPM           >>presets  10017  classic materials
+       >>lines     6728  shade_draw_lines      >>camera    6917  where a draw is seen from
+       >>shape     7011  normals, edges        >>chunks    7376  how boxes are made
+       >>rays      7544  shade_pick            >>survey    7731  experiments on a draw
+       >>explain   8193  why nothing is seen   >>replay    9360  of lines, pipelines
+       >>image     9687  mipmaps, PPM           >>presets  10011  classic materials
      Sources
-       >>refs     10102                        >>history  10132
-       >>license  10138
+       >>refs     10096                        >>history  10126
+       >>license  10132
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1651,7 +1651,7 @@ SHADE__INLINE float shade__unit(float x)
 /* |x| <= limit, which is finite; 0 for NaN. */
 SHADE__INLINE int shade__within(float x, float limit)
 {
-    return (shade__float_bits(x) & 0x7FFFFFFFu) <= shade__float_bits(limit);
+    return (int32_t)(shade__float_bits(x) & 0x7FFFFFFFu) <= shade__ordinal(limit);
 }
 
 SHADE__INLINE int shade__is_zero(shade_vec3 v)
@@ -3499,7 +3499,7 @@ typedef struct shade__placed {           /* rows of projected vertices */
 /* All ones where |c| > 1e30 or NaN. */
 SHADE__INLINE uint32_t shade__beyond(float c)
 {
-    return shade__mask((int32_t)(shade__float_bits(c) & 0x7FFFFFFFu) > 0x7149F2CA);
+    return shade__mask(!shade__within(c, 1e30f));
 }
 
 /* Bits 0 .. 3: the point is left of, right of, below or above a square. */
@@ -3832,13 +3832,11 @@ SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
                                 const double *SHADE_RESTRICT inverse,
                                 shade__setup *SHADE_RESTRICT s)
 {
-    SHADE__FOR(i, SHADE__TRIANGLES) {
-        const double k = inverse[i];
-        s->side[0][i] = (float)((c->x[1][i] - c->x[0][i]) * k);
-        s->side[1][i] = (float)((c->y[1][i] - c->y[0][i]) * k);
-        s->side[2][i] = (float)((c->x[2][i] - c->x[0][i]) * k);
-        s->side[3][i] = (float)((c->y[2][i] - c->y[0][i]) * k);
-    }
+    for (int k = 0; k < 2; k++)
+        SHADE__FOR(i, SHADE__TRIANGLES) {
+            s->side[2 * k][i] = (float)((c->x[k + 1][i] - c->x[0][i]) * inverse[i]);
+            s->side[2 * k + 1][i] = (float)((c->y[k + 1][i] - c->y[0][i]) * inverse[i]);
+        }
 }
 
 /* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because
@@ -5195,7 +5193,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     /* beyond an end: the texel of the other end if the texture repeats, else of this end */
     const int32_t before = wrap == SHADE_WRAP_REPEAT ? last : 0;
     const int32_t after = wrap == SHADE_WRAP_REPEAT ? 0 : last;
-    const int32_t limit = wrap == SHADE_WRAP_CLAMP ? 0x7F800000 : 0x4B800000;
+    const float limit = wrap == SHADE_WRAP_CLAMP ? FLT_MAX : 16777215.0f;
     const float period = wrap == SHADE_WRAP_MIRROR ? 0.5f : 1.0f;
     const float n = (float)a->size, half = nearest ? 0.0f : 0.5f;
     const uint32_t unit = a->unit;
@@ -5204,9 +5202,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     /* From 2^24 on all floats are even integers, where a period begins: they are replaced by 0.  So
        are NaN and infinity; a clamped texture replaces only these. */
     SHADE__EACH_BLOCK(i, blocks) {
-        int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
-        uint32_t usable = shade__mask(bits < limit);
-        place[i] = shade__keep(c[i], usable) * period;
+        place[i] = shade__keep(c[i], shade__mask(shade__within(c[i], limit))) * period;
     }
     if (wrap == SHADE_WRAP_CLAMP) {
         SHADE__EACH_BLOCK(i, blocks) { place[i] = shade__clamp_bits(place[i], 0, 1); }
@@ -5508,8 +5504,7 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t, const f
     SHADE_ALIGNED float level[SHADE_LANES];
     SHADE_ALIGNED float weight[SHADE_LANES];
     SHADE__EACH_BLOCK(i, blocks) {
-        int32_t bits = (int32_t)(shade__float_bits(lod[i]) & 0x7FFFFFFFu);
-        float finite = shade__keep(lod[i], shade__mask(bits < 0x7F800000));
+        float finite = shade__keep(lod[i], shade__mask(shade__within(lod[i], FLT_MAX)));
         level[i] = shade__clamp_bits(finite, 0, (float)levels);
         least = shade__min(least, (int)level[i]);
         most = shade__max(most, (int)level[i]);
@@ -5522,9 +5517,8 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t, const f
         shade_texture source = *t;
         uint32_t used = 0;
         SHADE__EACH_BLOCK(i, blocks) {
-            uint32_t away = shade__float_bits(level[i] - (float)k) &
-                            0x7FFFFFFFu;
-            weight[i] = shade__clamp_bits(1 - shade__bits_float(away), 0, 1);
+            const float away = shade__keep(level[i] - (float)k, 0x7FFFFFFF);
+            weight[i] = shade__clamp_bits(1 - away, 0, 1);
             used |= shade__float_bits(weight[i]);
         }
         if (k && shade__texture_good(&t->mipmaps[k - 1])) {    /* else the picture itself */
