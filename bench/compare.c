@@ -83,19 +83,19 @@ static void print_row(const scene *s, const row *r, long long fragments, FILE *t
     printf("| %s | %.3g |", s->name, r->ms[SHADE]);
     for (int who = 1; who <= PEERS; who++) {
         if (r->ms[who] > 0) printf(" %.3g |", r->ms[who]);
-        else printf(" %s |", peers[who] ? "another picture" : "-");
+        else printf(" %s |", peers[who] && !s->format ? "another picture" : "-");
     }
     if (r->best) printf(" %s | %.2f |", peers[r->best]->name, r->ratio[r->best]);
     else printf(" - | - |");
     for (int who = 1; who <= PEERS; who++)
-        if (peers[who])
+        if (peers[who] && !s->format)
             printf(" %.2g %% (%.3g)", 100 * r->d[who].fraction, r->d[who].most);
     printf(" | %.0f k |\n", (double)fragments / 1000);
     if (s->kind == SCENE_CLEAR)
         printf("| memset over the same bytes | %.3g | | | | | %.2f | | |\n", r->ms[MEMSET],
                r->ratio[MEMSET]);
     fflush(stdout);
-    if (tsv)
+    if (tsv && !s->format)
         fprintf(tsv, "%s\t%.4f\t%.4f\t%.3f\t%s\n", s->name, r->ms[SHADE], r->ms[r->best],
                 r->ratio[r->best], r->best ? peers[r->best]->name : "");
 }
@@ -128,7 +128,7 @@ static void measure(const options *o, const scene *s, FILE *tsv)
     memset(&r, 0, sizeof r);
     write_picture(o, s, &t, "shade.h");
     for (int who = 1; who <= PEERS; who++) {
-        if (!peers[who]) continue;
+        if (!peers[who] || s->format) continue;
         peers[who]->load(peers[who], s);
         r.d[who] = draw_peer(o, s, &t, peers[who]);
         on[who] = r.d[who].fraction <= fraction_allowed;
@@ -152,7 +152,7 @@ static void measure(const options *o, const scene *s, FILE *tsv)
     for (int who = 0; who < WAYS; who++)
         if (on[who]) r.ms[who] = clock_median(samples[who], o->rounds);
     for (int who = 1; who <= PEERS; who++)
-        if (peers[who]) peers[who]->unload(peers[who]);
+        if (peers[who] && !s->format) peers[who]->unload(peers[who]);
     print_row(s, &r, stats.fragments, tsv);
     free(t.color);
     free(t.depth);

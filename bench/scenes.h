@@ -26,6 +26,7 @@ typedef struct scene {
     scene_kind kind;
     int width, height;
     int srgb;                      /* the picture and what is sampled are sRGB */
+    shade_format format;           /* RGBA8, or the picture is one that no peer draws */
     float *positions, *normals;
     uint32_t *indices, *texels;    /* SCENE_TEXELS squared, or twice the picture's size */
     int vertex_count, index_count;
@@ -36,7 +37,7 @@ typedef struct scene {
     shade_vec4 background, color;
 } scene;
 
-enum { SCENE_COUNT = 20, SCENE_TEXELS = 512 };
+enum { SCENE_COUNT = 21, SCENE_TEXELS = 512 };
 
 static inline void scene_link(scene *s)
 {
@@ -367,6 +368,13 @@ static inline scene scene_srgb(scene s)
     return s;
 }
 
+static inline scene scene_packed(scene s, const char *name, shade_format format)
+{
+    s.name = name;
+    s.format = format;
+    return s;
+}
+
 static inline scene scene_small(const char *name, int size)
 {
     scene s = scene_teapot(name, SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
@@ -410,6 +418,8 @@ static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
     out[17] = scene_halved("mipmaps of 1024 x 1024", SCENE_MIPMAPS, 512, 512, 0);
     out[18] = scene_halved("mipmaps of 1024 x 1024, sRGB", SCENE_MIPMAPS, 512, 512, 1);
     out[19] = scene_halved("resolve 2560 x 1440 by 2, sRGB", SCENE_RESOLVE, 1280, 720, 1);
+    out[20] = scene_packed(scene_readme(NULL), "the gold teapot in RGB565, sRGB",
+                           SHADE_FORMAT_RGB565);
     for (int i = 0; i < SCENE_COUNT; i++) scene_link(&out[i]);
 }
 
@@ -423,6 +433,7 @@ static inline shade_target scene_target(const scene *s)
     t.width = s->width;
     t.height = s->height;
     t.srgb = s->srgb;
+    t.format = s->format;
     if (s->kind == SCENE_MIPMAPS) pixels *= 2;    /* the smaller levels follow */
     if (s->kind != SCENE_DEPTH) t.color = scene_memory(pixels, 4);
     if (s->kind < SCENE_MIPMAPS) t.depth = (float *)scene_memory(pixels, sizeof(float));
