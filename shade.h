@@ -66,19 +66,19 @@
        >>triangles 3672  dropped, cut, edges   >>clip      4031  near, far, behind the eye
        >>tiles     4221  pixels, depth test    >>cover     4582  what is hidden, tile by tile
        >>fragments 4851  interpolation, lod    >>texture   5135  texels, mipmaps
-       >>store     5578  blending, packing
+       >>store     5579  blending, packing
      Inside: calls of the renderer
-       >>check     5828  refusals              >>seen      6030  what can be seen, chunks
-       >>drive     6152  shade_draw            >>mesh      6340  shade_draw_mesh
+       >>check     5829  refusals              >>seen      6031  what can be seen, chunks
+       >>drive     6153  shade_draw            >>mesh      6341  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6740  shade_draw_lines      >>camera    6929  where a draw is seen from
-       >>shape     7023  normals, edges        >>chunks    7388  how boxes are made
-       >>rays      7556  shade_pick            >>survey    7743  experiments on a draw
-       >>explain   8205  why nothing is seen   >>replay    9372  of lines, pipelines
-       >>image     9699  mipmaps, PPM           >>presets  10023  classic materials
+       >>lines     6741  shade_draw_lines      >>camera    6930  where a draw is seen from
+       >>shape     7024  normals, edges        >>chunks    7389  how boxes are made
+       >>rays      7557  shade_pick            >>survey    7744  experiments on a draw
+       >>explain   8206  why nothing is seen   >>replay    9373  of lines, pipelines
+       >>image     9700  mipmaps, PPM           >>presets  10024  classic materials
      Sources
-       >>refs     10108                        >>history  10138
-       >>license  10144
+       >>refs     10109                        >>history  10139
+       >>license  10145
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5213,7 +5213,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     /* From 2^24 on all floats are even integers, where a period begins: they are replaced by 0.  So
        are NaN and infinity; a clamped texture replaces only these. */
     SHADE__EACH_BLOCK(i, blocks) {
-        place[i] = shade__keep(c[i], shade__mask(shade__within(c[i], limit))) * period;
+        const uint32_t usable = shade__mask(shade__within(c[i], limit));
+        place[i] = shade__keep(c[i], usable) * period;
     }
     if (wrap == SHADE_WRAP_CLAMP) {
         SHADE__EACH_BLOCK(i, blocks) { place[i] = shade__clamp_bits(place[i], 0, 1); }
@@ -5528,7 +5529,7 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t, const f
         shade_texture source = *t;
         uint32_t used = 0;
         SHADE__EACH_BLOCK(i, blocks) {
-            const float away = shade__keep(level[i] - (float)k, 0x7FFFFFFF);
+            float away = shade__keep(level[i] - (float)k, 0x7FFFFFFF);
             weight[i] = shade__clamp_bits(1 - away, 0, 1);
             used |= shade__float_bits(weight[i]);
         }
