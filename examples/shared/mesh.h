@@ -17,6 +17,7 @@ typedef struct owned_mesh {
     float *positions, *normals, *texcoords, *colors;
     uint32_t *indices;
     shade_chunk *chunks; /* of mesh_chunks */
+    int apart;           /* it is known that no two vertices have the same position */
 } owned_mesh;
 
 static inline void mesh_free(owned_mesh *m)
@@ -31,9 +32,10 @@ static inline void mesh_free(owned_mesh *m)
     *m = empty;
 }
 
-/* Points the view at the arrays of the mesh. */
+/* Points the view at the arrays of the mesh, of which nothing else is known. */
 static inline void mesh_link(owned_mesh *m, int vertices, int indices)
 {
+    m->apart = 0;
     m->view.positions = m->positions;
     m->view.normals = m->normals;
     m->view.texcoords = m->texcoords;
@@ -54,7 +56,7 @@ static inline void *example_memory(size_t count, size_t size)
 /* A mesh with room for positions, normals, texcoords and indices, all zero */
 static inline owned_mesh mesh_new(int vertices, int indices)
 {
-    owned_mesh m = { { 0 }, 0, 0, 0, 0, 0, 0 };
+    owned_mesh m = { { 0 }, 0, 0, 0, 0, 0, 0, 0 };
     m.positions = (float *)example_memory((size_t)vertices, 3 * sizeof(float));
     m.normals = (float *)example_memory((size_t)vertices, 3 * sizeof(float));
     m.texcoords = (float *)example_memory((size_t)vertices, 2 * sizeof(float));

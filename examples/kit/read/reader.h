@@ -382,6 +382,7 @@ static inline int mesh_fill_normals(owned_mesh *m, int apart)
         if (n[0] == 0 && n[1] == 0 && n[2] == 0)
             memcpy(n, &mean[apart ? (uint32_t)i : place[i]], sizeof *mean);
     }
+    m->apart = apart;
     failed = 0;
 done:
     if (apart) welded.indices = NULL;

@@ -5,19 +5,19 @@
 #include "../read/files.h"
 #include "stand.h"
 
-/* The number of each vertex's position, which the caller frees.  NULL: out of memory */
-static uint32_t *crease_places(const owned_mesh *m)
+/* Finds the number of each vertex's position, which the caller frees; NULL where all are apart.
+   Non-zero: out of memory */
+static int crease_places(const owned_mesh *m, uint32_t **place)
 {
     static const mesh_set empty;
     const size_t n = (size_t)m->view.vertex_count;
     mesh_set places = empty;
-    uint32_t *place = (uint32_t *)malloc((n + 1) * sizeof *place);
-    if (place && mesh_set_positions(&places, m->positions, n, place)) {
-        free(place);
-        place = NULL;
-    }
+    int failed;
+    if (m->apart) return 0;
+    *place = (uint32_t *)malloc((n + 1) * sizeof **place);
+    failed = !*place || mesh_set_positions(&places, m->positions, n, *place);
     mesh_set_free(&places);
-    return place;
+    return failed;
 }
 
 /* The sum of the squares of how many corners meet at each position: what corner normals cost.
@@ -26,7 +26,10 @@ static double crease_cost(const owned_mesh *m, const uint32_t *place)
 {
     uint32_t *count = (uint32_t *)calloc((size_t)m->view.vertex_count + 1, sizeof *count);
     double cost = 0;
-    for (int i = 0; count && i < m->view.index_count; i++) count[place[m->indices[i]]]++;
+    for (int i = 0; count && i < m->view.index_count; i++) {
+        const uint32_t v = m->indices[i];
+        count[place ? place[v] : v]++;
+    }
     for (int i = 0; count && i < m->view.vertex_count; i++)
         cost += (double)count[i] * (double)count[i];
     free(count);
@@ -84,7 +87,7 @@ static int mesh_flatten(owned_mesh *m)
    of their own.  2 million triangles of a torus take 0.3 s instead of 2.7, and keep 1 million
    vertices instead of 6, which all draws profit by. */
 typedef struct crease_part {
-    uint32_t *place;   /* by vertex; NULL while those of a large mesh count as apart */
+    uint32_t *place;   /* by vertex; NULL: they are apart, or count so while a mesh is large */
     char *creased;     /* by vertex */
     owned_mesh around; /* the triangles with such a vertex; positions and indices alone */
     uint32_t *at;      /* where their indices stand in the whole mesh */
@@ -189,11 +192,11 @@ static int crease_round(owned_mesh *m, float least)
     shade_vec3 *normal = NULL;
     void *memory = NULL;
     const int large = m->view.index_count / 3 > MESH_LARGE;
-    int failed = (!large && !(c.place = crease_places(m))) || crease_find(&c, m, least);
+    int failed = (!large && crease_places(m, &c.place)) || crease_find(&c, m, least);
     const size_t n = (size_t)c.around.view.index_count;
     const size_t bytes = shade_mesh_corner_normals_bytes(&c.around.view);
     double cost = 0;
-    if (!failed && n && !c.place) failed = !(c.place = crease_places(m));
+    if (!failed && n && !c.place) failed = crease_places(m, &c.place);
     if (!failed && n) cost = crease_cost(&c.around, c.place);
     if (!failed && n && cost <= 20.0 * (double)n + 1e6 &&
         c.corners + (size_t)m->view.vertex_count < INT_MAX) {

@@ -137,7 +137,7 @@ PAGE(void *, page_room)(size_t bytes) { return malloc(bytes); }
 PAGE(const char *, page_load)(void *bytes, size_t size, const char *name)
 {
     static char error[300];
-    page_mesh m = { { { 0 }, 0, 0, 0, 0, 0, 0 }, 0, NULL, 0, { 0, 0, 0, 0, 0 } };
+    page_mesh m = { { { 0 }, 0, 0, 0, 0, 0, 0, 0 }, 0, NULL, 0, { 0, 0, 0, 0, 0 } };
     page_mesh *old = &meshes[PAGE_FILE];
     error[0] = 0;
     if (!mesh_read_memory(bytes, size, name, &m.mesh, error, sizeof error) && !measure(&m)) {

@@ -8,7 +8,7 @@
 /* Five balls along x, from -1 to 1, so that each is farther from a lamp at one end */
 static inline owned_mesh scene_balls(int detail)
 {
-    owned_mesh row = { { 0 }, 0, 0, 0, 0, 0, 0 };
+    owned_mesh row = { { 0 }, 0, 0, 0, 0, 0, 0, 0 };
     for (int i = 0; i < 5; i++) {
         owned_mesh ball = mesh_sphere(4 * detail, 2 * detail);
         for (int k = 0; k < 3 * ball.view.vertex_count; k++) ball.positions[k] *= 0.17f;
