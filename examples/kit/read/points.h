@@ -57,9 +57,11 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
         const size_t at = 3 * i * step;
         for (size_t c = 0; c < 6; c++) {
             float *p = to.positions + 18 * i + 3 * c, *N = to.normals + 18 * i + 3 * c;
+            double place;
             memcpy(p, from.positions + at, 3 * sizeof *p);
             N[c / 2] = c % 2 ? -1.0f : 1.0f;
-            p[c / 2] = (float)((double)p[c / 2] + radius * (double)N[c / 2]);
+            place = (double)p[c / 2] + radius * (double)N[c / 2];
+            p[c / 2] = (float)fmax(-(double)FLT_MAX, fmin(place, (double)FLT_MAX));
             if (to.colors) memcpy(to.colors + 18 * i + 3 * c, from.colors + at, 3 * sizeof *p);
         }
         for (size_t k = 0; k < 24; k++)
