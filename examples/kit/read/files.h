@@ -321,7 +321,6 @@ static inline void model_tell_missing(const char *path, model *m)
         char text[100];
         if (!s || s->set || !s->name[0]) continue;
         snprintf(text, sizeof text, "no library has its material %.50s", s->name);
-        for (char *c = text; *c; c++) *c = *c < ' ' && *c >= 0 ? '?' : *c;
         model_warn(m, path, text);
         return;
     }

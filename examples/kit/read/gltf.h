@@ -210,7 +210,6 @@ static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
         return failed;
     }
     gltf_unescape(text);
-    for (char *c = text; *c; c++) *c = *c < ' ' && *c > 0 ? '?' : *c;
     if (!model_is_beside(text)) {
         failed = mesh_fail(g->r, "%s does not lie beside the model", text);
     } else if (!g->m->beside) {
@@ -1150,8 +1149,6 @@ static inline int gltf_version(gltf *g)
     const uint32_t asset = json_of(&g->j, JSON_ROOT, "asset", JSON_OBJECT);
     char *version = json_copy(&g->j, json_member(&g->j, asset, "version"));
     const int two = version && version[0] == '2' && (version[1] == '.' || !version[1]);
-    if (version)
-        for (char *c = version; *c; c++) *c = *c < ' ' || *c == 127 ? '?' : *c;
     if (g->j.value[JSON_ROOT].kind != JSON_OBJECT)
         mesh_fail(g->r, "its JSON is no object");
     else if (!two)

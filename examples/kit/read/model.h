@@ -150,6 +150,7 @@ static inline void model_warn(model *m, const char *about, const char *what)
     if (!same) m->warned = there + strlen(before);
     snprintf(m->warning + there, room - there, "%s%s%s%s", before, same ? "" : about,
              same ? "" : ": ", what);
+    mesh_plain(m->warning + there);
 }
 
 /* Warns of what is left out because it has a position that is not finite. */

@@ -43,6 +43,13 @@ static inline mesh_reader mesh_of(const void *bytes, size_t size, const char *na
     return r;
 }
 
+/* A message is one line, whatever names are in it. */
+static inline void mesh_plain(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
+}
+
 /* Writes the message and returns 1, which means failure in all readers. */
 static inline int mesh_fail(mesh_reader *r, const char *format, ...)
 {
@@ -53,10 +60,12 @@ static inline int mesh_fail(mesh_reader *r, const char *format, ...)
         n = snprintf(r->error, r->error_size, "%s:%lld: ", r->name, r->line);
     else
         n = snprintf(r->error, r->error_size, "%s: ", r->name);
-    if (n < 0 || (size_t)n >= r->error_size) return 1;
-    va_start(list, format);
-    vsnprintf(r->error + n, r->error_size - (size_t)n, format, list);
-    va_end(list);
+    if (n >= 0 && (size_t)n < r->error_size) {
+        va_start(list, format);
+        vsnprintf(r->error + n, r->error_size - (size_t)n, format, list);
+        va_end(list);
+    }
+    mesh_plain(r->error);
     return 1;
 }
 
