@@ -36,12 +36,14 @@ compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/programs/thumbnail/thumbnail
 compile tests/thumbnail/models.c -lm -o "$T/models"
 compile $STB tests/thumbnail/look.c -lm -o "$T/look"
 compile tests/thumbnail/ears.c -lm -o "$T/ears"
+compile -pthread -Wno-unused-function tests/thumbnail/hidden.c -lm -o "$T/hidden"
 check "models" "$T/models" "$T"
 
-build=ears
-"$T/ears" >"$T/ears.log" || grep FAIL "$T/ears.log"
-passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/ears.log")))
-failed=$((failed + $(sed -n 's/.* \([0-9]*\) failed$/\1/p' "$T/ears.log")))
+for build in ears hidden; do
+    "$T/$build" >"$T/$build.log" || grep FAIL "$T/$build.log"
+    passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/$build.log")))
+    failed=$((failed + $(sed -n 's/.* \([0-9]*\) failed$/\1/p' "$T/$build.log")))
+done
 
 # ---- what both builds do -------------------------------------------------------------------------
 # model, picture, options: a small picture of a file in T
