@@ -123,6 +123,25 @@ static inline owned_mesh stand_ends(const owned_mesh *m, const float *low, const
     return ends;
 }
 
+/* 1: what lies below where axis up is upright is at least an eighth of the box wide. */
+static inline int stand_is_wide(const owned_mesh *m, int up, const float *low, const float *high)
+{
+    const int k = up % 3, a = (k + 1) % 3, b = (k + 2) % 3;
+    const float near = 0.02f * (high[k] - low[k]),
+                eighth = (high[a] - low[a]) * (high[b] - low[b]) / 8;
+    float least[2] = { FLT_MAX, FLT_MAX }, most[2] = { -FLT_MAX, -FLT_MAX };
+    for (int i = 0; i < m->view.index_count; i++) {
+        const float *p = m->positions + 3 * (size_t)m->indices[i];
+        if ((up < 3 ? p[k] - low[k] : high[k] - p[k]) > near) continue;
+        least[0] = p[a] < least[0] ? p[a] : least[0];
+        least[1] = p[b] < least[1] ? p[b] : least[1];
+        most[0] = p[a] > most[0] ? p[a] : most[0];
+        most[1] = p[b] > most[1] ? p[b] : most[1];
+        if ((most[0] - least[0]) * (most[1] - least[1]) > eighth) return 1;
+    }
+    return 0;
+}
+
 /* The upright axis, 0 .. 5: the usual one, unless the model cannot stand on it, but stands on
    another on small feet around a wide rectangle, and is narrow above.  A large flat face says
    nothing, because much leans on a wall or hangs on it.  Files are not upside down.  Of 1484 real
@@ -140,6 +159,7 @@ static inline int stand_guess(const owned_mesh *m, int usual)
         low[k] = (float)box[0][k];
         high[k] = (float)box[1][k];
     }
+    if (stand_is_wide(m, usual, low, high)) return usual; /* most models, and quickly */
     ends = stand_ends(m, low, high);
     if (!ends.indices) return usual;
     for (int up = 0; up < 6; up++) end[up] = stand_bottom(&ends, up, low, high);

@@ -302,9 +302,9 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
 
 /* ---- a coarser mesh -------------------------------------------------------------------------- */
 
-/* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell as large as a texel
-   become one, at their mean; triangles with two corners in a cell vanish.  Of 2 million triangles
-   of a sphere 0.4 are left. */
+/* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell become one, at
+   their mean; triangles with two corners in a cell vanish.  A cell is as large as a texel, in small
+   pictures 4/3 of one.  Of 2 million triangles of a sphere 0.4 are left. */
 static int studio_may_thin(const model *m)
 {
     for (int i = 0; i < m->surface_count; i++)
@@ -312,13 +312,13 @@ static int studio_may_thin(const model *m)
     return m->mesh.view.index_count / 3 > MESH_LARGE;
 }
 
-/* The cell of each vertex; *mean becomes four floats a cell: the mean position, and a count.  NULL:
-   out of memory */
-static uint32_t *studio_cells(const owned_mesh *m, float **mean, size_t *count)
+/* The cell of each vertex, of so many from the middle to an edge; *mean becomes four floats a cell:
+   the mean position, and a count.  NULL: out of memory */
+static uint32_t *studio_cells(const owned_mesh *m, float cells, float **mean, size_t *count)
 {
     static const mesh_set empty;
     const size_t n = (size_t)m->view.vertex_count;
-    const float scale = 128 / STUDIO_REACH;
+    const float scale = cells / STUDIO_REACH;
     mesh_set set = empty;
     uint32_t *cell = (uint32_t *)malloc((n + 1) * sizeof *cell);
     int failed = !cell;
@@ -350,13 +350,14 @@ static void studio_thin_free(model *thin)
 
 /* Makes *thin such a copy, for studio_thin_free; it has the surfaces of the other.  Returns 1 where
    memory is out. */
-static int studio_thin(model *thin, const model *m)
+static int studio_thin(model *thin, const model *m, int pixels)
 {
     const size_t corners = (size_t)m->mesh.view.index_count;
     static const owned_mesh none;
     size_t cells = 0;
     float *mean = NULL;
-    uint32_t *cell = studio_cells(&m->mesh, &mean, &cells);
+    const float across = pixels <= 128 ? 48 : pixels <= 256 ? 96 : 128;
+    uint32_t *cell = studio_cells(&m->mesh, across, &mean, &cells);
     int count = 0;
     *thin = *m;
     thin->mesh = none;
@@ -418,13 +419,14 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
-    const double own = pixels <= 256 ? 8e6 : 40e6; /* small pictures: half of all time was maps */
+    const int small = pixels <= 256; /* half of all time was maps */
+    const double own = small ? 8e6 : 40e6, thinned = small ? 8e6 : 16e6;
     shade_result result = SHADE_ERROR_CAPACITY;
     model thin;
     if (!studio_may_thin(m))
         return studio_open_for(s, m, own, pixels, turn, threads, progress, user);
-    if (!studio_thin(&thin, m))
-        result = studio_open_for(s, &thin, 16e6, pixels, turn, threads, progress, user);
+    if (!studio_thin(&thin, m, pixels))
+        result = studio_open_for(s, &thin, thinned, pixels, turn, threads, progress, user);
     studio_thin_free(&thin);
     return result;
 }
