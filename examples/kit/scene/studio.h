@@ -302,9 +302,12 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
 
 /* ---- a coarser mesh -------------------------------------------------------------------------- */
 
+/* 1: the maps have 256 x 256 texels, and the picture has no more pixels. */
+static int studio_is_small(int pixels) { return pixels > 128 && pixels <= 256; }
+
 /* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell become one, at
-   their mean; triangles with two corners in a cell vanish.  A cell is as large as a texel, in small
-   pictures 4/3 of one.  Of 2 million triangles of a sphere 0.4 are left. */
+   their mean; triangles with two corners in a cell vanish.  A cell is as large as a texel, for
+   small pictures 4/3 of one.  Of 2 million triangles of a sphere 0.4 are left. */
 static int studio_may_thin(const model *m)
 {
     for (int i = 0; i < m->surface_count; i++)
@@ -356,7 +359,7 @@ static int studio_thin(model *thin, const model *m, int pixels)
     static const owned_mesh none;
     size_t cells = 0;
     float *mean = NULL;
-    const float across = pixels <= 128 ? 48 : pixels <= 256 ? 96 : 128;
+    const float across = studio_is_small(pixels) ? 96 : 128;
     uint32_t *cell = studio_cells(&m->mesh, across, &mean, &cells);
     int count = 0;
     *thin = *m;
@@ -419,8 +422,9 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
-    const int small = pixels <= 256; /* half of all time was maps */
-    const double own = small ? 8e6 : 40e6, thinned = small ? 8e6 : 16e6;
+    const double own = pixels <= 256 ? 8e6 : 40e6; /* small pictures: half of all time was maps */
+    const double thinned =
+        studio_is_small(pixels) ? 10e6 : 16e6; /* as many maps of fewer corners */
     shade_result result = SHADE_ERROR_CAPACITY;
     model thin;
     if (!studio_may_thin(m))
