@@ -64,21 +64,21 @@
      Inside: the way of a triangle
        >>state     3257  who owns what         >>vertices  3463  shading, projection
        >>triangles 3672  dropped, cut, edges   >>clip      4031  near, far, behind the eye
-       >>tiles     4221  pixels, depth test    >>cover     4582  what is hidden, tile by tile
-       >>fragments 4851  interpolation, lod    >>texture   5135  texels, mipmaps
-       >>store     5579  blending, packing
+       >>tiles     4222  pixels, depth test    >>cover     4583  what is hidden, tile by tile
+       >>fragments 4852  interpolation, lod    >>texture   5136  texels, filters
+       >>store     5580  blending, packing
      Inside: calls of the renderer
-       >>check     5829  refusals              >>seen      6031  what can be seen, chunks
-       >>drive     6153  shade_draw            >>mesh      6341  shade_draw_mesh
+       >>check     5830  refusals              >>seen      6032  what can be seen, chunks
+       >>drive     6154  shade_draw            >>mesh      6342  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6741  shade_draw_lines      >>camera    6930  where a draw is seen from
-       >>shape     7024  normals, edges        >>chunks    7389  how boxes are made
-       >>rays      7557  shade_pick            >>survey    7744  experiments on a draw
-       >>explain   8206  why nothing is seen   >>replay    9373  of lines, pipelines
-       >>image     9700  mipmaps, PPM           >>presets  10024  classic materials
+       >>lines     6742  shade_draw_lines      >>camera    6931  where a draw is seen from
+       >>shape     7025  normals, edges        >>chunks    7390  how boxes are made
+       >>rays      7558  shade_pick            >>survey    7745  experiments on a draw
+       >>explain   8207  why nothing is seen   >>replay    9375  of lines, pipelines
+       >>image     9702  makes mipmaps, PPM    >>presets  10026  classic materials
      Sources
-       >>refs     10109                        >>history  10139
-       >>license  10145
+       >>refs     10111                        >>history  10141
+       >>license  10147
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -826,8 +826,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
    and the bytes they need, tightly packed.  0 for an invalid size or format. */
 SHADEDEF int    shade_mipmap_count(int width, int height);
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
-/* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means in
-   linear light, and points the texture at them. */
+/* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means by
+   area in linear light, and points the texture at them. */
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes);
 
@@ -4035,7 +4035,8 @@ static void shade__triangles(shade__draw *d)
      way     clip: polygon_of, clip_plane: new_vertex, place_polygon, apex
      method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds one at most, 2
              while a plane cuts, and vertex 0, kept for CONSTANT.  If rounding made the polygon
-             concave it may need more vertices; it is dropped.
+             concave it may need more vertices; it is dropped.  Whole triangles are lost there, in
+             shade__sort_out (all corners outside) and in shade__draw_fan (culled, no area).
 
                3w  +-----------------------+
                    |      guard band       |      A corner between the picture and the guard band
@@ -4226,23 +4227,23 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
      method  A tile is 32 x 8 pixels.  For each edge, a tile is outside (skipped), inside (the edge
              is ignored) or crossed, and then |e| <= 32 |ex| + 7 |ey| fits 32 bits, however large
              the triangle is.  Rows of tiles begin and end at the edges, so that time depends on
-             the number of crossed tiles.
+             the number of tiles that it touches.
 
                x                    x + columns       columns: tested, a multiple of the vectors
                |     skip                |            skip: tested, but left out, because the tile
                . . . | # # # # - - # # # |  row 0           was moved left into the clip rectangle
-               . . . | - # # # # # # # # |  row 1     #: inside and nearer, a bit of set[row]
-                       |     |   |     |
-                       run 0     run 1                runs of row 0: x, y, n of pixels in a row
+               . . . | - # # # # # # # # |  row 1     #: inside, passes; a bit of set[row]
+                       |     |     |   |
+                       run 0       run 1              runs of row 0: x, y, n of pixels in a row
 
-             A run that ends with its tile is open: the next tile to the right may extend it.
-     holds   A tile stays inside the clip rectangle: stores rewrite only pixels of this thread.  A
-             value at a pixel has the same bits whichever tile it is in: the base of its row plus
+             The only run of a row is open: the next tile to the right may extend it.
+     holds   Stores stay in the clip rectangle, that is, in the pixels of this thread.  A value at
+             a pixel has the same bits whichever tile it is in: the base of its row plus
              its step in x times the exact distance.                                      >>cover */
 
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
-    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* room for a run in each row */
+    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves a place a row */
     SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
 };
 
@@ -4270,7 +4271,7 @@ typedef struct shade__tile {
     uint32_t any;                     /* is 0 where all sets are empty */
 } shade__tile;
 
-/* Runs of pixels on their way to the queue, sent when the array is full. */
+/* Runs of pixels on their way to the queue, sent when the array is nearly full. */
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
@@ -4468,7 +4469,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     const int32_t cx = edges->ex[2], cy = edges->ey[2], c = edges->e[2] + i0 * cx + j0 * cy;
     const int rows = tile->rows, stride = tile->stride;
     float *SHADE_RESTRICT depth = tile->depth + at;
-    float nearest[SHADE__TILE];
+    float updated[SHADE__TILE];
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
     uint32_t all = 0;
@@ -4488,14 +4489,14 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
             uint32_t m = shade__mask(full || (e0[i] | e1[i] | e2[i]) >= 0);
             m &= shade__passes(test, less_only, z, depth[i]);
             if (less_only) depth[i] = shade__select(depth[i], z, m);
-            else nearest[i] = shade__select(depth[i], z, m);
+            else updated[i] = shade__select(depth[i], z, m);
             any |= m & shade__bit[i];
             if (full) continue;    /* clang would store them */
             e0[i] += ay;
             e1[i] += by;
             e2[i] += cy;
         }
-        if (!less_only && test.write) SHADE_MEMCPY(depth, nearest, (size_t)width * sizeof *depth);
+        if (!less_only && test.write) SHADE_MEMCPY(depth, updated, (size_t)width * sizeof *depth);
         tile->set[r] |= any << at;
         all |= any;
     }
@@ -4528,7 +4529,7 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
     }
 }
 
-/* Tests a tile of a large triangle, with a copy for tiles that are inside as a whole. */
+/* Tests a tile of a medium or large triangle, with a copy for tiles that are wholly inside. */
 SHADE__DISPATCH(shade__test_large,
                 (const shade__plan *plan, const shade__triangle *SHADE_RESTRICT t,
                  const shade__edges *edges, shade__tile *SHADE_RESTRICT tile, int full),
@@ -5187,7 +5188,7 @@ typedef struct shade__axis {
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* the bytes of one unit of y.i; x.i counts bytes */
+    size_t y_bytes;              /* what y.i counts, in bytes; x.i counts bytes */
     int nearest, blocks;
     uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
     shade__axis x, y;
@@ -5317,8 +5318,8 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
 }
 
 /* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
-   not shifted down: divided by their mask in place they give the same quotient, and as they lie
-   below bit 31 they are a positive int32_t.  Bilinear textures gain 4 to 10 %. */
+   not shifted down: times 1 / mask in place they give the same product, and as they lie below bit
+   31 they are a positive int32_t.  Bilinear textures gain 4 to 10 %. */
 SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
     const int shift = shade__shift(l, k), down = k < 3 && shade__low_byte_first() ? 0 : shift;
@@ -5398,7 +5399,7 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
     }
 }
 
-/* Blends the block of sRGB texels at above into four rows, or takes the nearest. */
+/* Blends the block of sRGB texels at above into four rows; weights of 0 take the nearest. */
 SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *above, shade__in x,
                                         shade__in y, shade__out out)
 {
@@ -5580,8 +5581,8 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
    Writes the colours of a packet to the caller's memory: late depth test, blending, formats.
      in      rows of linear RGBA, the queue's pixels     out  colour, and with may_discard depth
      way     store: late_depth; store_blended: unpack, blend; pack; scatter
-     holds   Pixels are stored in drawing order.  A channel of 8 bits is floor(255 clamp(c) + 1/2),
-             NaN is 0.  The four rows of colours are SHADE_LANES apart.                   >>check */
+     holds   Pixels are stored in drawing order.  A byte of linear light is floor(255 clamp(c) +
+             1/2), NaN is 0.  The four rows of colours are SHADE_LANES apart.             >>check */
 
 /* The thresholds of a 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and of y,
    interleaved and reversed.   pre: 0 <= x, y < 2^31   post: 0 < threshold < 1 */
@@ -5765,8 +5766,8 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color, shade__in
 }
 
 /* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  A new mode needs
-   its sum here, its number in shade__raster_fault, the effect of alpha on the colours of meshes in
-   shade__mesh_alpha, and in shade__black_is_meant whether black may be meant. */
+   its sum here, its number in shade__raster_fault, its use of alpha in shade__mesh_alpha and
+   shade__judge, and in shade__black_is_meant whether black may be meant. */
 SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out stored)
 {
     const uint32_t over = shade__mask(blend == SHADE_BLEND_OVER);
@@ -5803,7 +5804,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const uin
     }
 }
 
-/* Stores the colours of the queue's packet. */
+/* Tests the depth of the queue's packet, if it was not tested early, and stores its colours. */
 SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
 {
     const shade__plan *plan = &d->plan;
@@ -8206,10 +8207,11 @@ static int shade__faces_ahead(const shade__camera *c)
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
      in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     method  Numbers that cannot be meant are looked for first.  Then ladders are climbed: tables
-             of changes and sentences, tried from top to bottom.
-     holds   A sentence is true of the pixels that are shown: of all, of nine tenths, or of none
-             brighter than 8 of 255.  A band or a strip is never blamed for what another may show.
+     method  Numbers that cannot be meant are looked for first.  Then come ladders: tables of
+             changes and sentences, tried from top to bottom.
+     holds   A sentence is true of the pixels that are shown: of all, or of the share that its rung
+             asks for.  Black: none is brighter than 8 of 255.  A band or a strip is never blamed
+             for what another may show.
      way     shade__mesh_refusal; shade__why: shade__bad_number; the ladders of no picture, of no
              pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
 
@@ -8253,7 +8255,7 @@ static int shade__is_rigid(const shade_mat4 *m)
     return rigid;
 }
 
-/* Is the last row of an affine matrix (0, 0, 0, 1)? */
+/* Is the last row (0, 0, 0, w) with another w than 1? */
 static int shade__scales_w(const shade_mat4 *m)
 {
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
@@ -8361,8 +8363,8 @@ typedef struct shade__rung {
     const char *sentence;                /* NULL: this may be meant, the ladder ends */
 } shade__rung;
 
-/* Returns the sentence of the first true rung; the last one always is.  Changes are kept in q: the
-   last one names the fault, and two faults at once are found as well. */
+/* Returns the sentence of the first true rung; the last one always is.  Changes stay in q: the
+   last change names the fault, and two faults at once are found as well. */
 static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
 {
     while (!rung->change(q)) rung++;
@@ -8500,8 +8502,8 @@ static const shade__rung shade__nothing[] = {
       "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, or no "
       "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
     { shade__beyond_far,
-      "The whole mesh lies beyond the far plane of state.projection; move far out, or the eye of "
-      "state.view nearer." },
+      "The whole mesh lies beyond the far plane of state.projection; raise far, or move the eye "
+      "of state.view nearer." },
     { shade__view_is_inverse,
       "The mesh is out of view, but the inverse of state.view would show it: state.view takes "
       "the world to the eye, as shade_mat4_look_at does." },
@@ -8510,7 +8512,7 @@ static const shade__rung shade__nothing[] = {
       "space; check state.view and state.model." },
     { shade__before_near,
       "The whole mesh lies nearer than the near plane of state.projection, or behind the eye of "
-      "state.view; move near in, or the eye back." },
+      "state.view; lower near, or move the eye back." },
     { shade__is_beside,
       "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
       "where state.view looks." },
@@ -8538,7 +8540,7 @@ static const shade__rung shade__test[] = {
     { NULL, NULL }
 };
 
-/* Other bands or strips may show what this one does not. */
+/* Is this all of the picture, or a band or strip of it?  Other ones may show what it does not. */
 static int shade__is_band(const shade_target *t)
 {
     int clip[4];
@@ -8608,7 +8610,7 @@ static int shade__depth_uncleared(shade__survey *q)
     return !shade__is_far(q);
 }
 
-/* Is the mesh hidden in the whole picture, and no detail of a scene? */
+/* Is the mesh hidden in the whole picture, and no detail of a scene?  Leaves q without a bias. */
 static int shade__all_hidden(shade__survey *q)
 {
     const int hidden = q->whole && shade__is_hidden(q);
@@ -8651,7 +8653,7 @@ static const shade__rung shade__unseen[] = {
       "0 for a reversed projection." },
     { shade__depth_is_far,
       "Depth is that of the far plane all over the mesh, so that nothing passes raster.depth_test: "
-      "near of state.projection is too small beside far for floats; move near out." },
+      "near of state.projection is too small beside far for floats; raise near." },
     { shade__depth_hides,
       "What target.depth holds hides the mesh: other meshes, the frame before without a "
       "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
@@ -8823,7 +8825,7 @@ static const char shade__no_cone[] =
     "the cosine of an angle in radians.";
 static const char shade__no_color[] =
     "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
-    "meets them at a flat angle, and no highlight reaches the eye.";
+    "only grazes them, and no highlight reaches the eye.";
 static const char shade__multiply[] =
     "The visible pixels are black or almost: state.material, mesh.colors, the map, alpha, "
     "lighting.terms and the lights multiply, and several of them may be at fault.";
@@ -8851,7 +8853,7 @@ static int shade__lacks_normals(shade__survey *q)
     return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
 }
 
-/* Leaves the terms of lamps in the survey.  Returns whether it has any. */
+/* Leaves only the terms of lamps in the survey, not blended.  Returns whether it has any. */
 static int shade__lamps_alone(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -8905,7 +8907,7 @@ static int shade__cones_miss(shade__survey *q)
     return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
 }
 
-/* Is there light after all, which meets the surface at no flat angle? */
+/* Is there light after all, which does not only graze the surface? */
 static int shade__sides_show(shade__survey *q)
 {
     q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
@@ -9178,8 +9180,8 @@ static const char *shade__doubt_of_map(const shade__survey *s)
     return NULL;
 }
 
-/* Is the aspect of the projection, which is that of its rows x and y at right angles to the sight,
-   not the picture's, in a way that shows?  The cells of a terminal are twice as high as wide. */
+/* Is the aspect of the projection, that of its rows x and y across the sight, not the picture's, in
+   a way that shows?  The cells of a terminal are twice as high as wide. */
 static int shade__aspect_is_wrong(const shade__survey *s)
 {
     const shade_mat4 none = shade_mat4_identity();
@@ -9523,13 +9525,13 @@ static const char *shade__why_outside(const shade__replay *r)
                "matrix projects; or the matrix is not projection times view, in this order.";
     if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
         return "All positions lie beyond the far plane, as if projection had near = far, degrees "
-               "for radians, or an aspect of 0; or move far out, or the eye nearer.";
+               "for radians, or an aspect of 0; or raise far, or move the eye nearer.";
     if (t.outside & SHADE__OUT_W)
         return "All positions lie behind the eye, where w is negative: in clip space they are "
                "projection times view times model times (P, 1), and the eye looks down -z.";
     if (t.outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
-        return "All positions lie nearer than the near plane, or behind the eye; move near in, or "
-               "the eye back.";
+        return "All positions lie nearer than the near plane, or behind the eye; lower near, or "
+               "move the eye back.";
     return "All positions lie beside the picture, before near or beyond far: in clip space they "
            "are projection times view times model times (P, 1), with -w <= x, y, z <= w.";
 }

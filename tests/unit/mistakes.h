@@ -1606,7 +1606,7 @@ static const mistake mistakes[] = {
     BALL(no_depth_with_culling, "target.depth is NULL"), BALL(no_light, "no light"),
     BALL(no_light_beside_the_eye, "light_count"), BALL(normals_inward_of_a_quad, "mesh.normals"),
     BALL(attenuated_away, "Attenuation"), BALL(spot_attenuated_away, "Attenuation"),
-    BALL(mirror_turned_away, "flat angle"), BALL(view_of_w_two, "state.view"),
+    BALL(mirror_turned_away, "grazes"), BALL(view_of_w_two, "state.view"),
     BALL(left_handed_projection_by_rows, "state.projection looks transposed"),
     BALL(projection_onto_a_point, "fovy"),
     BALL(small_one_beside_without_depth, "beside the picture"),

@@ -74,7 +74,7 @@ static void reads_check(const call_world *w, const world_call *c)
 }
 #endif
 
-/* G19 */
+/* G1, G19 */
 TEST(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else)
 {
 #if PAGES
