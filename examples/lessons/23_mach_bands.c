@@ -25,8 +25,8 @@ static float draw_profile(sketch *s, const float *codes)
     sketch_ink(s, grey, 1);
     sketch_line(s, at(0, 255), at(WIDTH, 255));
     sketch_arrow(s, at(0, 0), at(WIDTH, 0));
-    sketch_name(s, at(38, 228), 36, "255");
-    sketch_name(s, at(28, 22), 36, "0");
+    sketch_name(s, at(34, 230), 30, "255");
+    sketch_name(s, at(27, 18), 30, "0");
     sketch_ink(s, orange, 2);
     for (int x = 0; x + 1 < WIDTH; x++) {
         sketch_line(s, at((float)x, codes[x]), at((float)x + 1, codes[x + 1]));
@@ -71,7 +71,7 @@ int main(int argc, char **argv)
         for (int k = 0; i < 2 && k < 3; k++) {    /* edges of the drum, at x = -.5, 0 and .5 */
             const float x = WIDTH / 2 * (1 + 0.5f * (float)(k - 1) / 1.05f), y = codes[(int)x];
             if (*band[i][k]) sketch_arrow(&s, at(x, y - 52), at(x, y - 8));
-            sketch_name(&s, at(x, y - (k == 1 ? 82 : 72)), 36, band[i][k]);
+            sketch_name(&s, at(x, y - (k == 1 ? 80 : 74)), 30, band[i][k]);
         }
     }
     mesh_free(&drum);
