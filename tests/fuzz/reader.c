@@ -63,8 +63,10 @@ static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name
     owned_mesh again;
     char error[64];
     int returns = memchr(bytes, '\r', size) != NULL, zeros = memchr(bytes, 0, size) != NULL;
-    int binary = mesh_is_stl(name, bytes, size) || mesh_is_ply(name, bytes, size) ||
-                 mesh_is_threemf(name, bytes, size) || (size >= 4 && !memcmp(bytes, "glTF", 4));
+    size_t own = size;
+    const uint8_t *text = model_text_of(bytes, &own); /* behind a byte order mark */
+    int binary = mesh_is_stl(name, text, own) || mesh_is_ply(name, text, own) ||
+                 mesh_is_threemf(name, text, own) || (own >= 4 && !memcmp(text, "glTF", 4));
     if (!other) exit(2);
     for (size_t i = 0; i < size; i++) {
         if (bytes[i] == '\n') other[n++] = '\r';
