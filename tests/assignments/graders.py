@@ -137,7 +137,7 @@ def wrong_answer(row):
     if expected.startswith(("hint ", "says ")):
         return name, expected[5:] in says, says
     sentences = [m[3] for m in task.mistakes if m[0] in expected.split("+")]
-    sure = re.sub(r"In this case, perhaps: .*", "", says)
+    sure = re.sub(r"One mistake that fits this case: .*", "", says)
     named = len(sentences) == expected.count("+") + 1 and all(s in sure for s in sentences)
     others = [m[0] for m in task.mistakes if m[3] in sure and m[3] not in sentences]
     return name, named and not others, f"{score} points, also {others}\n{says}"

@@ -217,7 +217,7 @@ class Judge:
         if not alike:
             for mistake in self.task.mistakes:
                 if self.gives(asked, mistake) and not self.spoils(mistake):
-                    return f"In this case, perhaps: {mistake[3]}"
+                    return f"One mistake that fits this case: {mistake[3]}"
         if any(map(math.isnan, got)):
             return "A NaN comes from 0 / 0, or from a root or a power of a negative number."
         if any(map(math.isinf, got)):

@@ -121,6 +121,10 @@ def build_c(task, path, folder):
     for name in called:
         if not CALLS.match(name):
             name = name.lstrip("_")
+            if not re.search(rf"\b{name}\(", (ROOT / "shade.h").read_text()) and "shade_" in name:
+                raise Refused(f"shade.h has no function {name}: is the name right?")
+            if name in ("max", "MAX", "min", "MIN"):
+                raise Refused(f"C has no {name}: use f{name.lower()}f of math.h.")
             why = "what it does is yours to write" if "shade_" in name else "no answer needs it"
             raise Refused(f"Your file calls {name}: {why}.")
     if any("shade_" in name for name in called):
@@ -141,6 +145,8 @@ def one_file(path):
     found = [p for p in found if p.suffix in (".c", ".py") or not path.is_dir()]
     if len(found) != 1:
         raise Refused(f"Hand in one file, a .c or a .py: there are {len(found)}.")
+    if not found[0].exists():
+        raise Refused(f"There is no file {found[0].name}.")
     if not found[0].is_file() or found[0].suffix not in (".c", ".py"):
         raise Refused(f"{found[0].name} is no .c and no .py file.")
     if found[0].is_symlink():  # to what, compilers would tell
