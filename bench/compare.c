@@ -78,17 +78,20 @@ static double turn(int who, int frames, const scene *s, const shade_target *t)
     return (clock_cpu() - start) / 1e6 / frames;
 }
 
+/* NULL: it is not there, or draws no such pictures */
+static peer *peer_of(const scene *s, int who) { return s->format ? NULL : peers[who]; }
+
 static void print_row(const scene *s, const row *r, long long fragments, FILE *tsv)
 {
     printf("| %s | %.3g |", s->name, r->ms[SHADE]);
     for (int who = 1; who <= PEERS; who++) {
         if (r->ms[who] > 0) printf(" %.3g |", r->ms[who]);
-        else printf(" %s |", peers[who] && !s->format ? "another picture" : "-");
+        else printf(" %s |", peer_of(s, who) ? "another picture" : "-");
     }
     if (r->best) printf(" %s | %.2f |", peers[r->best]->name, r->ratio[r->best]);
     else printf(" - | - |");
     for (int who = 1; who <= PEERS; who++)
-        if (peers[who] && !s->format)
+        if (peer_of(s, who))
             printf(" %.2g %% (%.3g)", 100 * r->d[who].fraction, r->d[who].most);
     printf(" | %.0f k |\n", (double)fragments / 1000);
     if (s->kind == SCENE_CLEAR)
@@ -128,7 +131,7 @@ static void measure(const options *o, const scene *s, FILE *tsv)
     memset(&r, 0, sizeof r);
     write_picture(o, s, &t, "shade.h");
     for (int who = 1; who <= PEERS; who++) {
-        if (!peers[who] || s->format) continue;
+        if (!peer_of(s, who)) continue;
         peers[who]->load(peers[who], s);
         r.d[who] = draw_peer(o, s, &t, peers[who]);
         on[who] = r.d[who].fraction <= fraction_allowed;
@@ -152,7 +155,7 @@ static void measure(const options *o, const scene *s, FILE *tsv)
     for (int who = 0; who < WAYS; who++)
         if (on[who]) r.ms[who] = clock_median(samples[who], o->rounds);
     for (int who = 1; who <= PEERS; who++)
-        if (peers[who] && !s->format) peers[who]->unload(peers[who]);
+        if (peer_of(s, who)) peers[who]->unload(peers[who]);
     print_row(s, &r, stats.fragments, tsv);
     free(t.color);
     free(t.depth);

@@ -159,7 +159,7 @@ static inline int stand_guess(const owned_mesh *m, int usual)
         low[k] = (float)box[0][k];
         high[k] = (float)box[1][k];
     }
-    if (stand_is_wide(m, usual, low, high)) return usual; /* most models, and quickly */
+    if (stand_is_wide(m, usual, low, high)) return usual; /* no other is 8 times as wide */
     ends = stand_ends(m, low, high);
     if (!ends.indices) return usual;
     for (int up = 0; up < 6; up++) end[up] = stand_bottom(&ends, up, low, high);
