@@ -16,6 +16,10 @@
 #include "examples/kit/scene/renderer.h"
 #include "examples/shared/label.h"
 
+#ifndef NATIVE
+#define NATIVE(name) SHADEDEF /* WebAssembly calls these by name alone */
+#endif
+
 typedef struct python_item { /* a mesh in its place */
     shade_mesh mesh;
     shade_draw_state state;                 /* camera and lights are those of the view */
@@ -840,32 +844,72 @@ renderer_scene *python_scene_open(void) { return renderer_scene_open(); }
 SHADEDEF void python_scene_close(renderer_scene *scene);
 void python_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
 
-SHADEDEF int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth);
-int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth)
+NATIVE(scene_mesh)
+int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth);
+int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth)
 {
-    return renderer_add_mesh(scene, mesh, smooth);
+    return renderer_set_mesh(scene, number, mesh, smooth);
 }
 
-SHADEDEF int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                                  int faces, int srgb, int wrap_u, int wrap_v);
-int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                         int faces, int srgb, int wrap_u, int wrap_v)
+NATIVE(scene_texture)
+int python_scene_texture(renderer_scene *scene, int number, const renderer_image *image);
+int python_scene_texture(renderer_scene *scene, int number, const renderer_image *image)
 {
-    return renderer_add_texture(scene, rgba, width, height, faces, srgb, (shade_wrap)wrap_u,
-                                (shade_wrap)wrap_v);
+    return renderer_set_texture(scene, number, image);
 }
 
-SHADEDEF renderer *python_renderer_open(void);
+NATIVE(scene_add)
+int python_scene_add(renderer_scene *scene, const renderer_object *records, int count);
+int python_scene_add(renderer_scene *scene, const renderer_object *records, int count)
+{
+    return renderer_add(scene, records, count);
+}
+
+NATIVE(scene_remove) int python_scene_remove(renderer_scene *scene, int number);
+int python_scene_remove(renderer_scene *scene, int number)
+{
+    return renderer_remove(scene, number);
+}
+
+/* The records of an object, or with number -1 of all */
+NATIVE(scene_find)
+renderer_object *python_scene_find(const renderer_scene *scene, int number, int *count);
+renderer_object *python_scene_find(const renderer_scene *scene, int number, int *count)
+{
+    *count = scene->object_count;
+    return number < 0 ? scene->objects : renderer_find(scene, number, count);
+}
+
+NATIVE(scene_set)
+int python_scene_set(renderer_scene *scene, const renderer_object *records, int count);
+int python_scene_set(renderer_scene *scene, const renderer_object *records, int count)
+{
+    return renderer_set_objects(scene, records, count);
+}
+
+/* to is a copy of the scene's records, or NULL: those are moved. */
+NATIVE(scene_pose)
+int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,
+                      const double *rows, int count);
+int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,
+                      const double *rows, int count)
+{
+    return renderer_pose(scene, to ? to : scene->objects, numbers, rows, count);
+}
+
+NATIVE(renderer_open) renderer *python_renderer_open(void);
 renderer *python_renderer_open(void) { return renderer_open(); }
 
-SHADEDEF void python_renderer_close(renderer *r);
+NATIVE(renderer_close) void python_renderer_close(renderer *r);
 void python_renderer_close(renderer *r) { renderer_close(r); }
 
-SHADEDEF int python_renderer_draw(renderer *r, const renderer_scene *scene,
-                                  const renderer_picture *picture);
-int python_renderer_draw(renderer *r, const renderer_scene *scene, const renderer_picture *picture)
+SHADEDEF int python_renderer_draw(renderer *const *r, int renderers, const renderer_scene *scene,
+                                  const renderer_picture *pictures, int count,
+                                  const volatile int *stop);
+int python_renderer_draw(renderer *const *r, int renderers, const renderer_scene *scene,
+                         const renderer_picture *pictures, int count, const volatile int *stop)
 {
-    return (int)renderer_draw(r, scene, picture);
+    return (int)renderer_draw(r, renderers, scene, pictures, count, stop);
 }
 
 /* The sizes that the twins of these structs must have */
@@ -876,7 +920,7 @@ size_t python_size(int which)
                                    sizeof(python_item),     sizeof(python_view),
                                    sizeof(shade_lighting),  sizeof(shade_texture),
                                    sizeof(shade_light),     sizeof(shade_chunk),
-                                   sizeof(python_part),     sizeof(renderer_object),
-                                   sizeof(renderer_picture) };
+                                   sizeof(python_part),     sizeof(renderer_image),
+                                   sizeof(renderer_object), sizeof(renderer_picture) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

@@ -5,11 +5,12 @@
        renderer_scene *scene = renderer_scene_open();
        renderer *r = renderer_open();
        renderer_object ball = { RENDERER_SPHERE, .size = { 1, 1, 1 }, ... };
-       renderer_draw(r, scene, &picture);
+       renderer_add(scene, &ball, 1);
+       renderer_draw(&r, 1, scene, &picture, 1, NULL);
 
-   The scene holds meshes and textures and is only read while pictures are drawn: any number of
-   threads may share it, each with a renderer of its own, which holds scratch memory and nothing
-   that a picture depends on.  After the first picture of a size nothing is allocated.
+   The scene holds meshes, textures and objects, and is only read while pictures are drawn: any
+   number of threads may share it, each with a renderer of its own, which holds scratch memory and
+   nothing that a picture depends on.  After the first picture of a size nothing is allocated.
    All arithmetic is that of shade.h or single operations of IEEE floats, so that the bits are equal
    on every machine; compile with -ffp-contract=off. */
 #ifndef SHARED_RENDERER_H
@@ -18,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "shade.h"
+#include "../../shared/bands.h"
 #include "../../shared/lane.h"
 
 typedef enum renderer_kind {
@@ -34,19 +36,26 @@ typedef enum renderer_kind {
 enum { /* renderer_object.flags */
        RENDERER_HIDDEN = 1,
        RENDERER_TWO_SIDED = 2,
-       RENDERER_CASTS_NO_SHADOW = 4
+       RENDERER_CASTS_NO_SHADOW = 4,
+       RENDERER_BLENDED =
+           8 /* the alpha of its texture counts, as that of its colour does below 1 */
 };
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
 typedef struct renderer_object {
     int32_t kind, mesh, texture, flags; /* texture -1: none */
+    int32_t id;                         /* what ids hold: surfaces of one object share it */
+    int32_t first, count;               /* the triangles of its mesh that it shows; count 0: all */
     float size[3];
     float turn[9]; /* a rotation, row by row */
     float place[3];
     float rgba[4]; /* linear where the picture is sRGB; alpha below 1: blended */
-    float specular, shininess, emission; /* emission multiplies the colour */
+    float specular[3], shininess;
+    float emission;    /* multiplies the colour */
+    float glow[3];     /* light that it sends beside that, whatever its colour */
     float repeat[2];   /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
     float metal, tint; /* k_d is 1 - metal times the colour, k_s specular + tint times the colour */
+    float cutoff;      /* where texture and colour have less alpha are holes; 0: nowhere */
 } renderer_object;
 
 enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 11 };
@@ -61,7 +70,7 @@ typedef struct renderer_picture {
     int32_t solid;    /* non-zero: alpha is ignored; depth and ids have all objects */
     int32_t parallel; /* non-zero: the projection is orthographic */
     int32_t object_count, light_count;
-    int32_t shadow_light;        /* the one lamp that casts shadows, -1: none */
+    int32_t shadows;             /* bit k: lamp k, directional or a spot, casts shadows */
     int32_t sky, sky_texture;    /* RENDERER_SKY_...; what was added by renderer_add_cube */
     float near_z, far_z;         /* far_z from 1e30 on: there is none */
     float empty_depth;           /* the depth of pixels that show nothing */
@@ -70,7 +79,7 @@ typedef struct renderer_picture {
     shade_vec4 background;
     shade_vec3 sky_low, sky_high; /* of a gradient, by the sine of the angle over the horizon */
     shade_vec3 ambient;
-    const renderer_object *objects;
+    const renderer_object *objects; /* NULL: those of the scene */
     const shade_light *lights;
     uint8_t *color; /* any of these may be NULL */
     float *depth;   /* along the axis of view */
@@ -103,8 +112,12 @@ typedef struct renderer_scene {
     renderer_shape *meshes;
     renderer_texture *textures;
     int mesh_count, texture_count;
+    renderer_object *objects; /* those of one number follow each other */
+    int *record;              /* the first of each number, -1: the number is free */
+    int object_count, object_room, number_count, free_numbers;
     int borrowed; /* round, box and plane are those of another scene, which outlives it */
     int serial;   /* of scenes that share a renderer's scratch memory: tells them apart */
+    int version;  /* counts changes of meshes and textures */
 } renderer_scene;
 
 /* An object that can be seen */
@@ -126,22 +139,29 @@ typedef struct renderer_mark {
     int32_t object, triangle;
 } renderer_mark;
 
+/* The shadow map of a lamp */
+typedef struct renderer_map {
+    float *depth;
+    size_t room;
+    int size, valid;
+    shade_light lamp;         /* as it was when the map was drawn */
+    shade_mat4 from_world;    /* to the map's clip space */
+    float texel, texel_slope; /* size of its texels: texel + texel_slope times the distance */
+    shade_vec4 axis;          /* distance from the lamp along its axis */
+} renderer_map;
+
 typedef struct renderer {
     renderer_entry *entries;
     uint32_t *indices;
     uint32_t *whose, *owners; /* the entries of vertices and of triangles */
     renderer_mark *marks;     /* of triangles */
-    float *depth, *large_depth, *map;
+    float *depth, *large_depth;
     uint32_t *color, *large_color;
-    renderer_object *known; /* what the shadow map holds */
-    int known_count, known_serial, map_valid;
-    shade_light known_light;
+    renderer_map map[RENDERER_LAMPS];
+    renderer_object *known; /* what the shadow maps hold */
+    int known_count, known_serial, known_version;
     float known_tolerance;
-    size_t room[11];
-    shade_mat4 from_lamp;     /* world to the shadow map's clip space */
-    float texel, texel_slope; /* size of its texels: texel + texel_slope times the distance */
-    shade_vec4 lamp_axis;     /* distance from the lamp along its axis */
-    int map_size;
+    size_t room[10];
 } renderer;
 
 /* ---- shapes ---------------------------------------------------------------------------------- */
@@ -342,6 +362,8 @@ static inline void renderer_scene_close(renderer_scene *s)
     for (int i = 0; i < s->texture_count; i++) renderer_texture_free(&s->textures[i]);
     free(s->meshes);
     free(s->textures);
+    free(s->objects);
+    free(s->record);
     free(s);
 }
 
@@ -419,68 +441,111 @@ static inline int renderer_split(renderer_shape *s)
     return 1;
 }
 
-/* Copies a mesh with tight rows and indices below vertex_count.  Without normals faces have theirs,
-   or with smooth vertices the mean of their faces.  Returns its number, -1 without memory. */
-static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m, int smooth)
+/* An array with room for element number, all new ones zero, and their count.  NULL: out of memory,
+   and the array stays */
+static inline void *renderer_reach_to(void *array, int *count, int number, size_t size)
 {
-    renderer_shape s, *grown;
-    const size_t count = (size_t)scene->mesh_count + 1;
-    int good;
-    if (!renderer_shape_open(&s, m->vertex_count, m->index_count)) return -1;
-    grown = (renderer_shape *)realloc(scene->meshes, count * sizeof s);
-    if (grown) scene->meshes = grown;
-    s.vertex_count = m->vertex_count;
-    s.index_count = m->index_count;
-    memcpy(s.positions, m->positions, (size_t)s.vertex_count * 3 * sizeof(float));
-    memcpy(s.indices, m->indices, (size_t)s.index_count * sizeof(uint32_t));
-    good = renderer_copy(&s.texcoords, m->texcoords, m->vertex_count, 2) &&
-           renderer_copy(&s.colors, m->colors, m->vertex_count, 3);
-    if (m->normals)
-        memcpy(s.normals, m->normals, (size_t)s.vertex_count * 3 * sizeof(float));
-    else if (good && smooth)
-        good = !shade_mesh_normals(m, (shade_vec3 *)(void *)s.normals);
-    else if (good)
-        good = renderer_split(&s);
-    good = good && renderer_make_planes(&s);
-    if (!grown || !good) {
-        renderer_shape_free(&s);
-        return -1;
-    }
-    renderer_bound(&s, m);
-    scene->meshes[scene->mesh_count] = s;
-    return scene->mesh_count++;
+    const size_t old = (size_t)*count, wanted = (size_t)number + 1;
+    char *grown;
+    if (wanted <= old) return array;
+    grown = (char *)realloc(array, wanted * size);
+    if (!grown) return NULL;
+    memset(grown + old * size, 0, (wanted - old) * size);
+    *count = number + 1;
+    return grown;
 }
 
-/* Copies RGBA bytes with their mipmaps; faces: 1, or 6 one below the other, for a cube, which needs
-   no wrap.  Returns the texture's number, -1 without memory. */
-static inline int renderer_add_texture(renderer_scene *scene, const uint8_t *rgba, int width,
-                                       int height, int faces, int srgb, shade_wrap wrap_u,
-                                       shade_wrap wrap_v)
+/* A shape of a mesh with tight rows and indices below vertex_count.  Without normals faces have
+   theirs, or with smooth vertices the mean of their faces.  0: out of memory */
+static inline int renderer_shape_of(renderer_shape *s, const shade_mesh *m, int smooth)
 {
+    int good;
+    if (!renderer_shape_open(s, m->vertex_count, m->index_count)) return 0;
+    s->vertex_count = m->vertex_count;
+    s->index_count = m->index_count;
+    memcpy(s->positions, m->positions, (size_t)s->vertex_count * 3 * sizeof(float));
+    memcpy(s->indices, m->indices, (size_t)s->index_count * sizeof(uint32_t));
+    good = renderer_copy(&s->texcoords, m->texcoords, m->vertex_count, 2) &&
+           renderer_copy(&s->colors, m->colors, m->vertex_count, 3);
+    if (m->normals)
+        memcpy(s->normals, m->normals, (size_t)s->vertex_count * 3 * sizeof(float));
+    else if (good && smooth)
+        good = !shade_mesh_normals(m, (shade_vec3 *)(void *)s->normals);
+    else if (good)
+        good = renderer_split(s);
+    if (good && renderer_make_planes(s)) {
+        renderer_bound(s, m);
+        return 1;
+    }
+    renderer_shape_free(s);
+    return 0;
+}
+
+/* Puts a copy of a mesh in the place of mesh number; with m NULL that is freed.  Numbers are the
+   caller's.  0: out of memory, and nothing has changed */
+static inline int renderer_set_mesh(renderer_scene *scene, int number, const shade_mesh *m,
+                                    int smooth)
+{
+    static const renderer_shape none;
+    renderer_shape s = none, *all = (renderer_shape *)renderer_reach_to(
+                                 scene->meshes, &scene->mesh_count, number, sizeof s);
+    if (!all) return 0;
+    scene->meshes = all;
+    if (m && !renderer_shape_of(&s, m, smooth)) return 0;
+    renderer_shape_free(&all[number]);
+    all[number] = s;
+    scene->version++;
+    return 1;
+}
+
+/* A picture as the scene has it, and its faces */
+typedef struct renderer_image {
+    const uint8_t *rgba;
+    int width, height;
+    int faces; /* 1, or 6 one below the other, for a cube, which needs no wrap */
+    int srgb, wrap_u, wrap_v;
+} renderer_image;
+
+/* Copies a picture with its mipmaps.  0: out of memory */
+static inline int renderer_texture_of(renderer_texture *t, const renderer_image *from)
+{
+    const int width = from->width, height = from->height, faces = from->faces;
     const size_t bytes = 4 * (size_t)width * (size_t)height;
     const size_t below = (shade_mipmap_bytes(width, height, SHADE_FORMAT_RGBA8) + 15) / 16 * 16;
     const int levels = shade_mipmap_count(width, height);
-    renderer_texture t = { .cube = faces == 6 }, *grown;
-    t.memory = (uint8_t *)malloc((size_t)faces * (bytes + below) + 1);
-    t.levels = (shade_texture *)calloc((size_t)(faces * levels) + 1, sizeof *t.levels);
-    grown =
-        (renderer_texture *)realloc(scene->textures, ((size_t)scene->texture_count + 1) * sizeof t);
-    if (grown) scene->textures = grown;
-    for (int i = 0; grown && t.memory && t.levels && i < faces; i++) {
-        uint8_t *at = t.memory + (size_t)i * (bytes + below);
-        memcpy(at, rgba + (size_t)i * bytes, bytes);
-        t.face[i] = (shade_texture){ .pixels = at, .width = width, .height = height, .srgb = srgb };
-        t.face[i].filter = SHADE_FILTER_TRILINEAR;
-        t.face[i].wrap_u = faces > 1 ? SHADE_WRAP_CLAMP : wrap_u;
-        t.face[i].wrap_v = faces > 1 ? SHADE_WRAP_CLAMP : wrap_v;
-        if (levels) shade_build_mipmaps(&t.face[i], t.levels + i * levels, at + bytes, below);
+    t->cube = faces == 6;
+    t->memory = (uint8_t *)malloc((size_t)faces * (bytes + below) + 1);
+    t->levels = (shade_texture *)calloc((size_t)(faces * levels) + 1, sizeof *t->levels);
+    for (int i = 0; t->memory && t->levels && i < faces; i++) {
+        uint8_t *at = t->memory + (size_t)i * (bytes + below);
+        memcpy(at, from->rgba + (size_t)i * bytes, bytes);
+        t->face[i] = (shade_texture){ .pixels = at, .width = width, .height = height };
+        t->face[i].srgb = from->srgb;
+        t->face[i].filter = SHADE_FILTER_TRILINEAR;
+        t->face[i].wrap_u = faces > 1 ? SHADE_WRAP_CLAMP : (shade_wrap)from->wrap_u;
+        t->face[i].wrap_v = faces > 1 ? SHADE_WRAP_CLAMP : (shade_wrap)from->wrap_v;
+        if (levels) shade_build_mipmaps(&t->face[i], t->levels + i * levels, at + bytes, below);
     }
-    if (!grown || !t.memory || !t.levels) {
-        renderer_texture_free(&t);
-        return -1;
-    }
-    scene->textures[scene->texture_count] = t;
-    return scene->texture_count++;
+    if (t->memory && t->levels) return 1;
+    renderer_texture_free(t);
+    return 0;
+}
+
+/* Puts a copy of a picture in the place of texture number; with from NULL that is freed.  0: out of
+   memory, and nothing has changed */
+static inline int renderer_set_texture(renderer_scene *scene, int number,
+                                       const renderer_image *from)
+{
+    static const renderer_texture none;
+    renderer_texture t = none, *all = (renderer_texture *)renderer_reach_to(
+                                   scene->textures, &scene->texture_count, number, sizeof t);
+    if (!all) return 0;
+    scene->textures = all;
+    if (from && !renderer_texture_of(&t, from)) return 0;
+    renderer_texture_free(&all[number]);
+    all[number] = t;
+    scene->version++;
+    return 1;
 }
 
 static inline renderer *renderer_open(void) { return (renderer *)calloc(1, sizeof(renderer)); }
@@ -495,7 +560,7 @@ static inline void renderer_close(renderer *r)
     free(r->marks);
     free(r->depth);
     free(r->large_depth);
-    free(r->map);
+    for (int k = 0; k < RENDERER_LAMPS; k++) free(r->map[k].depth);
     free(r->color);
     free(r->large_color);
     free(r->known);
@@ -515,9 +580,136 @@ static inline void *renderer_room(void *at, size_t *room, size_t bytes)
     return at;
 }
 
+/* ---- objects that come, move and go ---------------------------------------------------------- */
+
+/* Room for so many records.  0: out of memory, and all stays */
+static inline int renderer_object_room(renderer_scene *s, int count)
+{
+    renderer_object *grown;
+    if (count <= s->object_room) return 1;
+    grown = (renderer_object *)realloc(s->objects, 2 * (size_t)count * sizeof *grown);
+    if (!grown) return 0;
+    s->objects = grown;
+    s->object_room = 2 * count;
+    return 1;
+}
+
+/* Finds the first record of each number. */
+static inline void renderer_number(renderer_scene *s)
+{
+    for (int k = 0; k < s->number_count; k++) s->record[k] = -1;
+    for (int i = s->object_count; i-- > 0;) s->record[s->objects[i].id] = i;
+    s->free_numbers = 0;
+    for (int k = 0; k < s->number_count; k++) s->free_numbers += s->record[k] < 0;
+}
+
+/* Takes records in place of all.  Those of one number follow each other.  0: out of memory, and all
+   stays */
+static inline int renderer_set_objects(renderer_scene *s, const renderer_object *from, int count)
+{
+    int most = 0, *record;
+    for (int i = 0; i < count; i++) most = from[i].id > most ? from[i].id : most;
+    record = (int *)renderer_reach_to(s->record, &s->number_count, most, sizeof *record);
+    if (!record || !renderer_object_room(s, count)) return 0;
+    s->record = record;
+    if (count) memcpy(s->objects, from, (size_t)count * sizeof *from);
+    s->object_count = count;
+    renderer_number(s);
+    return 1;
+}
+
+/* The records of an object.  NULL: there is no such number */
+static inline renderer_object *renderer_find(const renderer_scene *s, int number, int *count)
+{
+    const int at = number >= 0 && number < s->number_count ? s->record[number] : -1;
+    *count = 0;
+    while (at >= 0 && at + *count < s->object_count && s->objects[at + *count].id == number)
+        ++*count;
+    return at >= 0 ? s->objects + at : NULL;
+}
+
+/* Adds the records of one object and gives them the least free number.  -1: out of memory */
+static inline int renderer_add(renderer_scene *s, const renderer_object *from, int count)
+{
+    const int had = s->object_count;
+    int number = s->free_numbers ? 0 : s->number_count, *record;
+    while (number < s->number_count && s->record[number] >= 0) number++;
+    if (!renderer_object_room(s, had + count)) return -1;
+    s->free_numbers -= number < s->number_count;
+    record = (int *)renderer_reach_to(s->record, &s->number_count, number, sizeof *record);
+    if (!record) return -1;
+    s->record = record;
+    s->record[number] = had;
+    for (int i = 0; i < count; i++) {
+        s->objects[had + i] = from[i];
+        s->objects[had + i].id = number;
+    }
+    s->object_count = had + count;
+    return number;
+}
+
+/* Takes an object away; the others keep their numbers.  0: there is none */
+static inline int renderer_remove(renderer_scene *s, int number)
+{
+    int count;
+    renderer_object *o = renderer_find(s, number, &count);
+    if (!o) return 0;
+    s->object_count -= count;
+    memmove(o, o + count, (size_t)(s->objects + s->object_count - o) * sizeof *o);
+    renderer_number(s);
+    return 1;
+}
+
+/* 1: the rows of a 4 x 4 matrix are a rotation and a translation, within 1/1000 of unit length and
+   of right angles. */
+static inline int renderer_is_rigid(const double *m)
+{
+    double turned = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = m + 4 * i, *b = m + 4 * ((i + 1) % 3), *c = m + 4 * ((i + 2) % 3);
+        for (int j = 0; j < 3; j++) {
+            const double *other = m + 4 * j;
+            const double off = a[0] * other[0] + a[1] * other[1] + a[2] * other[2] - (i == j);
+            if (!(off < 1e-3 && off > -1e-3)) return 0;
+        }
+        if (!(a[3] < 3e38 && a[3] > -3e38)) return 0;
+        if (!(m[12 + i] < 1e-3 && m[12 + i] > -1e-3)) return 0;
+        turned += a[0] * (b[1] * c[2] - b[2] * c[1]) / 3;
+    }
+    return turned > 0 && m[15] < 1 + 1e-3 && m[15] > 1 - 1e-3;
+}
+
+/* Moves objects: a matrix of 16, row by row, for each of count numbers.  numbers NULL: all objects,
+   in the order of their numbers.  to are the scene's records, or a copy of them.  Returns which
+   matrix is refused, and nothing moves then; -1: all did. */
+static inline int renderer_pose(const renderer_scene *s, renderer_object *to,
+                                const int32_t *numbers, const double *rows, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!renderer_is_rigid(rows + 16 * (size_t)i)) return i;
+    for (int i = 0, next = 0; i < count; i++) {
+        const double *m = rows + 16 * (size_t)i;
+        int n, records;
+        while (!numbers && next < s->number_count && s->record[next] < 0) next++;
+        n = numbers ? numbers[i] : next++;
+        const renderer_object *from = renderer_find(s, n, &records);
+        for (int k = 0; from && k < records; k++) {
+            renderer_object *o = to + (from - s->objects) + k;
+            for (int a = 0; a < 9; a++) o->turn[a] = (float)m[4 * (a / 3) + a % 3];
+            for (int a = 0; a < 3; a++) o->place[a] = (float)m[4 * a + 3];
+        }
+    }
+    return -1;
+}
+
 /* ---- what can be seen ------------------------------------------------------------------------ */
 
-enum { RENDERER_KEY_COLORS = 1, RENDERER_KEY_TWO_SIDED = 2, RENDERER_KEY_TEXTURE = 4 };
+enum {
+    RENDERER_KEY_COLORS = 1,
+    RENDERER_KEY_TWO_SIDED = 2,
+    RENDERER_KEY_HOLES = 4,
+    RENDERER_KEY_TEXTURE = 8
+};
 /* Objects of fewer vertices are drawn together, because a draw costs about as much as these. */
 enum { RENDERER_ALONE = 200 };
 
@@ -672,7 +864,12 @@ static inline int renderer_is_endless(const renderer_object *o)
 
 static inline int renderer_is_blended(const renderer_picture *p, const renderer_object *o)
 {
-    return o->rgba[3] < 1 && !p->solid;
+    return (o->rgba[3] < 1 || (o->flags & RENDERER_BLENDED)) && !p->solid;
+}
+
+static inline int renderer_has_holes(const renderer_object *o)
+{
+    return o->cutoff > 0 && o->texture >= 0;
 }
 
 /* Fills in an entry.  0: the object cannot be seen */
@@ -680,6 +877,7 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
 {
     const renderer_object *o = &v->p->objects[number];
     const int endless = renderer_is_endless(o);
+    const int holes = renderer_has_holes(o) ? RENDERER_KEY_HOLES : 0;
     shade_vec3 centre;
     const float radius = renderer_reach(v->scene, o, &centre);
     if ((o->flags & RENDERER_HIDDEN) || o->rgba[3] <= 0) return 0;
@@ -706,9 +904,11 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
     if (v->shadows) {
         const int closed = o->kind != RENDERER_MESH && o->kind != RENDERER_PLANE;
         e->key = closed && v->parallel ? 0 : RENDERER_KEY_TWO_SIDED;
+        if (holes)
+            e->key = RENDERER_KEY_TWO_SIDED + holes + (1 + o->texture) * RENDERER_KEY_TEXTURE;
         return 1;
     }
-    e->key = (e->shape->colors ? RENDERER_KEY_COLORS : 0) +
+    e->key = (e->shape->colors ? RENDERER_KEY_COLORS : 0) + holes +
              (o->flags & RENDERER_TWO_SIDED ? RENDERER_KEY_TWO_SIDED : 0) +
              (1 + o->texture) * RENDERER_KEY_TEXTURE;
     return 1;
@@ -760,7 +960,7 @@ typedef struct renderer_batch {
     const shade_lighting *lighting; /* NULL: colours are not wanted */
     int several;                    /* more than one object */
     int uv, colors;                 /* the varyings that they are; 0: there are none */
-    int notes, blended, two_sided;
+    int notes, blended, two_sided, holes;
     int meshes;                /* whether any of its objects is one */
     int glossy, glows, metals; /* whether any of its objects is so */
 } renderer_batch;
@@ -821,7 +1021,7 @@ static inline void renderer_vertex_of(const renderer_batch *b, const renderer_en
     const size_t at = 3 * (size_t)k;
     const shade_vec3 world = renderer_place(e, s->positions + at, k < s->upper);
     renderer_set(out, world);
-    if (b->v->shadows) return;
+    if (b->v->shadows && !b->holes) return;
     const shade_vec3 n = shade_mat3_transform(e->normal, renderer_get(s->normals + at));
     renderer_set(out + 3, e->uneven ? shade_normalize(n) : n);
     if (b->texture) {
@@ -843,7 +1043,7 @@ static inline void renderer_shade_vertices(const void *uniforms,
 {
     const renderer_batch *b = (const renderer_batch *)uniforms;
     const shade_mat4 clip = b->v->clip;
-    const int count = b->v->shadows ? 3 : b->colors ? 12 : b->uv ? 9 : 6;
+    const int count = b->v->shadows && !b->holes ? 3 : b->colors ? 12 : b->uv ? 9 : 6;
     float rows[12][SHADE_LANES], one[12] = { 0 };
     for (int i = 0; i < SHADE_LANES; i++) {
         if (i < in->count) {
@@ -858,7 +1058,7 @@ static inline void renderer_shade_vertices(const void *uniforms,
         const shade_vec4 at = shade_v4(rows[0][i], rows[1][i], rows[2][i], 1);
         lane_put4(out->clip[0], i, shade_mat4_transform(clip, at));
     }
-    if (!b->lighting && !b->notes && !b->blended) return;
+    if (!b->lighting && !b->notes && !b->blended && !b->holes) return;
     memcpy(out->varying[0], rows[0], 6 * sizeof rows[0]);
     if (b->uv) memcpy(out->varying[b->uv], rows[6], 3 * sizeof rows[0]);
     if (b->colors) memcpy(out->varying[b->colors], rows[9], 3 * sizeof rows[0]);
@@ -870,6 +1070,7 @@ static inline void renderer_shade_vertices(const void *uniforms,
 typedef struct renderer_surface {
     float albedo[3][SHADE_LANES], alpha[SHADE_LANES];
     float specular[3][SHADE_LANES], shininess[SHADE_LANES], emission[SHADE_LANES];
+    float glow[3][SHADE_LANES];
     float sag[SHADE_LANES], metal[SHADE_LANES], tint[SHADE_LANES];
     int glossy, glows, alike; /* alike: one shininess for all lanes */
 } renderer_surface;
@@ -896,24 +1097,35 @@ static inline void renderer_fill(float *row, float value, int first, int last)
         for (int i = first; i < last; i++) row[i] = value;
 }
 
+static inline int renderer_is_glossy(const renderer_object *o)
+{
+    return o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0 || o->tint > 0;
+}
+
+static inline int renderer_glows(const renderer_object *o)
+{
+    return o->emission > 0 || o->glow[0] > 0 || o->glow[1] > 0 || o->glow[2] > 0;
+}
+
 /* Rows that nothing in this draw reads stay as they are: filling all took a tenth of the time. */
 static inline void renderer_surface_of(const renderer_batch *b, const renderer_entry *e,
                                        renderer_surface *s, int first, int last)
 {
     const renderer_object *o = &b->v->p->objects[e->object];
-    s->glossy |= o->specular > 0 || o->tint > 0;
-    s->glows |= o->emission > 0;
+    s->glossy |= renderer_is_glossy(o);
+    s->glows |= renderer_glows(o);
     for (int k = 0; k < 3; k++) renderer_fill(s->albedo[k], o->rgba[k], first, last);
     if (b->blended) renderer_fill(s->alpha, o->rgba[3], first, last);
     if (b->glows) renderer_fill(s->emission, o->emission, first, last);
-    if (b->v->p->shadow_light >= 0) renderer_fill(s->sag, e->sag, first, last);
+    for (int k = 0; k < 3 && b->glows; k++) renderer_fill(s->glow[k], o->glow[k], first, last);
+    if (b->v->p->shadows) renderer_fill(s->sag, e->sag, first, last);
     if (first)
         s->alike &= o->shininess == s->shininess[0];
     else
         s->shininess[0] = o->shininess;
     if (!b->glossy) return;
     renderer_fill(s->shininess, o->shininess, first, last);
-    renderer_fill(s->specular[0], o->specular, first, last);
+    for (int k = 0; k < 3; k++) renderer_fill(s->specular[k], o->specular[k], first, last);
     if (!b->metals) return;
     renderer_fill(s->metal, o->metal, first, last);
     renderer_fill(s->tint, o->tint, first, last);
@@ -930,9 +1142,6 @@ static inline void renderer_surfaces(const renderer_batch *b, const uint32_t *ow
         while (end < SHADE_LANES && owner[end] == owner[i]) end++;
         renderer_surface_of(b, b->entry + owner[i], s, i, end);
     }
-    if (!s->glossy) return;
-    memcpy(s->specular[1], s->specular[0], sizeof s->specular[0]);
-    memcpy(s->specular[2], s->specular[0], sizeof s->specular[0]);
 }
 
 /* Texels of a cube, face by face of those that the lanes look at, with the axis of greatest size
@@ -966,17 +1175,24 @@ static inline void renderer_sample_cube(const renderer_texture *t, float d[3][SH
     }
 }
 
-static inline void renderer_paint_map(const renderer_batch *b, const shade_fragments *in,
-                                      renderer_surface *s)
+static inline void renderer_texels(const renderer_batch *b, const shade_fragments *in,
+                                   float (*texels)[SHADE_LANES])
 {
-    float texels[4][SHADE_LANES], d[3][SHADE_LANES];
+    float d[3][SHADE_LANES];
     if (b->texture->cube) {
         memcpy(d, in->varying[b->uv], sizeof d);
-        memset(texels, 0, sizeof texels);
+        memset(texels, 0, 4 * sizeof *texels);
         renderer_sample_cube(b->texture, d, texels);
     } else
         shade_sample_lanes(b->texture->face, in->varying[b->uv], in->varying[b->uv + 1], in->lod,
                            texels[0]);
+}
+
+static inline void renderer_paint_map(const renderer_batch *b, const shade_fragments *in,
+                                      renderer_surface *s)
+{
+    float texels[4][SHADE_LANES];
+    renderer_texels(b, in, texels);
     for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
         {
             s->albedo[k][i] *= texels[k][i];
@@ -985,6 +1201,18 @@ static inline void renderer_paint_map(const renderer_batch *b, const shade_fragm
         {
             s->alpha[i] *= texels[3][i];
         }
+}
+
+/* Discards fragments in holes.  Depth is tested after this shader: hidden fragments come too. */
+static inline void renderer_cut(const renderer_batch *b, const shade_fragments *in,
+                                const uint32_t *owner, int one, uint32_t *discard)
+{
+    float texels[4][SHADE_LANES];
+    renderer_texels(b, in, texels);
+    for (int i = 0; i < in->count; i++) {
+        const renderer_object *o = &b->v->p->objects[b->entry[owner[one ? 0 : i]].object];
+        discard[i] = texels[3][i] * o->rgba[3] < o->cutoff;
+    }
 }
 
 /* Where points of a lamp's clip space lie on its map: the first of 3 x 3 texels, how far beyond the
@@ -1016,16 +1244,16 @@ static inline void renderer_on_map(int size, const float (*clip)[SHADE_LANES],
 /* The share of 3 x 3 texels, weighted by their nearness, that lets the lamp's light pass.  Texels
    are fetched one by one.  Depths are compared as integers, because gcc makes no vectors of floats
    that conditions add to. */
-static inline void renderer_passes(const renderer *r, const float (*clip)[SHADE_LANES],
+static inline void renderer_passes(const renderer_map *m, const float (*clip)[SHADE_LANES],
                                    float *SHADE_RESTRICT passes)
 {
     float z[SHADE_LANES], u[SHADE_LANES], v[SHADE_LANES], share[SHADE_LANES];
     int32_t at[SHADE_LANES], depth[SHADE_LANES], texel[SHADE_LANES];
-    renderer_on_map(r->map_size, clip, at, u, v, z);
+    renderer_on_map(m->size, clip, at, u, v, z);
     memcpy(depth, z, sizeof z);
     SHADE_EACH_LANE(i) { passes[i] = 0; }
     for (int k = 0; k < 9; k++) {
-        const float *map = r->map + k / 3 * r->map_size + k % 3;
+        const float *map = m->depth + k / 3 * m->size + k % 3;
         const float a = k % 3 < 2, b = (float)(k % 3 - 1), c = k / 3 < 2, d = (float)(k / 3 - 1);
         for (int i = 0; i < SHADE_LANES; i++) memcpy(&texel[i], map + at[i], sizeof *texel);
         SHADE_EACH_LANE(i) { share[i] = 0.25f * (a + b * u[i]) * (c + d * v[i]); }
@@ -1053,15 +1281,14 @@ static inline void renderer_face_normals(const renderer_batch *b, const shade_fr
 /* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta off the
    lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit,
    by what makes up for it, and for the chords of round shapes, which differ from map to picture. */
-static inline void renderer_shadow(const renderer_batch *b, const renderer_surface *s,
+static inline void renderer_shadow(const renderer_map *m, const renderer_surface *s,
                                    const float (*P)[SHADE_LANES], const float (*N)[SHADE_LANES],
                                    float *visible)
 {
-    const renderer *r = b->r;
-    const shade_vec4 axis = r->lamp_axis;
-    const shade_mat4 from_lamp = r->from_lamp;
+    const shade_vec4 axis = m->axis;
+    const shade_mat4 from_world = m->from_world;
     float L[3][SHADE_LANES], at[3][SHADE_LANES], facing[SHADE_LANES], clip[4][SHADE_LANES];
-    shade_light_at_lanes(&r->known_light, P[0], L[0], NULL);
+    shade_light_at_lanes(&m->lamp, P[0], L[0], NULL);
     SHADE_EACH_LANE(i)
     {
         const shade_vec3 p = lane(P[0], i), n = lane(N[0], i), l = lane(L[0], i);
@@ -1071,16 +1298,16 @@ static inline void renderer_shadow(const renderer_batch *b, const renderer_surfa
         const float middle = 0.25f + square, least = low < middle ? low : middle;
         const float sine = least < high ? least : high;
         const float away = axis.x * p.x + axis.y * p.y + axis.z * p.z + axis.w;
-        const float texel = r->texel + r->texel_slope * (away > 0 ? away : 0);
+        const float texel = m->texel + m->texel_slope * (away > 0 ? away : 0);
         facing[i] = shade_dot(n, l);
         lane_put(at[0], i, shade_madd(p, 2.2f * texel * (sine + 0.1f) + 2 * s->sag[i], n));
     }
     SHADE_EACH_LANE(i)
     {
         const shade_vec3 p = lane(at[0], i);
-        lane_put4(clip[0], i, shade_mat4_transform(from_lamp, shade_v4(p.x, p.y, p.z, 1)));
+        lane_put4(clip[0], i, shade_mat4_transform(from_world, shade_v4(p.x, p.y, p.z, 1)));
     }
-    renderer_passes(r, (const float(*)[SHADE_LANES])clip, visible);
+    renderer_passes(m, (const float(*)[SHADE_LANES])clip, visible);
     SHADE_EACH_LANE(i) { visible[i] = facing[i] > 0 ? visible[i] : 0; }
 }
 
@@ -1117,28 +1344,54 @@ static inline void renderer_light(const renderer_batch *b, const renderer_surfac
     if (s->glossy && !s->alike) renderer_light_others(s, &lighting, m, eye, rows, count, rgb);
 }
 
-/* Numbers and normals of pixels.  Fragments come here that passed the depth test, the nearest of a
-   pixel last. */
+/* 1: fragment i of a surface with holes lies in one, or what is drawn or a fragment before it hides
+   it.  Fragments of other surfaces have passed the depth test, the nearest of a pixel last. */
+static inline int renderer_is_hidden(const renderer_batch *b, const shade_fragments *in,
+                                     const uint32_t *discard, const int32_t *at, int i)
+{
+    int hidden = discard[i] || !(in->z[i] > b->r->depth[at[i]]);
+    for (int k = 0; k < i && !hidden; k++)
+        hidden = at[k] == at[i] && !discard[k] && in->z[k] >= in->z[i];
+    return hidden;
+}
+
+/* Numbers and normals of pixels */
 static inline void renderer_note(const renderer_batch *b, const shade_fragments *in,
-                                 const float (*N)[SHADE_LANES])
+                                 const float (*N)[SHADE_LANES], const uint32_t *discard)
 {
     const renderer_mark *marks = b->r->marks;
     const int width = b->v->p->width, count = in->count;
     int32_t *ids = b->v->p->ids, at[SHADE_LANES];
     float *normals = b->v->p->normals;
     SHADE_EACH_LANE(i) { at[i] = (int32_t)in->y[i] * width + (int32_t)in->x[i]; }
-    for (int i = 0; i < count && ids; i++)
-        memcpy(ids + 2 * at[i], marks + in->primitive[i], sizeof *marks);
-    for (int i = 0; i < count && normals; i++)
-        renderer_set(normals + 3 * (size_t)at[i], shade_normalize(lane(N[0], i)));
+    for (int i = 0; i < count; i++) {
+        if (b->holes && renderer_is_hidden(b, in, discard, at, i)) continue;
+        if (ids) memcpy(ids + 2 * at[i], marks + in->primitive[i], sizeof *marks);
+        if (normals) renderer_set(normals + 3 * (size_t)at[i], shade_normalize(lane(N[0], i)));
+    }
+}
+
+/* How much of each lamp points see */
+static inline void renderer_see_lamps(const renderer_batch *b, const shade_fragments *in,
+                                      const renderer_surface *s, const float (*N)[SHADE_LANES],
+                                      const uint32_t *owner, int one, float (*visible)[SHADE_LANES])
+{
+    float faces[3][SHADE_LANES];
+    memcpy(faces, N, sizeof faces);
+    if (b->meshes) renderer_face_normals(b, in, owner, one, faces);
+    for (int k = 0; k < b->lighting->light_count; k++) {
+        SHADE_EACH_LANE(i) { visible[k][i] = 1; }
+        if (b->v->p->shadows >> k & 1)
+            renderer_shadow(&b->r->map[k], s, (const float(*)[SHADE_LANES])in->varying[0],
+                            (const float(*)[SHADE_LANES])faces, visible[k]);
+    }
 }
 
 static inline void renderer_shade(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                   shade_colors *SHADE_RESTRICT out)
 {
     const renderer_batch *b = (const renderer_batch *)uniforms;
-    const int lamp = b->v->p->shadow_light;
-    float turned[3][SHADE_LANES], faces[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
+    float turned[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
     const float(*P)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[0];
     const float(*N)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[3];
     renderer_surface s;
@@ -1154,7 +1407,8 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     }
     rows.normal = N[0];
     one = renderer_find_owners(b, in, owner);
-    if (b->notes) renderer_note(b, in, N);
+    if (b->holes) renderer_cut(b, in, owner, one, out->discard);
+    if (b->notes) renderer_note(b, in, N, out->discard);
     if (!b->lighting) return;
     renderer_surfaces(b, owner, one, &s);
     for (int k = 0; k < 3 && b->colors; k++) SHADE_EACH_LANE(i)
@@ -1171,40 +1425,44 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     }
     rows.albedo = s.albedo[0];
     if (s.glossy) rows.specular = s.specular[0];
-    if (lamp >= 0) {
-        memcpy(faces, N, sizeof faces);
-        if (b->meshes) renderer_face_normals(b, in, owner, one, faces);
-        for (int k = 0; k < b->lighting->light_count; k++) SHADE_EACH_LANE(i)
-            {
-                visible[k][i] = 1;
-            }
-        renderer_shadow(b, &s, P, (const float(*)[SHADE_LANES])faces, visible[lamp]);
+    if (b->v->p->shadows) {
+        renderer_see_lamps(b, in, &s, N, owner, one, visible);
         rows.visibility = visible[0];
     }
     renderer_light(b, &s, &rows, in->count, out->color);
     for (int k = 0; k < 3 && s.glows; k++) SHADE_EACH_LANE(i)
         {
-            out->color[k][i] += s.emission[i] * s.albedo[k][i];
+            out->color[k][i] += s.emission[i] * s.albedo[k][i] + s.glow[k][i];
         }
     if (b->blended) memcpy(out->color[3], s.alpha, sizeof s.alpha);
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
+/* The triangles of its mesh that an entry shows, and how many.  The mesh may have fewer by now. */
+static inline int renderer_range(const renderer_view *v, const renderer_entry *e, int *first)
+{
+    const renderer_object *o = &v->p->objects[e->object];
+    const int all = e->shape->index_count / 3, rest = all - o->first;
+    *first = o->count && o->first < all ? o->first : 0;
+    return !o->count ? all : o->count < rest ? o->count : rest > 0 ? rest : 0;
+}
+
 /* Room for the triangles of entries, with one more, and for the owners of their vertices.  0: there
    is not enough memory */
-static inline int renderer_room_for(renderer *r, const renderer_entry *e, int count)
+static inline int renderer_room_for(renderer *r, const renderer_view *v, const renderer_entry *e,
+                                    int count)
 {
     size_t vertices = 0, triangles = 1;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0, first; i < count; i++) {
         vertices += (size_t)e[i].shape->vertex_count;
-        triangles += (size_t)e[i].shape->index_count / 3;
+        triangles += (size_t)renderer_range(v, e + i, &first);
     }
     r->whose = (uint32_t *)renderer_room(r->whose, &r->room[1], vertices * sizeof(uint32_t));
     r->indices =
         (uint32_t *)renderer_room(r->indices, &r->room[2], 3 * triangles * sizeof(uint32_t));
     r->owners = (uint32_t *)renderer_room(r->owners, &r->room[3], triangles * sizeof(uint32_t));
-    r->marks = (renderer_mark *)renderer_room(r->marks, &r->room[10], triangles * sizeof *r->marks);
+    r->marks = (renderer_mark *)renderer_room(r->marks, &r->room[9], triangles * sizeof *r->marks);
     return r->whose && r->indices && r->owners && r->marks;
 }
 
@@ -1249,19 +1507,19 @@ static inline int renderer_add_faces(renderer *r, const renderer_view *v, render
 {
     const renderer_shape *s = e->shape;
     const int flip = shade_mat3_determinant(shade_mat3_from_mat4(e->world)) < 0;
-    const int count = s->index_count / 3;
+    const int32_t id = v->p->objects[e->object].id;
     const uint32_t first = (uint32_t)e->first;
     const shade_vec4 eye = renderer_eye_of(v, e);
-    int seen[SHADE_LANES];
-    for (int k = 0; k < count; k++) {
+    int seen[SHADE_LANES], begin, count = renderer_range(v, e, &begin);
+    for (int k = begin; k < begin + count; k++) {
         const uint32_t *from = s->indices + 3 * (size_t)k;
         uint32_t *to = r->indices + 3 * (size_t)triangles;
-        if (k % SHADE_LANES == 0) renderer_facing(e, eye, k, seen);
+        if (k == begin || k % SHADE_LANES == 0) renderer_facing(e, eye, k - k % SHADE_LANES, seen);
         to[0] = first + from[0];
         to[1] = first + from[1 + flip];
         to[2] = first + from[2 - flip];
         r->owners[triangles] = (uint32_t)j;
-        r->marks[triangles] = (renderer_mark){ e->object, k };
+        r->marks[triangles] = (renderer_mark){ id, k };
         triangles += seen[k % SHADE_LANES];
     }
     return triangles;
@@ -1286,7 +1544,7 @@ static inline int renderer_join(renderer *r, const renderer_batch *b, renderer_e
     for (int j = 0; j < count; j++) {
         e[j].first = vertices;
         vertices += e[j].shape->vertex_count;
-        if (!b->v->shadows) e[j].normal = renderer_normals(b->v, e + j);
+        if (!b->v->shadows || b->holes) e[j].normal = renderer_normals(b->v, e + j);
         for (int k = e[j].first; k < vertices && b->several; k++) r->whose[k] = (uint32_t)j;
         triangles = renderer_add_faces(r, b->v, e + j, j, triangles);
     }
@@ -1302,7 +1560,10 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     shade_pipeline pipeline = { renderer_shade_vertices, renderer_shade, b, .varyings = 6 };
     int vertex_count, index_count;
     b->entry = e;
-    b->texture = b->lighting && texture >= 0 ? &b->v->scene->textures[texture] : NULL;
+    b->holes = (key & RENDERER_KEY_HOLES) != 0;
+    b->texture = (b->lighting || b->holes) && texture >= 0 ? b->v->scene->textures + texture : NULL;
+    if (b->texture && !b->texture->memory) b->texture = NULL; /* it was taken away */
+    b->holes &= b->texture != NULL;
     b->uv = b->texture ? 6 : 0;
     b->colors = b->lighting && (key & RENDERER_KEY_COLORS) ? (b->texture ? 9 : 6) : 0;
     b->several = count > 1;
@@ -1311,8 +1572,8 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     for (int k = 0; k < count; k++) {
         const renderer_object *o = &b->v->p->objects[e[k].object];
         b->metals |= o->metal > 0 || o->tint > 0;
-        b->glossy |= o->specular > 0 || o->metal > 0 || o->tint > 0;
-        b->glows |= o->emission > 0;
+        b->glossy |= renderer_is_glossy(o) || o->metal > 0;
+        b->glows |= renderer_glows(o);
         b->meshes |= o->kind == RENDERER_MESH;
     }
     index_count = renderer_join(r, b, e, count, &vertex_count);
@@ -1321,8 +1582,9 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
         pipeline.lod_texture = b->texture->face;
         pipeline.lod_varying = b->uv;
     }
-    if (b->v->shadows || (!b->lighting && !b->notes)) pipeline.fragment = NULL;
+    if (!b->holes && !b->lighting && !b->notes) pipeline.fragment = NULL;
     if (!pipeline.fragment) pipeline.varyings = 0;
+    pipeline.may_discard = b->holes;
     if (!b->two_sided) pipeline.raster.cull = SHADE_CULL_BACK;
     if (!b->v->shadows) {
         pipeline.raster.depth_test = SHADE_COMPARE_GREATER;
@@ -1340,7 +1602,7 @@ static inline shade_result renderer_draw_entries(renderer *r, const shade_target
                                                  renderer_batch *b, int count)
 {
     shade_result result = SHADE_OK;
-    if (!renderer_room_for(r, r->entries, count)) return SHADE_ERROR_CAPACITY;
+    if (!renderer_room_for(r, b->v, r->entries, count)) return SHADE_ERROR_CAPACITY;
     for (int i = 0, n; i < count && !result; i += n) {
         renderer_entry *e = r->entries + i;
         for (n = 0; i + n < count; n++) {
@@ -1477,13 +1739,13 @@ static inline float renderer_floors(const renderer_picture *p, const renderer_sc
 }
 
 /* The view of the lamp: of a distant one the sphere around what casts shadows */
-static inline renderer_view renderer_lamp_view(renderer *r, const renderer_picture *p,
+static inline renderer_view renderer_lamp_view(renderer_map *m, const renderer_picture *p,
                                                const renderer_scene *s)
 {
-    const shade_light *lamp = &p->lights[p->shadow_light];
+    const shade_light *lamp = &m->lamp;
     renderer_view v = { .p = p, .scene = s, .shadows = 1 };
     shade_vec3 centre, aim, at = shade_v3(lamp->position.x, lamp->position.y, lamp->position.z);
-    const float reach = 1.01f * renderer_casters(p, s, &centre), size = (float)r->map_size;
+    const float reach = 1.01f * renderer_casters(p, s, &centre), size = (float)m->size;
     if (lamp->position.w == 0) {
         aim = shade_neg(shade_normalize(at));
         at = shade_madd(centre, -2 * reach, aim);
@@ -1501,10 +1763,10 @@ static inline renderer_view renderer_lamp_view(renderer *r, const renderer_pictu
     }
     v.view = shade_mat4_look_at(at, shade_add(at, aim), shade_v3(0, 0, 1));
     renderer_aim(&v);
-    r->from_lamp = v.clip;
-    r->texel = v.parallel ? 2 * reach / size : 0;
-    r->texel_slope = v.parallel ? 0 : 1 / v.scale;
-    r->lamp_axis = shade_v4(aim.x, aim.y, aim.z, -shade_dot(aim, at));
+    m->from_world = v.clip;
+    m->texel = v.parallel ? 2 * reach / size : 0;
+    m->texel_slope = v.parallel ? 0 : 1 / v.scale;
+    m->axis = shade_v4(aim.x, aim.y, aim.z, -shade_dot(aim, at));
     return v;
 }
 
@@ -1516,37 +1778,55 @@ static inline int renderer_map_size(const renderer_picture *p)
     return size;
 }
 
-/* Draws the map anew where an object or the lamp has changed since it was drawn. */
+/* Whether the maps are of these objects; else they are noted.  -1: out of memory */
+static inline int renderer_is_known(renderer *r, const renderer_picture *p, const renderer_scene *s)
+{
+    const size_t bytes = (size_t)p->object_count * sizeof *p->objects;
+    if (r->known && r->known_count == p->object_count && r->known_tolerance == p->tolerance &&
+        r->known_serial == s->serial && r->known_version == s->version &&
+        !memcmp(r->known, p->objects, bytes))
+        return 1;
+    r->known = (renderer_object *)renderer_room(r->known, &r->room[4], bytes + 1);
+    if (!r->known) return -1;
+    memcpy(r->known, p->objects, bytes);
+    r->known_count = p->object_count;
+    r->known_tolerance = p->tolerance;
+    r->known_serial = s->serial;
+    r->known_version = s->version;
+    return 0;
+}
+
+static inline shade_result renderer_draw_map(renderer *r, renderer_map *m,
+                                             const renderer_picture *p, const renderer_scene *s)
+{
+    const renderer_view v = renderer_lamp_view(m, p, s);
+    const shade_target target = { .width = m->size, .height = m->size, .depth = m->depth };
+    renderer_batch b = { .r = r, .v = &v };
+    shade_result result = shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
+    const int count = renderer_gather(r, &v, 0);
+    if (!result && v.far_z > 0) result = renderer_draw_entries(r, &target, &b, count);
+    return result;
+}
+
+/* Draws the maps anew of which an object or the lamp has changed since they were drawn. */
 static inline shade_result renderer_cast(renderer *r, const renderer_picture *p,
                                          const renderer_scene *s)
 {
-    const size_t bytes = (size_t)p->object_count * sizeof *p->objects;
-    const shade_light *lamp = &p->lights[p->shadow_light];
-    const int size = renderer_map_size(p);
-    int count;
-    renderer_batch b = { .r = r };
-    shade_result result;
-    if (r->map_valid && r->map_size == size && r->known_count == p->object_count &&
-        r->known_tolerance == p->tolerance && r->known_serial == s->serial &&
-        !memcmp(r->known, p->objects, bytes) && !memcmp(&r->known_light, lamp, sizeof *lamp))
-        return SHADE_OK;
-    r->map_valid = 0;
-    r->map_size = size;
-    r->map = (float *)renderer_room(r->map, &r->room[4], 4 * (size_t)size * (size_t)size);
-    r->known = (renderer_object *)renderer_room(r->known, &r->room[5], bytes + 1);
-    if (!r->map || !r->known) return SHADE_ERROR_CAPACITY;
-    memcpy(r->known, p->objects, bytes);
-    r->known_count = p->object_count;
-    r->known_light = *lamp;
-    r->known_tolerance = p->tolerance;
-    r->known_serial = s->serial;
-    const renderer_view v = renderer_lamp_view(r, p, s);
-    const shade_target target = { .width = size, .height = size, .depth = r->map };
-    b.v = &v;
-    result = shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
-    count = renderer_gather(r, &v, 0);
-    if (!result && v.far_z > 0) result = renderer_draw_entries(r, &target, &b, count);
-    r->map_valid = !result;
+    const int size = renderer_map_size(p), known = renderer_is_known(r, p, s);
+    shade_result result = known < 0 ? SHADE_ERROR_CAPACITY : SHADE_OK;
+    for (int k = 0; k < RENDERER_LAMPS && known < 1; k++) r->map[k].valid = 0;
+    for (int k = 0; k < p->light_count && !result; k++) {
+        renderer_map *m = &r->map[k];
+        if (!(p->shadows >> k & 1)) continue;
+        if (m->valid && m->size == size && !memcmp(&m->lamp, &p->lights[k], sizeof m->lamp))
+            continue;
+        m->valid = 0;
+        m->size = size;
+        m->lamp = p->lights[k];
+        m->depth = (float *)renderer_room(m->depth, &m->room, 4 * (size_t)size * (size_t)size);
+        result = m->depth ? renderer_draw_map(r, m, p, s) : SHADE_ERROR_CAPACITY;
+        m->valid = !result;
+    }
     return result;
 }
 
@@ -1614,8 +1894,8 @@ static inline shade_result renderer_draw_large(renderer *r, const shade_target *
     const size_t bytes = 4 * (size_t)(n * n) * (size_t)v->p->width * (size_t)v->p->height;
     shade_target large = *small;
     shade_result result;
-    r->large_color = (uint32_t *)renderer_room(r->large_color, &r->room[6], bytes);
-    r->large_depth = (float *)renderer_room(r->large_depth, &r->room[7], bytes);
+    r->large_color = (uint32_t *)renderer_room(r->large_color, &r->room[5], bytes);
+    r->large_depth = (float *)renderer_room(r->large_depth, &r->room[6], bytes);
     if (!r->large_color || !r->large_depth) return SHADE_ERROR_CAPACITY;
     large.width *= n;
     large.height *= n;
@@ -1627,8 +1907,8 @@ static inline shade_result renderer_draw_large(renderer *r, const shade_target *
 
 /* Draws a picture.  Its arrays are complete when the result is SHADE_OK; else those that were begun
    may hold anything.  Numbers of meshes, textures and lamps must be good: the bindings check. */
-static inline shade_result renderer_draw(renderer *r, const renderer_scene *s,
-                                         const renderer_picture *p)
+static inline shade_result renderer_draw_one(renderer *r, const renderer_scene *s,
+                                             const renderer_picture *p)
 {
     const size_t pixels = (size_t)p->width * (size_t)p->height;
     const renderer_view v = renderer_view_of(p, s);
@@ -1642,12 +1922,12 @@ static inline shade_result renderer_draw(renderer *r, const renderer_scene *s,
     lighting.flags = p->parallel ? SHADE_FLAG_INFINITE_VIEWER : 0;
     r->entries = (renderer_entry *)renderer_room(r->entries, &r->room[0],
                                                  (objects + 1) * sizeof *r->entries);
-    r->depth = (float *)renderer_room(r->depth, &r->room[8], pixels * sizeof(float));
-    r->color = (uint32_t *)renderer_room(r->color, &r->room[9], pixels * sizeof(uint32_t));
+    r->depth = (float *)renderer_room(r->depth, &r->room[7], pixels * sizeof(float));
+    r->color = (uint32_t *)renderer_room(r->color, &r->room[8], pixels * sizeof(uint32_t));
     if (!r->entries || !r->depth || !r->color) return SHADE_ERROR_CAPACITY;
     target.depth = r->depth;
     target.color = p->color && p->channels == 4 ? (void *)p->color : (void *)r->color;
-    if (p->color && p->shadow_light >= 0) result = renderer_cast(r, p, s);
+    if (p->color && p->shadows) result = renderer_cast(r, p, s);
     if (!result) renderer_clear_notes(p);
     if (!result && large) result = renderer_draw_large(r, &target, &v, &lighting);
     if (p->color && p->channels == 3 && large)
@@ -1660,5 +1940,49 @@ static inline shade_result renderer_draw(renderer *r, const renderer_scene *s,
         renderer_pack(p->color, (const uint8_t *)r->color, pixels);
     if (!result && p->depth) renderer_distances(p, r->depth, p->depth);
     return result;
+}
+
+/* Pictures of one scene, which renderers draw in shares, each by a thread of its own */
+typedef struct renderer_work {
+    renderer *const *r;
+    const renderer_scene *scene;
+    const renderer_picture *pictures;
+    int shares, count;
+    shade_result results[BANDS_MOST];
+    const volatile int *stop;
+} renderer_work;
+
+static inline void renderer_draw_share(void *data, int share)
+{
+    renderer_work *w = (renderer_work *)data;
+    const long long count = w->count;
+    const int end = (int)(count * (share + 1) / w->shares);
+    shade_result result = SHADE_OK;
+    for (int i = (int)(count * share / w->shares); i < end && !result; i++) {
+        renderer_picture p = w->pictures[i];
+        if (w->stop && *w->stop) return;
+        if (!p.objects) {
+            p.objects = w->scene->objects;
+            p.object_count = w->scene->object_count;
+        }
+        result = renderer_draw_one(w->r[share], w->scene, &p);
+    }
+    w->results[share] = result;
+}
+
+/* Draws pictures by at most BANDS_MOST renderers, in equal shares.  Pictures without objects show
+   those of the scene.  Once *stop is set, which may be NULL, the rest is left out. */
+static inline shade_result renderer_draw(renderer *const *r, int renderers, const renderer_scene *s,
+                                         const renderer_picture *pictures, int count,
+                                         const volatile int *stop)
+{
+    renderer_work w = { r, s, pictures, renderers, count, { SHADE_OK }, stop };
+    if (renderers == 1)
+        renderer_draw_share(&w, 0);
+    else
+        bands_run(renderers, renderers, renderer_draw_share, &w);
+    for (int i = 0; i < renderers; i++)
+        if (w.results[i]) return w.results[i];
+    return SHADE_OK;
 }
 #endif

@@ -159,7 +159,12 @@ export interface Frame {
 }
 
 /** A mesh of a Renderer, of which any number of objects are instances. */
-export interface Shape { readonly mesh: number; readonly triangles: number; }
+export interface Shape { readonly mesh: number; readonly triangles: number; readonly textures: readonly number[]; }
+/** color and alpha multiply those of the shape; the others take the place of what it has. */
+export interface Looks {
+    color?: Color; alpha?: number; specular?: number | Color; shininess?: number; emission?: number;
+    texture?: number; repeat?: Numbers; two_sided?: boolean; casts_shadow?: boolean;
+}
 export type ShapeName = "plane" | "sphere" | "ellipsoid" | "capsule" | "cylinder" | "box";
 
 /** One scene and many cameras: colour, depth, ids and normals in one call, the bytes of the Python
@@ -168,7 +173,8 @@ export class Renderer {
     constructor(height: number, width: number, options?: { samples?: number; srgb?: boolean; tolerance?: number });
     readonly height: number;
     readonly width: number;
-    /** Fields as of MeshSource, without its texture; uv needs one in add(). */
+    /** A Mesh with its colour, texture, transparency, holes and material; or fields as of MeshSource without
+        these, of which uv needs a texture in add(). */
     mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
                           uv?: Numbers; colors?: Numbers }): Shape;
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;
@@ -176,14 +182,25 @@ export class Renderer {
     checker(one?: Color, other?: Color): number;
     /** Size: half the sides of a plane (none: endless) and box, a radius, radii, or radius and half the
         length along z; of a shape its scale. */
-    add(shape: ShapeName | Shape, size?: number | Numbers, options?: {
-        at?: Numbers; pose?: Numbers; color?: Color; alpha?: number; specular?: number; shininess?: number;
-        emission?: number; texture?: number; repeat?: Numbers; two_sided?: boolean; casts_shadow?: boolean;
-    }): number;
+    add(shape: ShapeName | Shape, size?: number | Numbers, options?: Looks & { at?: Numbers; pose?: Numbers }): number;
+    /** The numbers of all objects, in order. */
+    readonly objects: number[];
+    /** What is not given stays; undefined is as if add() had not been given it. */
+    change(number: number, options: Looks & { size?: number | Numbers }): void;
     pose(number: number, pose: Numbers): void;
-    poses(poses: readonly Numbers[]): void;
+    /** A matrix for each of numbers, or for all objects in order; nothing moves where one is refused. */
+    poses(poses: readonly Numbers[], numbers?: readonly number[]): void;
     show(number: number, visible?: boolean): void;
-    light(lights: readonly Light[], ambient?: Numbers, shadow?: number): void;
+    /** Gives a shape other vertices, as mesh() takes them, or heights.  Its objects show it. */
+    update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers): void;
+    update_texture(number: number, picture: Texture & { faces?: 1 | 6 }): void;
+    /** Takes away an object, whose number the next one may have, or a shape that no object shows. */
+    remove(what: number | Shape): void;
+    remove_texture(number: number): void;
+    /** Takes away all objects, shapes and textures. */
+    clear(): void;
+    /** shadow: the lamps, directional or spots, that cast shadows. */
+    light(lights: readonly Light[], ambient?: Numbers, shadow?: number | readonly number[]): void;
     background(color: Color): void;
     sky(low?: Color, high?: Color): void;
     sky_texture(texture: number): void;

@@ -155,6 +155,7 @@ export class Mesh {
         this.opacity = check.number("opacity", got.opacity ?? 1, 0, 1);
         this.blend = check.flag("blend", got.blend ?? this.opacity < 1);
         this.cutoff = check.number("cutoff", got.cutoff ?? 0, 0, 1000);
+        this.own = got.material !== undefined;
         const plain = color === undefined ? null : linear(check.color("color", color));
         const white = colors !== undefined || got.texture !== undefined;
         this.material = got.material !== undefined ? material(got.material)

@@ -4,9 +4,6 @@
    index.js writes the structs that begin with "asked" word by word and is the only caller: it
    checks lengths, indices and sizes before.  A pointer that it hands over is freed here. */
 #define SHADE_ASSERT(x) ((void)0)
-#include "examples/kit/native.c"
-#include <math.h>
-
 #ifdef __wasm__
 #define EXPORT(name) __attribute__((export_name(#name)))
 #define IMPORT(name) __attribute__((import_module("shade"), import_name(#name)))
@@ -14,6 +11,9 @@
 #define EXPORT(name)
 #define IMPORT(name)
 #endif
+#define NATIVE EXPORT
+#include "examples/kit/native.c"
+#include <math.h>
 
 enum { CREASE_TRIANGLES = 200000, CREASE_FACES = 2000 };    /* as in mesh.py */
 enum { NORMALS_GIVEN, NORMALS_AUTO, NORMALS_SMOOTH };
@@ -436,51 +436,31 @@ renderer_scene *module_scene_open(void)
 EXPORT(scene_close) void module_scene_close(renderer_scene *scene);
 void module_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
 
-EXPORT(scene_mesh) int module_scene_mesh(renderer_scene *scene, const shade_mesh *m, int smooth);
-int module_scene_mesh(renderer_scene *scene, const shade_mesh *m, int smooth)
-{
-    return renderer_add_mesh(scene, m, smooth);
-}
-
-/* The same of a mesh that is ready, whose coordinates begin at (x, y, z) */
+/* A mesh that is ready, whose coordinates begin at (x, y, z) */
 EXPORT(scene_made)
-int module_scene_made(renderer_scene *scene, const module_mesh *m, float x, float y, float z);
-int module_scene_made(renderer_scene *scene, const module_mesh *m, float x, float y, float z)
+int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, float x, float y,
+                      float z);
+int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, float x, float y,
+                      float z)
 {
     const float origin[3] = { x, y, z };
     shade_mesh placed = m->mesh;
     const size_t floats = 3 * (size_t)placed.vertex_count;
     float *positions = (float *)malloc(floats * sizeof *positions + 1);
-    int number = -1;
+    int made = 0;
     for (size_t i = 0; positions && i < floats; i++)
         positions[i] = m->mesh.positions[i] + origin[i % 3];
     placed.positions = positions;
-    if (positions) number = renderer_add_mesh(scene, &placed, 0);
+    if (positions) made = renderer_set_mesh(scene, number, &placed, 0);
     free(positions);
-    return number;
+    return made;
 }
-
-EXPORT(scene_texture)
-int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                         int faces, int srgb, int wrap_u, int wrap_v);
-int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
-                         int faces, int srgb, int wrap_u, int wrap_v)
-{
-    return renderer_add_texture(scene, rgba, width, height, faces, srgb, (shade_wrap)wrap_u,
-                                (shade_wrap)wrap_v);
-}
-
-EXPORT(renderer_open) renderer *module_renderer_open(void);
-renderer *module_renderer_open(void) { return renderer_open(); }
-
-EXPORT(renderer_close) void module_renderer_close(renderer *r);
-void module_renderer_close(renderer *r) { renderer_close(r); }
 
 EXPORT(renderer_draw)
 int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p);
 int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p)
 {
-    return (int)renderer_draw(r, s, p);
+    return (int)renderer_draw(&r, 1, s, p, 1, NULL);
 }
 
 /* ---- models ---------------------------------------------------------------------------------- */
@@ -599,8 +579,9 @@ int module_size(int which)
     static const size_t size[] = { sizeof(asked_mesh), sizeof(asked_item), sizeof(asked_view),
                                    sizeof(shade_light), sizeof(renderer_object),
                                    sizeof(renderer_picture), sizeof(module_model),
-                                   sizeof(python_part), sizeof(shade_mesh) };
-    return which >= 0 && which < 9 ? (int)size[which] : 0;
+                                   sizeof(python_part), sizeof(shade_mesh),
+                                   sizeof(renderer_image) };
+    return which >= 0 && which < 10 ? (int)size[which] : 0;
 }
 
 EXPORT(take) void *module_take(size_t bytes);

@@ -1,5 +1,6 @@
 // MuJoCo's own Renderer without OpenGL: the same calls, shapes and units, over @mujoco/mujoco.
 import * as check from "./arguments.js";
+import { AT, HIDDEN, plainRecord } from "./renderer.js";
 
 const { ShadeError } = check;
 
@@ -77,7 +78,7 @@ function groundOf(model, i) {
 
 /** What draws a model's scenes: geoms, lights and cameras of an mjvScene. */
 class Stage {
-    #renderer; #model; #meshes = new Map(); #textures = new Map();
+    #renderer; #model; #meshes = new Map(); #textures = new Map(); #records = [];
     #unnumbered = [];    // geoms that depth and segmentation leave out, as MuJoCo does
 
     constructor(Renderer, model, height, width) {
@@ -99,52 +100,53 @@ class Stage {
         return this.#meshes.get(name);
     }
 
-    /** 28 words of a geom; null for what is no surface here. */
-    #words(g) {
+    /** The words of a geom's record; null for what is no surface here. */
+    #record(g) {
         if (!(g.type >= 0 && g.type < KINDS.length - 1)) return null;
-        const floats = new Float32Array(30), ints = new Int32Array(floats.buffer);
+        const { floats, ints } = plainRecord();
         const shape = g.type === MESH || g.type === HEIGHT_FIELD;
         const mapped = shape && g.type === MESH && g.texcoord;
-        ints[0] = KINDS[g.type];
-        if (shape) ints[1] = this.#mesh(g.type, g.type === MESH ? g.dataid >> 1 : g.dataid);
-        ints[2] = g.texid >= 0 ? this.#texture(g.texid) : -1;
-        floats.set(shape ? [1, 1, 1] : g.size, 4);
-        if (g.type === 0) floats[6] = 0;
-        floats.set(g.mat, 7);
-        floats.set(g.pos, 16);
-        floats.set(g.rgba, 19);
-        floats[23] = g.specular;
-        floats[24] = 128 * g.shininess;
-        floats[25] = g.emission;
+        ints[AT.kind] = KINDS[g.type];
+        if (shape) ints[AT.mesh] = this.#mesh(g.type, g.type === MESH ? g.dataid >> 1 : g.dataid);
+        ints[AT.texture] = g.texid >= 0 ? this.#texture(g.texid) : -1;
+        floats.set(shape ? [1, 1, 1] : g.size, AT.size);
+        if (g.type === 0) floats[AT.size + 2] = 0;
+        floats.set(g.mat, AT.turn);
+        floats.set(g.pos, AT.place);
+        floats.set(g.rgba, AT.rgba);
+        floats.fill(g.specular, AT.specular, AT.specular + 3);
+        floats[AT.shininess] = 128 * g.shininess;
+        floats[AT.emission] = g.emission;
         for (let k = 0; k < 2; k++) {
             const across = g.texuniform || mapped || shape || !(g.size[k] > 0) ? 1 : 2 * g.size[k];
-            floats[26 + k] = g.texrepeat[k] / across;
+            floats[AT.repeat + k] = g.texrepeat[k] / across;
         }
-        return floats;
+        return ints;
     }
 
     /** Takes what an mjvScene holds: arrays of geoms, lights and the two cameras of stereo. */
     take({ geoms, lights, cameras, flags }) {
-        const pairs = [];
-        this.#renderer._keep(0);
+        const pairs = [], records = [];
         this.#unnumbered = [];
         for (const g of geoms) {
-            const words = this.#words(g);
-            if (!words) continue;
-            if (g.segid < 0) this.#unnumbered.push(pairs.length / 2);
-            this.#renderer._put(pairs.length / 2, words);
+            const record = this.#record(g);
+            if (!record) continue;
+            if (g.segid < 0) this.#unnumbered.push(records.length);
+            record[AT.id] = records.length;
+            records.push(record);
             pairs.push(g.objid, g.objtype);
         }
+        this.#records = records;
         this.pairs = Int32Array.from([-1, -1, ...pairs]);
         const used = lights.slice(0, LAMPS);
-        const shadow = flags[SHADOWS] ? used.findIndex((l) => l.castshadow && !l.headlight && l.type <= DIRECTIONAL) : -1;
+        const casts = (l) => flags[SHADOWS] && l.castshadow && !l.headlight && l.type <= DIRECTIONAL;
         this.#renderer.light(used.map((l) => ({
             position: l.type === DIRECTIONAL ? [-l.dir[0], -l.dir[1], -l.dir[2], 0] : [...l.pos, 1],
             ambient: l.ambient, diffuse: l.diffuse, specular: l.specular,
             constant: l.attenuation[0], linear: l.attenuation[1], quadratic: l.attenuation[2],
             ...(l.type === SPOT && l.cutoff < 90 ? { spotDirection: l.dir, spotExponent: l.exponent,
                 spotCosCutoff: Math.cos(l.cutoff * Math.PI / 180) } : {}),
-        })), [0, 0, 0], shadow < 0 ? undefined : shadow);
+        })), [0, 0, 0], used.flatMap((l, k) => (casts(l) ? [k] : [])));
         if (flags[SKIES] && this.sky !== null) this.#renderer.sky_texture(this.sky);
         else this.#renderer.background([0.0, 0.0, 0.0]);
         this.#aim(cameras);
@@ -179,12 +181,10 @@ class Stage {
     }
 
     draw(out, solid) {
-        if (solid) this.#unnumbered.forEach((i) => this.#renderer.show(i, false));
-        try {
-            return this.#renderer._draw(out, this.view, this.projection, this.range, solid, this.range.far);
-        } finally {
-            if (solid) this.#unnumbered.forEach((i) => this.#renderer.show(i));
-        }
+        const count = this.#records[0]?.length ?? 0, words = new Int32Array(count * this.#records.length);
+        this.#records.forEach((record, i) => words.set(record, count * i));
+        if (solid) this.#unnumbered.forEach((i) => { words[count * i + AT.flags] |= HIDDEN; });
+        return this.#renderer._draw(out, this.view, this.projection, this.range, solid, this.range.far, words);
     }
 
     free() { this.#renderer.free(); }

@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 30, SHOT = 67, LIGHT = 21;
+const OBJECT = 39, SHOT = 67, LIGHT = 21, IMAGE = 7;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];
@@ -13,24 +13,36 @@ const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box:
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
                 cylinder: [0, 0, 1], box: [0, 1, 2] };
-const HIDDEN = 1, TWO_SIDED = 2, NO_SHADOW = 4, LAMPS = 8;
+export const HIDDEN = 1;
+const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, LAMPS = 8;
+// Where the fields of renderer_object begin, in words
+export const AT = { kind: 0, mesh: 1, texture: 2, flags: 3, id: 4, first: 5, count: 6, size: 7, turn: 10, place: 19,
+                    rgba: 22, specular: 26, shininess: 29, emission: 30, glow: 31, repeat: 34, metal: 36, tint: 37,
+                    cutoff: 38 };
+const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
 
-/** The rotation and the place of a matrix of 4 x 4 by columns. */
-function rigid(name, value) {
+/** An object without a texture, in white, at the origin; floats and ints are the same words. */
+export function plainRecord() {
+    const floats = new Float32Array(OBJECT), ints = new Int32Array(floats.buffer);
+    ints[AT.texture] = -1;
+    floats.set([1, 0, 0, 0, 1, 0, 0, 0, 1], AT.turn);
+    floats.fill(1, AT.rgba, AT.rgba + 4);
+    floats[AT.shininess] = 32;
+    floats.fill(1, AT.repeat, AT.repeat + 2);
+    return { floats, ints };
+}
+
+/** The least number that a map does not have. */
+function free(taken) {
+    let number = 0;
+    while (taken.has(number)) number++;
+    return number;
+}
+
+/** A matrix of 4 x 4 by columns, row by row. */
+function rows(name, value) {
     const m = check.vector(name, value, 16);
-    const refused = () => new ShadeError(`${name} must be a rotation and a translation, without scale, by columns`);
-    for (let i = 0; i < 3; i++) {
-        for (let j = 0; j < 3; j++) {
-            const dot = [0, 1, 2].reduce((sum, k) => sum + m[4 * i + k] * m[4 * j + k], 0);
-            if (Math.abs(dot - (i === j ? 1 : 0)) > 1e-3) {
-                throw refused();
-            }
-        }
-    }
-    if ([3, 7, 11].some((k) => Math.abs(m[k]) > 1e-3) || Math.abs(m[15] - 1) > 1e-3) throw refused();
-    const side = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
-    if (side[0] * m[8] + side[1] * m[9] + side[2] * m[10] < 0) throw refused();
-    return { turn: [0, 4, 8, 1, 5, 9, 2, 6, 10].map((k) => m[k]), place: [12, 13, 14].map((k) => m[k]) };
+    return Array.from({ length: 16 }, (_, k) => m[4 * (k % 4) + Math.floor(k / 4)]);
 }
 
 /** near, far and whether the projection is parallel, of a matrix of OpenGL by columns. */
@@ -49,7 +61,7 @@ function rangeOf(p) {
 
 /** The class, over the functions of index.js that know the module's memory. */
 export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared }) {
-    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length]].forEach(([i, words]) => {
+    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length], [9, IMAGE]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
     const forgotten = new FinalizationRegistry((scene) => library.scene_close(scene));
@@ -68,11 +80,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
     return class Renderer {
         #made = library.scene_open();
-        #objects = new ArrayBuffer(0);
-        #count = 0;
-        #meshes = 0;
-        #cubes = [];
-        #state = { lamps: new Float32Array(0), ambient: [0, 0, 0], shadow: -1,
+        #shown = new Map();    // object to { shape, options }, as add() took them
+        #meshes = new Map();   // number to shape
+        #textures = new Map(); // number to { cube, owned }: whether it came with a shape
+        #state = { lamps: new Float32Array(0), ambient: [0, 0, 0], shadows: 0,
                    background: [1, 1, 1, 1], sky: 0, skyTexture: -1, low: [0, 0, 0], high: [0, 0, 0] };
 
         constructor(height, width, options) {
@@ -100,22 +111,64 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- what is drawn
 
-        /** A mesh for add(): a Mesh with its colour and its texture, or positions, indices, normals, uv and
-         *  colors. */
-        mesh(source) {
+        /** A mesh for add(): a Mesh with its colour, texture, transparency, holes and material, or positions,
+         *  indices, normals, uv and colors. */
+        mesh(source) { return this.#taken(source, free(this.#meshes)); }
+
+        #taken(source, number) {
             const made = prepared(source);
             if (!made.positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
-            const number = library.scene_made(this.#scene, made.address, ...made.origin);
+            const kept = library.scene_made(this.#scene, number, made.address, ...made.origin);
             if (made !== source) made.free();
-            if (number < 0) throw new RangeError("memory is not enough for the mesh");
-            this.#meshes++;
-            const own = made === source, map = own ? made.map : null;
-            const texture = map ? this.#texture(map.data, map.width, map.height, 1, map.wrap) : undefined;
-            return { mesh: number, triangles: made.indices.length / 3, texture, tint: own ? made.tint : null };
+            if (!kept) throw new RangeError("memory is not enough for the mesh");
+            const shape = this.#shape(number, made.indices.length / 3);
+            if (made === source) this.#dress(shape, made);
+            return shape;
+        }
+
+        #shape(number, triangles) {
+            const shape = { mesh: number, triangles, record: plainRecord(), textures: [] };
+            shape.record.ints[AT.mesh] = number;
+            if (!this.#meshes.has(number)) this.#meshes.set(number, shape);
+            return shape;
+        }
+
+        /** What a Mesh looks like. */
+        #dress(shape, { map, tint, opacity, blend, cutoff, own, material }) {
+            const { floats, ints } = shape.record, shown = (rgb) => (this.srgb ? rgb : rgb.map(check.encoded));
+            if (map) {
+                ints[AT.texture] = this.#texture(map.data, map.width, map.height, 1, map.wrap, free(this.#textures));
+                shape.textures.push(ints[AT.texture]);
+                this.#textures.get(ints[AT.texture]).owned = true;
+            }
+            if (tint) floats.set(shown(tint), AT.rgba);
+            if (own) {
+                floats.set(shown(material.slice(9, 12)), AT.specular);
+                floats.set(shown(material.slice(0, 3)), AT.glow);
+                floats[AT.shininess] = material[12];
+            }
+            if (blend) {
+                floats[AT.rgba + 3] = opacity;
+                if (map) ints[AT.flags] |= BLENDED;
+            }
+            floats[AT.cutoff] = cutoff;
+        }
+
+        /** Gives a shape other vertices, as mesh() takes them, or heights as height_field() took them.  Its
+         *  objects show it. */
+        update(shape, source) {
+            this.#known(shape);
+            const made = shape.ground ? this.#ground(source, ...shape.ground, shape.mesh) : this.#taken(source, shape.mesh);
+            const gone = shape.textures;
+            Object.assign(shape, made);
+            for (const [number, { shape: of, options }] of this.#shown) {
+                if (of === shape) this.#write(number, this.#dressed(number, shape, options));
+            }
+            gone.forEach((texture) => this.#drop(texture));
         }
 
         /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
-        _mesh(source) {
+        _mesh(source, number = free(this.#meshes)) {
             const got = check.record("mesh", source, ["positions", "indices", "normals", "uv"]);
             const positions = check.rows("positions", got.positions, 3), vertices = positions.length / 3;
             if (!positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
@@ -134,15 +187,19 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 const set = { positions: at[0], normals: at[1], texcoords: at[2], vertex_count: vertices,
                               indices: at[3], index_count: indices.length };
                 const ask = Uint32Array.from(MESH, (name) => set[name] ?? 0);
-                return library.scene_mesh(this.#scene, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0);
+                return library.scene_mesh(this.#scene, number, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0);
             });
-            if (made < 0) throw new RangeError("memory is not enough for the mesh");
-            this.#meshes++;
-            return { mesh: made, triangles: indices.length / 3 };
+            if (!made) throw new RangeError("memory is not enough for the mesh");
+            return this.#shape(number, indices.length / 3);
         }
 
         /** Ground for add(): rows of heights along y, over x from -half[0] to half[0]. */
         height_field(heights, rows, columns, half) {
+            const shape = this.#ground(heights, rows, columns, half, free(this.#meshes));
+            return Object.assign(shape, { ground: [rows, columns, half] });
+        }
+
+        #ground(heights, rows, columns, half, number) {
             const z = check.vector("heights", heights, rows * columns);
             const [a, b] = Array.from(half), positions = new Float32Array(3 * rows * columns), indices = [];
             if (Math.min(rows, columns) < 2) throw new ShadeError("heights must have two rows and columns at least");
@@ -153,16 +210,32 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                     indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
                 }
             }
-            return this._mesh({ positions, indices, normals: "smooth" });
+            return this._mesh({ positions, indices, normals: "smooth" }, number);
         }
 
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
          *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Texture. */
         texture({ data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
-            return this.#texture(data, width, height, faces, check.wraps("wrap", wrap));
+            return this.#texture(data, width, height, faces, check.wraps("wrap", wrap), free(this.#textures));
         }
 
-        #texture(data, width, height, faces, wrap) {
+        /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
+        update_texture(number, { data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
+            const { cube, owned } = this.#textureOf("number", number);
+            if (cube !== (faces === 6)) {
+                throw new ShadeError(`picture: texture ${number} is ${cube ? "" : "no "}cube, and the picture is not`);
+            }
+            this.#texture(data, width, height, faces, check.wraps("wrap", wrap), number);
+            this.#textures.get(number).owned = owned;
+        }
+
+        #textureOf(name, number) {
+            check.integer(name, number, 0, 2 ** 31 - 1);
+            if (!this.#textures.has(number)) throw new ShadeError(`${name}: there is no texture ${number}`);
+            return this.#textures.get(number);
+        }
+
+        #texture(data, width, height, faces, wrap, number) {
             check.integer("width", width, 1, 16384);
             check.integer("height", height, 1, 16384);
             if (faces !== 1 && (faces !== 6 || height !== 6 * width)) {
@@ -171,12 +244,14 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!check.isArray(data) || data.length !== 4 * width * height) {
                 throw new ShadeError(`data must hold ${4 * width * height} bytes`);
             }
-            const made = withMemory((room) => library.scene_texture(
-                this.#scene, put(room(data.length), Uint8Array.from(data)), width, height / faces, faces,
-                this.srgb ? 1 : 0, ...wrap));
-            if (made < 0) throw new RangeError("memory is not enough for the texture");
-            this.#cubes.push(faces === 6);
-            return made;
+            const made = withMemory((room) => {
+                const bytes = put(room(data.length), Uint8Array.from(data));
+                const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb ? 1 : 0, ...wrap);
+                return library.scene_texture(this.#scene, number, put(room(4 * IMAGE), image));
+            });
+            if (!made) throw new RangeError("memory is not enough for the texture");
+            this.#textures.set(number, { cube: faces === 6, owned: false });
+            return number;
         }
 
         /** A texture of 2 x 2 squares, which repeats. */
@@ -195,43 +270,89 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Adds an object, of "plane", "sphere", "ellipsoid", "capsule", "cylinder", "box" or what mesh()
          *  and height_field() return, and gives its number, which ids have. */
         add(shape, size, options) {
-            const got = check.record("options", options,
-                ["at", "pose", "color", "alpha", "specular", "shininess", "emission", "texture", "repeat",
-                 "two_sided", "casts_shadow"]);
-            const bytes = new ArrayBuffer(4 * OBJECT), ints = new Int32Array(bytes);
-            const floats = new Float32Array(bytes);
-            if (typeof shape === "string") {
-                check.choice("shape", shape, Object.keys(KINDS));
-                ints[0] = KINDS[shape];
-                floats.set(this.#size(shape, size), 4);
-            } else {
-                check.integer("shape", shape?.mesh, 0, this.#meshes - 1);
-                ints[1] = shape.mesh;
-                floats.set(size === undefined ? [1, 1, 1] : check.isArray(size) ? check.vector("size", size, 3)
-                                                          : [size, size, size], 4);
+            const got = check.record("options", options, ["at", "pose", ...LOOKS]), { at = [0, 0, 0], pose, ...looks } = got;
+            if (typeof shape === "string") check.choice("shape", shape, Object.keys(KINDS));
+            else this.#known(shape);
+            const { floats } = this.#record(shape, looks);
+            floats.set(this.#size(shape, size), AT.size);
+            floats.set(check.vector("at", at, 3), AT.place);
+            const number = withMemory((room) => library.scene_add(this.#scene, put(room(4 * OBJECT), floats), 1));
+            if (number < 0) throw new RangeError("memory is not enough for the object");
+            this.#shown.set(number, { shape, options: looks });
+            if (pose !== undefined) {
+                try {
+                    this.#move("pose", [number], [pose]);
+                } catch (error) {
+                    this.remove(number);
+                    throw error;
+                }
             }
-            const texture = got.texture ?? shape.texture;
-            ints[2] = texture === undefined ? -1 : check.integer("texture", texture, 0, this.#cubes.length - 1);
-            ints[3] = (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
-            const light = this.srgb ? (x) => x : check.encoded;
-            floats.set(this.#color("color", got.color ?? "white").map((x, k) => x * light(shape.tint?.[k] ?? 1)), 19);
-            floats[22] = check.number("alpha", got.alpha ?? 1, 0, 1);
-            floats[23] = check.number("specular", got.specular ?? 0, 0, 1e6);
-            floats[24] = check.number("shininess", got.shininess ?? 32, 0, 1e6);
-            floats[25] = check.number("emission", got.emission ?? 0, 0, 1e6);
-            floats.set(check.vector("repeat", got.repeat ?? [1, 1], 2), 26);
-            floats.set([1, 0, 0, 0, 1, 0, 0, 0, 1, ...check.vector("at", got.at ?? [0, 0, 0], 3)], 7);
-            this._put(this.#count, floats);
-            if (got.pose !== undefined) {
-                this.#count--;
-                const { turn, place } = rigid("pose", got.pose);
-                floats.set([...turn, ...place], 7);
-                this._put(this.#count, floats);
-            }
-            return this.#count - 1;
+            return number;
         }
 
+        /** Changes what is given of an object, as add() takes it; undefined is as without a word. */
+        change(number, options) {
+            this.#object(number);
+            const { size, ...looks } = check.record("options", options, ["size", ...LOOKS]);
+            const { shape, options: old } = this.#shown.get(number), all = { ...old, ...looks };
+            const { floats, ints } = this.#dressed(number, shape, all);
+            if (size !== undefined) floats.set(this.#size(shape, size), AT.size);
+            this.#write(number, { floats, ints });
+            this.#shown.set(number, { shape, options: all });
+        }
+
+        /** The record of an object by now, where it is, with other looks */
+        #dressed(number, shape, options) {
+            const old = this.#object(number), record = this.#record(shape, options);
+            record.ints[AT.id] = number;
+            record.ints[AT.flags] |= old.ints[AT.flags] & HIDDEN;
+            record.floats.set(old.floats.subarray(AT.size, AT.rgba), AT.size);
+            return record;
+        }
+
+        #record(shape, got) {
+            const floats = new Float32Array((shape.record ?? plainRecord()).floats), ints = new Int32Array(floats.buffer);
+            if (typeof shape === "string") ints[AT.kind] = KINDS[shape];
+            const color = this.#color("color", got.color ?? "white");
+            color.forEach((x, k) => { floats[AT.rgba + k] *= x; });
+            floats[AT.rgba + 3] *= check.number("alpha", got.alpha ?? 1, 0, 1);
+            if (typeof got.specular === "string" || check.isArray(got.specular)) {
+                floats.set(this.#color("specular", got.specular), AT.specular);
+            } else if (got.specular !== undefined) {
+                floats.fill(check.number("specular", got.specular, 0, 1e6), AT.specular, AT.specular + 3);
+            }
+            for (const name of ["shininess", "emission"]) {
+                if (got[name] !== undefined) floats[AT[name]] = check.number(name, got[name], 0, 1e6);
+            }
+            if (got.texture !== undefined) {
+                this.#textureOf("texture", got.texture);
+                ints[AT.texture] = got.texture;
+            }
+            floats.set(check.vector("repeat", got.repeat ?? [1, 1], 2), AT.repeat);
+            ints[AT.flags] |= (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
+            return { floats, ints };
+        }
+
+        #known(shape) {
+            if (!shape || this.#meshes.get(shape.mesh) !== shape) throw new ShadeError("shape must be of this renderer");
+        }
+
+        /** An object's record in the module's memory */
+        #object(number) {
+            check.integer("number", number, 0, 2 ** 31 - 1);
+            if (!this.#shown.has(number)) throw new ShadeError(`number: there is no object ${number}`);
+            const at = withMemory((room) => library.scene_find(this.#scene, number, room(4)));
+            return { floats: new Float32Array(library.memory.buffer, at, OBJECT),
+                     ints: new Int32Array(library.memory.buffer, at, OBJECT) };
+        }
+
+        #write(number, { ints }) { this.#object(number).ints.set(ints); }
+
         #size(shape, size) {
+            if (typeof shape !== "string") {
+                return size === undefined ? [1, 1, 1] : check.isArray(size) ? check.vector("size", size, 3)
+                    : Array(3).fill(check.number("size", size, -3e38, 3e38));
+            }
             if (size === undefined && shape === "plane") return [0, 0, 0];
             const count = Math.max(...SIZES[shape]) + 1;
             const got = check.vector("size", check.isArray(size) ? size : [size], count);
@@ -239,59 +360,102 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return SIZES[shape].map((k) => got[k]);
         }
 
-        /** The words of object number, or of one more. */
-        _put(number, words) {
-            if (4 * OBJECT * (number + 1) > this.#objects.byteLength) {
-                const grown = new ArrayBuffer(2 * 4 * OBJECT * (number + 8));
-                new Uint8Array(grown).set(new Uint8Array(this.#objects));
-                this.#objects = grown;
-            }
-            new Float32Array(this.#objects).set(words, OBJECT * number);
-            new Int32Array(this.#objects).set(new Int32Array(words.buffer, words.byteOffset, 4), OBJECT * number);
-            this.#count = Math.max(this.#count, number + 1);
-        }
-
-        /** Leaves the first objects alone. */
-        _keep(count) { this.#count = count; }
+        /** The numbers of all objects, in order. */
+        get objects() { return [...this.#shown.keys()].sort((a, b) => a - b); }
 
         /** Moves an object: 4 x 4 by columns, a rotation and a translation. */
         pose(number, pose) {
-            check.integer("number", number, 0, this.#count - 1);
-            const { turn, place } = rigid(`pose of object ${number}`, pose);
-            new Float32Array(this.#objects).set([...turn, ...place], OBJECT * number + 7);
+            this.#object(number);
+            this.#move(`pose of object ${number}`, [number], [pose]);
         }
 
-        /** Moves all objects: a matrix for each; nothing moves where one is refused. */
-        poses(poses) {
-            if (poses?.length !== this.#count) throw new ShadeError(`poses must hold ${this.#count} matrices`);
-            const got = Array.from(poses, (pose, i) => rigid(`poses[${i}]`, pose)), floats = new Float32Array(this.#objects);
-            got.forEach(({ turn, place }, i) => floats.set([...turn, ...place], OBJECT * i + 7));
+        /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
+         *  where one is refused. */
+        poses(poses, numbers = this.objects) {
+            if (poses?.length !== numbers.length) throw new ShadeError(`poses must hold ${numbers.length} matrices`);
+            numbers.forEach((number) => this.#object(number));
+            this.#move("poses", numbers, poses);
+        }
+
+        #move(name, numbers, poses) {
+            const named = (i) => (name === "poses" ? `poses[${i}]` : name);
+            const matrices = Float64Array.from(Array.from(poses, (pose, i) => rows(named(i), pose)).flat());
+            const refused = withMemory((room) => library.scene_pose(
+                this.#scene, 0, put(room(4 * numbers.length + 4), Int32Array.from(numbers)),
+                put(room(matrices.byteLength + 8), matrices), numbers.length));
+            if (refused >= 0) {
+                throw new ShadeError(`${named(refused)} must be a rotation and a translation, without scale, by columns`);
+            }
         }
 
         /** Hides an object, or shows it again. */
         show(number, visible = true) {
-            check.integer("number", number, 0, this.#count - 1);
-            const flags = new Int32Array(this.#objects, 4 * (OBJECT * number + 3), 1);
-            flags[0] = (flags[0] & ~HIDDEN) | (visible ? 0 : HIDDEN);
+            const { ints } = this.#object(number);
+            ints[AT.flags] = (ints[AT.flags] & ~HIDDEN) | (visible ? 0 : HIDDEN);
+        }
+
+        /** Takes away an object by its number, which the next one may have, or a shape that no object shows, with
+         *  the textures that came with it.  Its memory is given back. */
+        remove(what) {
+            if (typeof what === "number") {
+                this.#object(what);
+                library.scene_remove(this.#scene, what);
+                this.#shown.delete(what);
+                return;
+            }
+            this.#known(what);
+            for (const [number, { shape }] of this.#shown) {
+                if (shape === what) throw new ShadeError(`what: object ${number} shows the shape; remove that before`);
+            }
+            library.scene_mesh(this.#scene, what.mesh, 0, 0);
+            this.#meshes.delete(what.mesh);
+            what.textures.forEach((texture) => this.#drop(texture));
+        }
+
+        /** Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with it. */
+        remove_texture(number) {
+            const { owned } = this.#textureOf("number", number), s = this.#state;
+            const shown = this.objects.find((i) => this.#object(i).ints[AT.texture] === number);
+            const who = shown !== undefined ? `object ${shown}` : owned ? "a shape"
+                : s.sky === 2 && s.skyTexture === number ? "the sky" : null;
+            if (who) throw new ShadeError(`number: ${who} has texture ${number}`);
+            this.#drop(number);
+        }
+
+        #drop(texture) {
+            library.scene_texture(this.#scene, texture, 0);
+            this.#textures.delete(texture);
+        }
+
+        /** Takes away all objects, shapes and textures, and gives back their memory; lamps and a background of
+         *  one colour stay. */
+        clear() {
+            library.scene_set(this.#scene, 0, 0);
+            this.#shown.clear();
+            for (const number of this.#meshes.keys()) library.scene_mesh(this.#scene, number, 0, 0);
+            this.#meshes.clear();
+            [...this.#textures.keys()].forEach((number) => this.#drop(number));
+            if (this.#state.sky === 2) this.#state.sky = 0;
         }
 
         // ---- what it is lit by
 
-        /** Up to 8 lamps, ambient light, and the number of the one lamp that casts shadows. */
-        light(lights, ambient = [0, 0, 0], shadow = undefined) {
+        /** Up to 8 lamps, ambient light, and the number or numbers of the lamps, directional or spots, that cast
+         *  shadows. */
+        light(lights, ambient = [0, 0, 0], shadow = []) {
             if (lights.length > LAMPS) throw new ShadeError(`lights: at most ${LAMPS} lamps are drawn, not ${lights.length}`);
             const { lights: rows } = check.lighting("light", { lights });
             const lamps = new Float32Array(Math.max(1, rows.length) * LIGHT);
             rows.forEach((row, i) => lamps.set(row, LIGHT * i));
-            let number = -1;
-            if (shadow !== undefined) {
-                number = check.integer("shadow", shadow, 0, rows.length - 1);
-                const row = rows[number];
+            let shadows = 0;
+            for (const which of check.isArray(shadow) ? shadow : [shadow]) {
+                const number = check.integer("shadow", which, 0, rows.length - 1), row = rows[number];
                 if (row[3] !== 0 && !(row[16] || row[17] || row[18])) {
                     throw new ShadeError(`shadow: lights[${number}] is a point; directional lamps and spots can cast shadows`);
                 }
+                shadows |= 1 << number;
             }
-            Object.assign(this.#state, { lamps, count: rows.length, shadow: number,
+            Object.assign(this.#state, { lamps, count: rows.length, shadows,
                                          ambient: check.vector("ambient", ambient, 3) });
         }
 
@@ -307,8 +471,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         /** A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL. */
         sky_texture(texture) {
-            check.integer("texture", texture, 0, this.#cubes.length - 1);
-            if (!this.#cubes[texture]) throw new ShadeError(`texture ${texture} is no cube`);
+            if (!this.#textureOf("texture", texture).cube) throw new ShadeError(`texture ${texture} is no cube`);
             Object.assign(this.#state, { sky: 2, skyTexture: texture });
         }
 
@@ -330,7 +493,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                               got.empty_depth ?? Infinity);
         }
 
-        _draw(out, view, projection, { near, far, parallel }, solid, emptyDepth) {
+        /** records are objects, one after the other, in place of those that were added. */
+        _draw(out, view, projection, { near, far, parallel }, solid, emptyDepth, records = null) {
             const pixels = this.height * this.width, s = this.#state, scene = this.#scene;
             const channels = out.color?.length === 4 * pixels ? 4 : 3;
             for (const [name, width] of [["color", channels], ["depth", 1], ["ids", 2], ["normals", 3]]) {
@@ -340,16 +504,15 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             const at = {}, sizes = { color: channels, depth: 4, ids: 8, normals: 12 };
             for (const name of Object.keys(sizes)) at[name] = out[name] ? kept(name, sizes[name] * pixels) : 0;
-            const objects = new Uint8Array(this.#objects, 0, 4 * OBJECT * this.#count);
-            at.objects = kept("objects", this.#objects.byteLength + 4);
+            at.objects = records ? kept("objects", records.byteLength + 4) : 0;
             at.lights = kept("lights", 4 * LIGHT * LAMPS);
             const shot = kept("shot", 4 * SHOT);
-            put(at.objects, objects);
+            if (records) put(at.objects, records);
             put(at.lights, s.lamps);
             const ints = new Int32Array(library.memory.buffer, shot, SHOT);
             const floats = new Float32Array(library.memory.buffer, shot, SHOT);
             ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, solid ? 1 : 0, parallel,
-                      this.#count, s.count, s.shadow, s.sky, s.skyTexture]);
+                      records ? records.length / OBJECT : 0, s.count, s.shadows, s.sky, s.skyTexture]);
             floats.set([near, far, emptyDepth, this.tolerance, ...view, ...projection, ...s.background, ...s.low,
                         ...s.high, ...s.ambient], 12);
             ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);

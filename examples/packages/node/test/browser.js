@@ -4,7 +4,7 @@
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
-import { render, Renderer } from "shade-h";
+import { Mesh, render, Renderer } from "shade-h";
 import { sight } from "./sight.js";
 
 const here = new URL(".", import.meta.url);
@@ -14,7 +14,7 @@ const picture = new Function("render", `const ${data}; return ${call};`)(render)
 const hash = (bytes) => bytes.reduce((sum, x) => Math.imul(sum ^ x, 16777619) >>> 0, 2166136261);
 const folder = process.env.ORACLE, told = folder ? readFileSync(`${folder}/sight.json`, "utf8") : "null";
 const python = folder ? hash(readFileSync(`${folder}/sight.bytes`)) : "none";
-const own = folder ? hash(sight(Renderer, JSON.parse(told))) : "none";
+const own = folder ? hash(sight(Renderer, Mesh, JSON.parse(told))) : "none";
 const drawn = hash(picture.data), wanted = `drawn ${drawn}, read ${drawn}, seen ${own}`;
 if (own !== python) throw new Error("the bytes of Node.js and Python differ");
 

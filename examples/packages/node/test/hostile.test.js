@@ -567,3 +567,59 @@ test("a Renderer draws the colour and the texture of a Mesh", () => {
         assert.deepEqual(pixel(quad, options), [255, 255, 255]);
     }
 });
+
+test("objects, shapes and textures of a Renderer come, change and go", () => {
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const picture = (shade, faces = 1) => ({ data: Array(16 * faces).fill(shade), width: 2, height: 2 * faces, faces });
+    const texture = { data: [9, 200, 77], width: 1, height: 1 }, mapped = { ...box(), uv: new Float32Array(16), texture };
+    const made = new Renderer(24, 32), other = new Renderer(8, 8);
+    const own = made.texture(picture(50)), cube = made.texture(picture(90, 6)), shape = made.mesh(new Mesh(mapped));
+    const one = made.add(shape, 0.5, { texture: own }), two = made.add("sphere", 1, { at: [1, 0, 0] });
+    const ground = made.height_field(new Float32Array(9), 3, 3, [1, 1]);
+    made.sky_texture(cube);
+    const before = made.render(camera).color.slice();
+    for (const [words, call] of [
+        [/object 0 shows the shape/, () => made.remove(shape)], [/object 0 has texture/, () => made.remove_texture(own)],
+        [/a shape has texture/, () => made.remove_texture(shape.textures[0])],
+        [/the sky has texture/, () => made.remove_texture(cube)], [/no texture 99/, () => made.remove_texture(99)],
+        [/no object 7/, () => made.remove(7)], [/no object 7/, () => made.change(7, { color: "red" })],
+        [/no object 7/, () => made.poses([camera.view], [7])], [/colour/, () => made.change(one, { colour: "red" })],
+        [/alpha must be/, () => made.change(one, { alpha: 2 })],
+        [/size of a sphere must be positive/, () => made.change(two, { size: -1 })],
+        [/no texture 99/, () => made.change(two, { texture: 99 })],
+        [/shape must be of this renderer/, () => other.add(shape)],
+        [/shape must be of this renderer/, () => other.remove(shape)],
+        [/is no cube/, () => made.update_texture(own, picture(1, 6))],
+        [/is cube/, () => made.update_texture(cube, picture(1))], [/data must hold/, () => made.update_texture(own, { ...picture(1), data: [1] })],
+        [/pose must be a rotation/, () => made.add("sphere", 1, { pose: Array(16).fill(1) })],
+        [/shadow must be/, () => made.light([{ position: [0, 0, 1, 0] }], [0, 0, 0], [0, 1])],
+        [/heights must/, () => made.update(ground, [1])]]) {
+        assert.throws(call, (error) => error instanceof ShadeError && words.test(error.message), `${words}`);
+    }
+    assert.deepEqual(made.render(camera).color, before);
+    assert.deepEqual(made.objects, [0, 1]);
+
+    // what is left equals what is made so from the beginning
+    made.update_texture(own, picture(200));
+    made.remove(two);
+    made.change(one, { size: 0.6, color: "red", texture: undefined });
+    made.update(shape, new Mesh({ ...mapped, texture: { ...texture, data: [250, 20, 90] } }));
+    assert.equal(made.add("box", [0.2, 0.2, 0.2], { at: [-1, 0, 0], texture: own }), two);
+    const fresh = new Renderer(24, 32), map = fresh.texture(picture(200));
+    fresh.sky_texture(fresh.texture(picture(90, 6)));
+    fresh.add(fresh.mesh(new Mesh({ ...mapped, texture: { ...texture, data: [250, 20, 90] } })), 0.6, { color: "red" });
+    fresh.add("box", [0.2, 0.2, 0.2], { at: [-1, 0, 0], texture: map });
+    assert.deepEqual(made.render(camera), fresh.render(camera));
+
+    const sizes = [];
+    for (let i = 0; i < 300; i++) {
+        made.clear();
+        const big = made.texture({ data: new Uint8Array(4 * 256 * 256).fill(i), width: 256, height: 256 });
+        made.add(made.mesh(new Mesh(mapped)), 0.5, { texture: big });
+        made.render(camera);
+        sizes.push(process.memoryUsage().rss);
+    }
+    assert.ok(sizes[299] - sizes[50] < 40e6, `${sizes[299] - sizes[50]} bytes`);
+    [made, other, fresh].forEach((renderer) => renderer.free());
+});

@@ -239,6 +239,11 @@ for name in ("obj", "off", "ply", "stl"):
     assert len(np.unique(model.rgba)) > 100
 
 
+LEAF = np.zeros((8, 8, 4), np.uint8)
+LEAF[...] = np.arange(8)[:, None, None] * 30
+LEAF[:, :4, 3] = 255
+
+
 # a Renderer: colour, depth, numbers and normals one after the other
 def sight():
     sim = shade.Renderer(60, 80)
@@ -249,7 +254,8 @@ def sight():
     mapped = sim.mesh(points, faces, uv=uv)
     sim.add(tinted, at=(-5e4, 0.6, 0.1))
     sim.add(mapped, at=(-1.2, -0.6, 0.1), texture=sim.checker("red", "white"))
-    sim.add(sim.mesh(*torus(9)[:2]), 0.2, at=(1.2, -1, 0.4), color="green", specular=0.5)
+    ring = sim.mesh(*torus(9)[:2])
+    sim.add(ring, 0.2, at=(1.2, -1, 0.4), color="green", specular=0.5)
     for i, (name, size) in enumerate({"sphere": 0.3, "ellipsoid": (0.35, 0.2, 0.15), "capsule": (0.15, 0.3),
                                       "cylinder": (0.2, 0.3), "box": (0.25, 0.2, 0.3)}.items()):
         sim.add(name, size, at=(i * 0.8 - 2, -0.2, 0.5), color="yellow", alpha=0.5 if i == 1 else 1)
@@ -258,7 +264,20 @@ def sight():
     camera = shade.Camera.look_at((0, -4, 2.5), (0, 0, 0.3), fov=45, aspect=80 / 60, near=0.1, far=50)
     frame = sim.render(camera, normals=True)
     assert len(np.unique(frame.ids[..., 0])) >= 8
-    (OUT / "sight.bytes").write_bytes(b"".join(array.tobytes() for array in frame))
+    # what has changed, moved, come and gone since
+    sim.remove(5)
+    sim.update(ring, points, faces)
+    sim.change(3, size=0.4, color=(0.9, 0.2, 0.6), specular=(0.1, 0.5, 0.9), shininess=9.0)
+    leaf = shade.Mesh(points, faces, uv=uv, surfaces=(np.zeros(len(faces), int), [shade.Surface(
+        shade.Material((0, 0.1, 0), (1, 1, 1), (0.8, 0.7, 0.6), (0.5, 0.4, 0.3), 20.0), LEAF, cutoff=0.5)]))
+    assert sim.add(sim.mesh(leaf), at=(0.3, -1.6, 0.3), two_sided=True) == 5
+    sim.pose(4, [[0, -1, 0, -2], [1, 0, 0, 0.2], [0, 0, 1, 0.9], [0, 0, 0, 1]])
+    spot = shade.Light((1, -2, 4, 1), (0.5,) * 3, (0.5,) * 3, spot_direction=(-0.2, 0.4, -1), spot_exponent=2.0,
+                       spot_cos_cutoff=0.8)
+    sim.light([shade.Light.directional((-0.5, 1, -1.5), (0.5, 0.5, 0.5)), spot], (0.3, 0.3, 0.3), (0, 1))
+    later = sim.render(camera, normals=True)
+    assert len(np.unique(later.ids[..., 0])) >= 8 and (later.color != frame.color).any(-1).mean() > 0.2
+    (OUT / "sight.bytes").write_bytes(b"".join(array.tobytes() for array in (*frame, *later)))
     told = {"view": camera.view.T.ravel().tolist(), "projection": camera.projection.T.ravel().tolist(),
             "box": points.ravel().tolist(), "faces": faces.ravel().tolist(), "uv": uv.ravel().tolist(),
             "torus": [a.ravel().tolist() for a in torus(9)[:2]]}

@@ -31,7 +31,7 @@ for (const { name, meshes, options } of scenes) {
 }
 
 test("a Renderer", () => {
-    const got = sight(Renderer, JSON.parse(readFileSync(`${folder}/sight.json`, "utf8")));
+    const got = sight(Renderer, Mesh, JSON.parse(readFileSync(`${folder}/sight.json`, "utf8")));
     const wanted = readFileSync(`${folder}/sight.bytes`), at = got.findIndex((x, i) => x !== wanted[i]);
     assert.ok(wanted.equals(got), `byte ${at} of ${got.length}: 14400 of colour, 19200 of depth, 38400 of numbers`);
 });

@@ -103,7 +103,7 @@ class View(Structure):
 
 
 #: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count,
-#: light_count, shadow_light, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
+#: light_count, shadows, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
 #: view, projection; background, sky_low, sky_high, ambient; objects, lights, color, depth, ids,
 #: normals
 SHOT = struct.Struct("@12i4f32f13f6P")
@@ -111,10 +111,18 @@ SHOT = struct.Struct("@12i4f32f13f6P")
 
 #: renderer_object
 SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
-                  ("flags", np.int32), ("size", np.float32, 3), ("turn", np.float32, (3, 3)),
-                  ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32),
-                  ("shininess", np.float32), ("emission", np.float32), ("repeat", np.float32, 2),
-                  ("metal", np.float32), ("tint", np.float32)])
+                  ("flags", np.int32), ("id", np.int32), ("first", np.int32), ("count", np.int32),
+                  ("size", np.float32, 3), ("turn", np.float32, (3, 3)),
+                  ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32, 3),
+                  ("shininess", np.float32), ("emission", np.float32), ("glow", np.float32, 3),
+                  ("repeat", np.float32, 2), ("metal", np.float32), ("tint", np.float32),
+                  ("cutoff", np.float32)])
+
+
+class Image(Structure):
+    """renderer_image"""
+    _fields_ = [("rgba", c_void_p), ("width", c_int), ("height", c_int), ("faces", c_int),
+                ("srgb", c_int), ("wrap_u", c_int), ("wrap_v", c_int)]
 
 
 class Chunk(Structure):
@@ -174,11 +182,16 @@ def _open() -> Any:
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
-            ("python_scene_mesh", c_int, [c_void_p, c_void_p, c_int]),
-            ("python_scene_texture", c_int, [c_void_p, c_void_p] + 6 * [c_int]),
+            ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
+            ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
+            ("python_scene_remove", c_int, [c_void_p, c_int]),
+            ("python_scene_find", c_void_p, [c_void_p, c_int, c_void_p]),
+            ("python_scene_set", c_int, [c_void_p, c_void_p, c_int]),
+            ("python_scene_pose", c_int, 4 * [c_void_p] + [c_int]),
             ("python_renderer_open", c_void_p, []),
             ("python_renderer_close", None, [c_void_p]),
-            ("python_renderer_draw", c_int, 3 * [c_void_p]),
+            ("python_renderer_draw", c_int, [c_void_p, c_int, c_void_p, c_void_p, c_int, c_void_p]),
             ("python_size", c_size_t, [c_int]),
             ("shade_result_string", c_char_p, [c_int]),
             ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),
@@ -196,11 +209,11 @@ def _open() -> Any:
             ("shade_linear_material", Material, [Material])):
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
-    twins = (Mesh, State, Item, View, Lighting, Texture, Light, Chunk, Run)
+    twins = (Mesh, State, Item, View, Lighting, Texture, Light, Chunk, Run, Image)
     for i, twin in enumerate(twins):
         if library.python_size(i) != ctypes.sizeof(twin):
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
-    if (library.python_size(9), library.python_size(10)) != (SOLID.itemsize, SHOT.size):
+    if (library.python_size(10), library.python_size(11)) != (SOLID.itemsize, SHOT.size):
         raise ImportError(f"{path} does not belong to this version: renderer_object")
     return library
 

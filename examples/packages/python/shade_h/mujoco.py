@@ -150,6 +150,7 @@ class Renderer:
         self._camera: Any = None
         self._pairs = np.full((1, 2), -1, np.int32)
         self._unnumbered: list[int] = []
+        self._geoms = np.zeros(0, SOLID)
         self._mujoco: Any = None
         self._scene: Any = None
         self._filled = False
@@ -183,13 +184,13 @@ class Renderer:
 
     def _texture(self, i: int) -> int:
         if i not in self._textures:
-            self._textures[i] = self._base._keep_texture(*_texels(self._model, i))
+            self._textures[i] = self._base._keep_texture(None, *_texels(self._model, i))
         return self._textures[i]
 
     def _shape(self, kind: int, number: int) -> int:
         if (kind, number) not in self._meshes:
             made = (_mesh if kind == _MESH else _ground)(self._model, number)
-            self._meshes[kind, number] = self._base._keep_mesh(*made).number
+            self._meshes[kind, number] = self._base._keep_mesh(None, *made).number
         return self._meshes[kind, number]
 
     def _put(self, o: Any, g: Any) -> None:
@@ -219,20 +220,16 @@ class Renderer:
         base = self._base
         geoms = [scene.geoms[i] for i in range(int(scene.ngeom))]
         geoms = [g for g in geoms if 0 <= g.type < len(_KINDS)]
-        if len(geoms) > len(base._objects):
-            base._objects = np.zeros(2 * len(geoms), SOLID)
-        base._count = len(geoms)
-        base._objects[:len(geoms)] = np.zeros(1, SOLID)
+        self._geoms = np.zeros(len(geoms), SOLID)
+        self._geoms["id"] = np.arange(len(geoms))
         for i, g in enumerate(geoms):
-            self._put(base._objects[i], g)
+            self._put(self._geoms[i], g)
         self._pairs = np.array([[-1, -1]] + [[g.objid, g.objtype] for g in geoms], np.int32)
         self._unnumbered = [i for i, g in enumerate(geoms) if getattr(g, "segid", i) < 0]
         lamps = [scene.lights[i] for i in range(min(int(scene.nlight), _LAMPS))]
-        shadow = None
-        for i, lamp in enumerate(lamps):
-            if scene.flags[_SHADOWS] and lamp.castshadow and not lamp.headlight and \
-                    lamp.type <= _DIRECTIONAL and shadow is None:
-                shadow = i
+        shadow = [i for i, lamp in enumerate(lamps)
+                  if scene.flags[_SHADOWS] and lamp.castshadow and not lamp.headlight
+                  and lamp.type <= _DIRECTIONAL]
         base.light([self._lamp(lamp) for lamp in lamps], shadow=shadow)
         if scene.flags[_SKIES] and self._sky is not None:
             base.sky_texture(self._sky)
@@ -294,11 +291,11 @@ class Renderer:
         self._read(self._scene)
         solid = self._depth or self._segmentation
         if solid:    # what has no number is in colour alone, as MuJoCo draws it
-            self._base._objects["flags"][self._unnumbered] |= _HIDDEN
+            self._geoms["flags"][self._unnumbered] |= _HIDDEN
         frame = Frame(None if self._depth or self._segmentation else to, to if self._depth else None,
                       to if self._segmentation else None, None)
         view, projection, near, far, parallel = self._camera
-        self._base._draw(frame, view, projection, near, far, parallel, solid, far)
+        self._base._draw(frame, view, projection, near, far, parallel, solid, far, self._geoms)
         if self._segmentation:
             to[...] = self._pairs[to[..., 0] + 1]
         return to

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, Sequence
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Integers, Light as NativeLight,
-                      Mesh as NativeMesh, check, library, pointer)
+from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Image, Integers,
+                      Light as NativeLight, Mesh as NativeMesh, check, interruptible, library, pointer)
 from .annotate import display
 from .camera import Camera
 from .light import Light
@@ -20,8 +20,10 @@ from .picture import Picture
 #: The shapes that are made once for all scenes, and the numbers that their size is.
 SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, "box": 3}
 _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cylinder": 5, "box": 6}
-_HIDDEN, _TWO_SIDED, _NO_SHADOW = 1, 2, 4
+_HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED = 1, 2, 4, 8
 _LAMPS = 8
+_PLAIN = np.zeros(1, SOLID)    # white, without a texture
+_PLAIN["texture"], _PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = -1, 1, 32, np.eye(3)
 
 
 class Frame(NamedTuple):
@@ -64,10 +66,16 @@ class Frame(NamedTuple):
 class Shape:
     """A mesh of a renderer, of which any number of objects are instances."""
 
-    def __init__(self, number: int, count: int, texture: int = -1, alpha: float = 1.0) -> None:
-        """Keeps its number, and what its objects have without a texture and alpha of their own; only
-        a Renderer makes shapes."""
-        self.number, self.count, self.texture, self.alpha = number, count, texture, alpha
+    def __init__(self, number: int, records: Array) -> None:
+        """Keeps its number and what its surfaces look like; only a Renderer makes shapes."""
+        self.number, self.records = number, records
+        self.textures: list[int] = []    # those that came with it
+        self.source: tuple[Any, ...] = ()    # what update() makes it of
+
+    @property
+    def count(self) -> int:
+        """Its triangles."""
+        return int(self.records["count"].sum())
 
 
 class _Scene:
@@ -90,10 +98,24 @@ class _Scene:
             raise MemoryError("memory is not enough for a picture")
         return int(handle)
 
+    def rest(self) -> None:
+        """Frees the scratch memory that no thread has."""
+        while getattr(self, "free", None):
+            library.python_renderer_close(self.free.pop())
+
+    def records(self, number: int = -1) -> Array:
+        """The records of an object, or of all, as they stand in the library."""
+        count = ctypes.c_int()
+        at = library.python_scene_find(self.handle, number, ctypes.byref(count))
+        if not at or not count.value:
+            return np.zeros(0, SOLID)
+        memory: Any = (ctypes.c_char * (SOLID.itemsize * count.value)).from_address(at)
+        found: Array = np.frombuffer(memory, SOLID)
+        return found
+
     def __del__(self) -> None:
         """Frees it all."""
-        for handle in getattr(self, "free", ()):
-            library.python_renderer_close(handle)
+        self.rest()
         if getattr(self, "handle", None):
             library.python_scene_close(self.handle)
 
@@ -125,8 +147,9 @@ class Renderer:
         ball = r.add("sphere", 0.5, at=(0, 0, 0.5), color="red")
         frame = r.render(shade_h.Camera.look_at((3, -3, 2)))
 
-    Threads may draw at the same time; objects, lights and shapes are changed between pictures.  A
-    Renderer can be pickled, and lives on in a forked process.
+    Objects can be moved, changed and removed, and so can shapes and textures: one Renderer serves any
+    number of scenes.  Threads may draw at the same time; what is changed is changed between
+    pictures.  A Renderer can be pickled, and lives on in a forked process.
     """
 
     def __init__(self, height: int, width: int, *, samples: int = 1, srgb: bool = True,
@@ -142,13 +165,13 @@ class Renderer:
         self.srgb = arguments.flag("srgb", srgb)
         self.tolerance = arguments.number("tolerance", tolerance, 1e-3, 16)
         self._scene = _Scene()
-        self._made: list[tuple[Any, ...]] = []
-        self._meshes = self._textures = 0
-        self._objects = np.zeros(16, SOLID)
-        self._count = 0
+        self._meshes: dict[int, tuple[Any, ...]] = {}      # what they were made of, by their numbers
+        self._textures: dict[int, tuple[Any, ...]] = {}
+        self._shown: dict[int, tuple[str | Shape, dict[str, Any]]] = {}    # objects, as add() took them
+        self._owned: set[int] = set()    # textures that came with shapes
         self._lights: list[Light] = []
         self._lamps: Any = None
-        self._shadow = -1
+        self._shadows = 0
         self._ambient: tuple[float, ...] = (0.0, 0.0, 0.0)
         self._background: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
         self._sky: tuple[int, int, Any, Any] = (0, -1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -159,54 +182,63 @@ class Renderer:
     def mesh(self, vertices: object, faces: object = None, *, normals: object = "auto",
              uv: object = None, colors: object = None) -> Shape:
         """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
-        Mesh, as load() gives it, with its colours and its texture.  An object has one texture: of a
-        mesh with several, or with one on a part of it, each surface must be a mesh of its own."""
+        Mesh, as load() gives it, with the colours, textures, transparency and holes of its surfaces,
+        and the materials of glTF."""
+        made = self._made_of(vertices, faces, normals, uv, colors)
+        return self._shape(made, (made is vertices, faces, normals, uv, colors), None)
+
+    @staticmethod
+    def _made_of(vertices: object, faces: object, normals: object, uv: object, colors: object) -> Mesh:
         if isinstance(vertices, Mesh):
-            made = vertices
-        else:
-            texture = None if uv is None else np.full((1, 1, 3), 255, np.uint8)
-            made = Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
-        pieces = [piece for piece in made.pieces if piece.count]
-        maps = [piece.texture for piece in pieces]
-        if len({None if m is None else (m.shape, m.tobytes(), piece.surface.wrap)
-                for m, piece in zip(maps, pieces)}) > 1:
-            raise Error(f"vertices: the mesh has {len(maps)} surfaces with textures of their own, and "
-                        "an object one texture: make a mesh of each")
+            return vertices
+        texture = None if uv is None else np.full((1, 1, 3), 255, np.uint8)
+        return Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
+
+    def _shape(self, made: Mesh, source: tuple[Any, ...], number: int | None) -> Shape:
         positions = np.ascontiguousarray(made.positions + made.origin.astype(np.float32))
         if not np.isfinite(positions).all():
             raise Error("vertices must hold finite numbers that fit float32")
-        indices = np.ascontiguousarray(made.indices, np.uint32)
-        rows: list[Any] = [positions, made.normals, made.uv, made.colors]
-        tints = [piece.surface.material.diffuse if piece.surface.material is not None else made.color
-                 for piece in pieces]
-        if any(tint is not None for tint in tints):
-            rows, indices = self._tinted(rows, indices, pieces, tints)
-        if rows[3] is not None and not self.srgb:
-            rows[3] = display(rows[3])
-        shape = self._keep_mesh(rows[0], rows[1], rows[2], rows[3], indices)
-        if isinstance(vertices, Mesh) and pieces:
-            shape.texture = -1 if maps[0] is None else self.texture(maps[0], pieces[0].surface.wrap)
-            shape.alpha = float(pieces[0].surface.opacity) if len(pieces) == 1 else 1.0
+        colors = made.colors
+        if colors is not None and not self.srgb:
+            colors = display(colors)
+        shape = self._keep_mesh(number, positions, made.normals, made.uv, colors,
+                                np.ascontiguousarray(made.indices, np.uint32))
+        shape.source = source
+        pieces = [piece for piece in made.pieces if piece.count]
+        if source[0] and pieces:
+            known: dict[Any, int] = {}
+            shape.records = np.repeat(shape.records, len(pieces))
+            for record, piece in zip(shape.records, pieces):
+                self._dress(record, piece, made.color, known)
+            shape.textures = list(known.values())
+            self._owned.update(shape.textures)
         return shape
 
-    @staticmethod
-    def _tinted(rows: list[Any], indices: Any, pieces: list[Any], tints: list[Any]) -> tuple[Any, Any]:
-        """Vertices of each surface apart, with its colour."""
-        used, at, colors, first = [], [], [], 0
-        for piece, tint in zip(pieces, tints):
-            own, index = np.unique(indices[piece.first:piece.first + piece.count], return_inverse=True)
-            plain = np.array((1, 1, 1) if tint is None else tint, np.float32)
-            color = np.broadcast_to(plain, (len(own), 3))
-            used.append(own)
-            at.append(index.reshape(-1, 3) + first)
-            colors.append(color if rows[3] is None else color * rows[3][own])
-            first += len(own)
-        whole = np.concatenate(used)
-        out = [None if row is None else row[whole] for row in rows[:3]]
-        return [*out, np.concatenate(colors)], np.ascontiguousarray(np.concatenate(at), np.uint32)
+    def _dress(self, record: Any, piece: Any, color: Any, known: dict[Any, int]) -> None:
+        """What a piece of a Mesh looks like; known are the textures that its others have."""
+        surface, material = piece.surface, piece.surface.material
+        record["first"], record["count"] = piece.first, piece.count
+        if piece.texture is not None:
+            key = piece.texture.shape, piece.texture.tobytes(), surface.wrap
+            if key not in known:
+                known[key] = self.texture(piece.texture, surface.wrap)
+            record["texture"] = known[key]
+        def shown(rgb: Any) -> Any:
+            return rgb if self.srgb else display(np.asarray(rgb, np.float32))
 
-    def _keep_mesh(self, positions: Any, normals: Any, uv: Any, colors: Any, indices: Any,
-                   smooth: bool = False) -> Shape:
+        if material is not None:
+            color = material.diffuse
+            record["specular"], record["glow"] = shown(material.specular), shown(material.emission)
+            record["shininess"] = material.shininess
+        if color is not None:
+            record["rgba"][:3] = shown(color)
+        if surface.blend:
+            record["rgba"][3] = surface.opacity
+            record["flags"] |= _BLENDED if record["texture"] >= 0 else 0
+        record["cutoff"] = surface.cutoff
+
+    def _keep_mesh(self, number: int | None, positions: Any, normals: Any, uv: Any, colors: Any,
+                   indices: Any, smooth: bool = False) -> Shape:
         positions, normals, uv, colors = (
             None if a is None else np.ascontiguousarray(a, np.float32)
             for a in (positions, normals, uv, colors))
@@ -215,15 +247,21 @@ class Renderer:
                             ("colors", colors), ("indices", indices)):
             setattr(mesh, name, pointer(array))
         mesh.vertex_count, mesh.index_count = len(positions), indices.size
-        if library.python_scene_mesh(self._scene.handle, ctypes.byref(mesh), int(smooth)) < 0:
+        if number is None:
+            number = _free(self._meshes)
+        if not library.python_scene_mesh(self._scene.handle, number, ctypes.byref(mesh), int(smooth)):
             raise MemoryError("memory is not enough for the mesh")
-        self._made.append(("mesh", positions, normals, uv, colors, indices, smooth))
-        self._meshes += 1
-        return Shape(self._meshes - 1, indices.size // 3)
+        self._meshes[number] = positions, normals, uv, colors, indices, smooth
+        records = _PLAIN.copy()
+        records["mesh"], records["count"] = number, indices.size // 3
+        return Shape(number, records)
 
     def height_field(self, heights: object, half: Sequence[float]) -> Shape:
         """Ground for add(): heights is (rows, columns), rows along y, over x from -half[0] to half[0]
         and y from -half[1] to half[1]."""
+        return self._ground(None, heights, half)
+
+    def _ground(self, number: int | None, heights: object, half: Sequence[float]) -> Shape:
         z = arguments.floats("heights", heights, (None, None), finite=True)
         rows, columns = z.shape
         if min(rows, columns) < 2:
@@ -234,12 +272,40 @@ class Renderer:
         i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
         k = (i * columns + j).ravel()
         faces = np.stack([k, k + 1, k + columns + 1, k, k + columns + 1, k + columns], 1)
-        return self._keep_mesh(np.stack([x, y, z], -1).reshape(-1, 3), None, None, None,
-                               np.ascontiguousarray(faces.reshape(-1, 3), np.uint32), smooth=True)
+        shape = self._keep_mesh(number, np.stack([x, y, z], -1).reshape(-1, 3), None, None, None,
+                                np.ascontiguousarray(faces.reshape(-1, 3), np.uint32), smooth=True)
+        shape.source = (half,)
+        return shape
+
+    def update(self, shape: Shape, vertices: object, faces: object = None, *, normals: object = None,
+               uv: object = None, colors: object = None) -> None:
+        """Gives a shape other vertices, and what else is not None; the rest stays as mesh() was given
+        it.  A shape of a Mesh takes another Mesh, ground takes heights.  Its objects show it."""
+        self._known(shape)
+        if len(shape.source) == 1:
+            made = self._ground(shape.number, vertices, shape.source[0])
+        else:
+            given = [new if new is not None else old
+                     for new, old in zip((faces, normals, uv, colors), shape.source[1:])]
+            if shape.source[0] and not isinstance(vertices, Mesh):
+                raise Error("vertices must be a Mesh: the shape was made of one")
+            mesh = self._made_of(vertices, *given)
+            made = self._shape(mesh, (mesh is vertices, *given), shape.number)
+        gone, shape.records, shape.textures, shape.source = \
+            shape.textures, made.records, made.textures, made.source
+        numbers = [n for n, (of, _) in self._shown.items() if of is shape]
+        whole = self._scene.records()
+        kept = [whole[~np.isin(whole["id"], numbers)]]
+        kept += [self._dressed(n, *self._shown[n]) for n in numbers]
+        self._set_records(np.concatenate(kept))
+        self._drop(gone)
 
     def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat")) -> int:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
         -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Surface."""
+        return self._make_texture(picture, wrap, None)
+
+    def _make_texture(self, picture: object, wrap: tuple[str, str], number: int | None) -> int:
         given = np.asarray(picture)
         faces = 6 if given.ndim == 4 else 1
         if faces == 6:
@@ -248,17 +314,34 @@ class Renderer:
             given = given.reshape(-1, *given.shape[2:])
         rgba = arguments.texture("picture", given)
         u, v = (WRAPS.index(arguments.choice("wrap", how, WRAPS)) for how in wrap)
-        return self._keep_texture(rgba, faces, u, v)
+        return self._keep_texture(number, rgba, faces, u, v)
 
-    def _keep_texture(self, rgba: Bytes, faces: int, u: int = 0, v: int = 0) -> int:
+    def _keep_texture(self, number: int | None, rgba: Bytes, faces: int, u: int = 0,
+                      v: int = 0) -> int:
         height, width = rgba.shape[:2]
-        got = library.python_scene_texture(self._scene.handle, pointer(rgba), width,
-                                           height // faces, faces, int(self.srgb), u, v)
-        if got < 0:
+        image = Image(pointer(rgba), width, height // faces, faces, int(self.srgb), u, v)
+        if number is None:
+            number = _free(self._textures)
+        if not library.python_scene_texture(self._scene.handle, number, ctypes.byref(image)):
             raise MemoryError("memory is not enough for the texture")
-        self._made.append(("texture", rgba, faces, u, v))
-        self._textures += 1
-        return int(got)
+        self._textures[number] = rgba, faces, u, v
+        return number
+
+    def update_texture(self, number: int, picture: object,
+                       wrap: tuple[str, str] = ("repeat", "repeat")) -> None:
+        """Puts another picture in the place of a texture, as texture() takes it; objects and a sky that
+        have the texture show it."""
+        self._texture_number("number", number)
+        if (np.asarray(picture).ndim == 4) != (self._textures[number][1] == 6):
+            raise Error(f"picture: texture {number} is {'' if self._textures[number][1] == 6 else 'no '}"
+                        "cube, and the picture is not")
+        self._make_texture(picture, wrap, number)
+
+    def _texture_number(self, name: str, number: object) -> int:
+        got = arguments.integer(name, number, 0, 2 ** 31 - 1)
+        if got not in self._textures:
+            raise Error(f"{name}: there is no texture {got}")
+        return got
 
     def checker(self, one: object = "#5a6e82", other: object = "#8fa3b5") -> int:
         """A texture of 2 x 2 squares, which repeats."""
@@ -277,8 +360,8 @@ class Renderer:
         return [float(x) for x in rgb[:3] / (255 if rgb.dtype.kind in "iu" else 1)]
 
     def add(self, shape: str | Shape, size: object = None, at: Sequence[float] = (0, 0, 0),
-            pose: object = None, *, color: object = "white", alpha: float = 1.0,
-            specular: float = 0.0, shininess: float = 32.0, emission: float = 0.0,
+            pose: object = None, *, color: object = None, alpha: float | None = None,
+            specular: object = None, shininess: float | None = None, emission: float | None = None,
             texture: int | None = None, repeat: Sequence[float] = (1, 1), two_sided: bool = False,
             casts_shadow: bool = True) -> int:
         """Adds an object and returns its number, which ids have.
@@ -286,49 +369,97 @@ class Renderer:
         shape is a Shape of mesh() or height_field(), of which size is the scale, or one of "plane"
         (half its sides; none: endless), "sphere" (radius), "ellipsoid" (radii), "capsule" and
         "cylinder" (radius, half the length along z; a capsule's without its ends) and "box" (half its
-        sides).  pose is 4 x 4, or at the place alone.  alpha below 1 blends over what is behind; such
-        objects are not in depth, ids and normals.  repeat are texture repeats: of uv, or a metre.
+        sides).  pose is 4 x 4, or at the place alone.  color and alpha, white and 1 without a word,
+        multiply those of the shape; specular, a number or a colour, shininess, emission, which
+        multiplies the colour, and texture take the place of what the shape has.  alpha below 1 blends
+        over what is behind; such objects are not in depth, ids and normals.  repeat are texture
+        repeats: of uv, or a metre.
         """
-        one = np.zeros(1, SOLID)
-        o = one[0]
         if isinstance(shape, Shape):
-            if not 0 <= shape.number < self._meshes:
-                raise Error("shape must be of this renderer")
-            scale = np.ones(3) if size is None else np.broadcast_to(np.asarray(size, float), 3)
-            o["mesh"], o["size"] = shape.number, arguments.floats("size", scale, (3,), True)
+            self._known(shape)
         else:
             arguments.choice("shape", shape, list(SHAPES))
-            o["kind"], o["size"] = _KINDS[shape], self._size(shape, size)
-        o["texture"] = shape.texture if isinstance(shape, Shape) else -1
-        if texture is not None:
-            o["texture"] = arguments.integer("texture", texture, 0, self._textures - 1)
-        o["flags"] = (_TWO_SIDED if arguments.flag("two_sided", two_sided) else 0) | \
-            (0 if arguments.flag("casts_shadow", casts_shadow) else _NO_SHADOW)
-        own = shape.alpha if isinstance(shape, Shape) else 1.0
-        o["rgba"][:3], o["rgba"][3] = self._clear(color, arguments.number("alpha", alpha, 0, 1) * own)
-        o["specular"] = arguments.number("specular", specular, 0, 1e6)
-        o["shininess"] = arguments.number("shininess", shininess, 0, 1e6)
-        o["emission"] = arguments.number("emission", emission, 0, 1e6)
-        o["repeat"] = arguments.floats("repeat", repeat, (2,), True)
-        self._put_pose(o, "pose" if pose is not None else "at", at, pose)
-        if self._count == len(self._objects):
-            self._objects = np.concatenate([self._objects, np.zeros(self._count, SOLID)])
-        self._objects[self._count] = o
-        self._count += 1
-        return self._count - 1
+        options = {name: value for name, value in (
+            ("color", color), ("alpha", alpha), ("specular", specular), ("shininess", shininess),
+            ("emission", emission), ("texture", texture), ("repeat", repeat),
+            ("two_sided", two_sided), ("casts_shadow", casts_shadow)) if value is not None}
+        records = self._records(shape, options)
+        records["size"] = self._size(shape, size)
+        if pose is None:
+            records["place"] = arguments.floats("at", at, (3,), True)
+        else:
+            m = arguments.rigid("pose", pose)
+            records["place"], records["turn"] = m[:3, 3], m[:3, :3]
+        number = library.python_scene_add(self._scene.handle, pointer(records), len(records))
+        if number < 0:
+            raise MemoryError("memory is not enough for the object")
+        self._shown[number] = shape, options
+        return int(number)
 
-    def _clear(self, color: object, alpha: float) -> tuple[list[float], float]:
-        """A colour, and alpha times its own."""
+    def change(self, number: int, *, size: object = None, **options: Any) -> None:
+        """Changes what is given of an object: size, color, alpha, specular, shininess, emission,
+        texture, repeat, two_sided and casts_shadow, as add() takes them.  What is None is as it would
+        be without a word."""
+        self._object(number)
+        shape, old = self._shown[number]
+        for name in options:
+            arguments.choice("option", name, ["color", "alpha", "specular", "shininess", "emission",
+                                              "texture", "repeat", "two_sided", "casts_shadow"])
+        new = {name: value for name, value in {**old, **options}.items() if value is not None}
+        records = self._dressed(number, shape, new)
+        if size is not None:
+            records["size"] = self._size(shape, size)
+        self._object(number)[:] = records
+        self._shown[number] = shape, new
+
+    def _dressed(self, number: int, shape: str | Shape, options: dict[str, Any]) -> Array:
+        """The records of an object with a shape and options as they are by now, where it is."""
+        records, old = self._records(shape, options), self._object(number)[0]
+        for name in ("id", "size", "turn", "place"):
+            records[name] = old[name]
+        records["flags"] |= old["flags"] & _HIDDEN
+        return records
+
+    def _records(self, shape: str | Shape, options: dict[str, Any]) -> Array:
+        """The records of an object that is not in its place yet."""
+        if isinstance(shape, Shape):
+            records = shape.records.copy()
+        else:
+            records = _PLAIN.copy()
+            records["kind"] = _KINDS[shape]
+        rgb, own = self._clear(options.get("color", "white"))
+        records["rgba"][:, :3] *= np.asarray(rgb, np.float32)
+        records["rgba"][:, 3] *= own * arguments.number("alpha", options.get("alpha", 1), 0, 1)
+        for name in ("specular", "shininess", "emission"):
+            value: Any = options.get(name)
+            if name == "specular" and (np.ndim(value) == 1 or isinstance(value, str)):
+                records[name] = self._color(name, value)
+            elif value is not None:
+                records[name] = arguments.number(name, value, 0, 1e6)
+        if "texture" in options:
+            records["texture"] = self._texture_number("texture", options["texture"])
+        records["repeat"] = arguments.floats("repeat", options.get("repeat", (1, 1)), (2,), True)
+        if arguments.flag("two_sided", options.get("two_sided", False)):
+            records["flags"] |= _TWO_SIDED
+        if not arguments.flag("casts_shadow", options.get("casts_shadow", True)):
+            records["flags"] |= _NO_SHADOW
+        return records
+
+    def _clear(self, color: object) -> tuple[list[float], float]:
+        """A colour, and its alpha, 1 where it has none."""
         if isinstance(color, str):
-            return self._color("color", color), alpha
+            return self._color("color", color), 1.0
         got = arguments.displayed("color", color)
         own = float(got[3]) / (255 if got.dtype.kind in "iu" else 1) if len(got) == 4 else 1.0
         if not 0 <= own <= 1:
             raise Error(f"color must have an alpha from 0 to 1, or to 255 in whole numbers, not {own:g}")
-        return self._color("color", got[:3]), alpha * own
+        return self._color("color", got[:3]), own
 
     @staticmethod
-    def _size(shape: str, size: object) -> Floats:
+    def _size(shape: str | Shape, size: object) -> Floats:
+        if isinstance(shape, Shape):
+            scale = np.ones(3) if size is None else np.broadcast_to(np.asarray(size, float), 3)
+            return arguments.floats("size", scale, (3,), True)
         wanted = SHAPES[shape]
         if size is None and shape == "plane":
             return np.zeros(3, np.float32)
@@ -339,53 +470,127 @@ class Renderer:
                 "plane": [0, 1, 1]}.get(shape, [0, 1, 2])
         return np.asarray(got[full], np.float32)
 
-    @staticmethod
-    def _put_pose(o: Any, name: str, at: object, pose: object) -> None:
-        if pose is None:
-            o["place"], o["turn"] = arguments.floats(name, at, (3,), True), np.eye(3)
-            return
-        m = arguments.rigid(name, pose)
-        o["place"], o["turn"] = m[:3, 3], m[:3, :3]
+    @property
+    def objects(self) -> list[int]:
+        """The numbers of all objects, in order."""
+        return sorted(self._shown)
+
+    def _object(self, number: object) -> Array:
+        got = arguments.integer("number", number, 0, 2 ** 31 - 1)
+        if got not in self._shown:
+            raise Error(f"number: there is no object {got}")
+        return self._scene.records(got)
+
+    def _known(self, shape: object) -> None:
+        if not isinstance(shape, Shape) or shape.number not in self._meshes or not shape.source:
+            raise Error("shape must be of this renderer")
 
     def pose(self, number: int, pose: object) -> None:
         """Moves an object: 4 x 4, a rotation and a translation."""
-        arguments.integer("number", number, 0, self._count - 1)
-        self._put_pose(self._objects[number], f"pose of object {number}", None, pose)
+        records, m = self._object(number), arguments.rigid(f"pose of object {number}", pose)
+        records["place"], records["turn"] = m[:3, 3], m[:3, :3]
 
-    def poses(self, poses: object) -> None:
-        """Moves all objects: (n, 4, 4), a row for each; nothing moves where one is refused."""
-        got = arguments.rigid("poses", poses, self._count)
-        self._objects["turn"][:self._count] = got[:, :3, :3]
-        self._objects["place"][:self._count] = got[:, :3, 3]
+    def poses(self, poses: object, numbers: Sequence[int] | None = None) -> None:
+        """Moves the objects of numbers, or all in the order of their numbers: (n, 4, 4), a row for each;
+        nothing moves where one is refused."""
+        which = self.objects if numbers is None else list(numbers)
+        for number in () if numbers is None else which:
+            self._object(number)
+        self._pose("poses", arguments.doubles("poses", poses, (len(which), 4, 4)), None,
+                   None if numbers is None else np.asarray(which, np.int32))
+
+    def _pose(self, name: str, rows: Any, to: Any, numbers: Any = None) -> None:
+        rows = np.ascontiguousarray(rows, np.float64)
+        refused = library.python_scene_pose(self._scene.handle, pointer(to), pointer(numbers),
+                                            pointer(rows), len(rows))
+        if refused >= 0:
+            raise Error(f"{name}[{refused}] must be a rotation and a translation, without scale, with "
+                        "0, 0, 0, 1 in the last row")
 
     def show(self, number: int, visible: bool = True) -> None:
         """Hides an object, or shows it again."""
-        arguments.integer("number", number, 0, self._count - 1)
-        kept = self._objects["flags"][number] & ~_HIDDEN
-        self._objects["flags"][number] = kept | (0 if arguments.flag("visible", visible) else 1)
+        flags = self._object(number)["flags"]
+        flags &= ~_HIDDEN
+        flags |= 0 if arguments.flag("visible", visible) else _HIDDEN
+
+    def remove(self, what: int | Shape) -> None:
+        """Takes away an object by its number, which the next one may have, or a shape that no object
+        shows, with the textures that came with it.  Its memory is given back."""
+        if not isinstance(what, Shape):
+            self._object(what)
+            library.python_scene_remove(self._scene.handle, what)
+            del self._shown[what]
+            return
+        self._known(what)
+        shown = [n for n, (shape, _) in self._shown.items() if shape is what]
+        if shown:
+            raise Error(f"what: object {shown[0]} shows the shape; remove that before")
+        library.python_scene_mesh(self._scene.handle, what.number, None, 0)
+        del self._meshes[what.number]
+        what.source = ()
+        self._drop(what.textures)
+
+    def remove_texture(self, number: int) -> None:
+        """Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with
+        it."""
+        self._texture_number("number", number)
+        whole = self._scene.records()
+        shown = whole["id"][whole["texture"] == number]
+        if len(shown) or number in self._owned or self._sky[:2] == (2, number):
+            who = f"object {shown[0]}" if len(shown) else \
+                "a shape" if number in self._owned else "the sky"
+            raise Error(f"number: {who} has texture {number}")
+        self._drop([number])
+
+    def _drop(self, textures: list[int]) -> None:
+        for number in textures:
+            library.python_scene_texture(self._scene.handle, number, None)
+            del self._textures[number]
+        self._owned.difference_update(textures)
+
+    def clear(self) -> None:
+        """Takes away all objects, shapes and textures, and gives back all memory; lamps and a
+        background of one colour stay."""
+        handle = self._scene.handle
+        library.python_scene_set(handle, None, 0)
+        for number in self._meshes:
+            library.python_scene_mesh(handle, number, None, 0)
+        for number in self._textures:
+            library.python_scene_texture(handle, number, None)
+        self._shown, self._meshes, self._textures, self._owned = {}, {}, {}, set()
+        if self._sky[0] == 2:
+            self._sky = (0, -1, (0.0,) * 3, (0.0,) * 3)
+        self._scene.rest()
+
+    def _set_records(self, records: Array) -> None:
+        if not library.python_scene_set(self._scene.handle, pointer(np.ascontiguousarray(records)),
+                                        len(records)):
+            raise MemoryError("memory is not enough for the objects")
 
     # ---- what it is lit by
 
     def light(self, lights: Sequence[Light], ambient: Sequence[float] = (0, 0, 0),
-              shadow: int | None = None) -> None:
-        """Up to 8 lamps, the ambient light, and the number of the one lamp, directional or a spot,
-        that casts shadows."""
+              shadow: int | Sequence[int] | None = None) -> None:
+        """Up to 8 lamps, the ambient light, and the number or numbers of the lamps, directional or
+        spots, that cast shadows."""
         lamps = list(lights)
         if len(lamps) > _LAMPS:
             raise Error(f"lights: at most {_LAMPS} lamps are drawn, not {len(lamps)}")
         for i, lamp in enumerate(lamps):
             if not isinstance(lamp, Light):
                 raise Error(f"lights[{i}] must be a shade_h.Light, not {arguments.shown(lamp)}")
-        number = -1
-        if shadow is not None:
-            number = arguments.integer("shadow", shadow, 0, len(lamps) - 1)
+        shadows = 0
+        one = shadow is None or not isinstance(shadow, (list, tuple, set, range, np.ndarray))
+        for which in [shadow] * (shadow is not None) if one else list(shadow):  # type: ignore[arg-type]
+            number = arguments.integer("shadow", which, 0, len(lamps) - 1)
             lamp = lamps[number]
             if lamp.position[3] != 0 and not any(lamp.spot_direction):
                 raise Error(f"shadow: lights[{number}] is a point; directional lamps and spots can "
                             "cast shadows")
+            shadows |= 1 << number
         made = (NativeLight * max(1, len(lamps)))(*(lamp.native() for lamp in lamps))
         ambient_light = arguments.doubles("ambient", ambient, (3,), finite=True).tolist()
-        self._lights, self._lamps, self._shadow = lamps, made, number
+        self._lights, self._lamps, self._shadows = lamps, made, shadows
         self._ambient = tuple(ambient_light)
 
     def background(self, color: object) -> None:
@@ -399,21 +604,21 @@ class Renderer:
 
     def sky_texture(self, texture: int) -> None:
         """A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL."""
-        number = arguments.integer("texture", texture, 0, self._textures - 1)
-        if [m for m in self._made if m[0] == "texture"][number][2] != 6:
+        number = self._texture_number("texture", texture)
+        if self._textures[number][1] != 6:
             raise Error(f"texture {number} is no cube")
         self._sky = (2, number, (0.0,) * 3, (0.0,) * 3)
 
     # ---- pictures
 
     def frame(self, color: bool = True, depth: bool = True, ids: bool = True,
-              normals: bool = False) -> Frame:
-        """New arrays for render(out=)."""
-        h, w = self.height, self.width
-        return Frame(np.empty((h, w, 3), np.uint8) if color else None,
-                     np.empty((h, w), np.float32) if depth else None,
-                     np.empty((h, w, 2), np.int32) if ids else None,
-                     np.empty((h, w, 3), np.float32) if normals else None)
+              normals: bool = False, pictures: int | None = None) -> Frame:
+        """New arrays for render(out=), or for so many pictures of render_batch(out=)."""
+        size = (*(() if pictures is None else (pictures,)), self.height, self.width)
+        return Frame(np.empty((*size, 3), np.uint8) if color else None,
+                     np.empty(size, np.float32) if depth else None,
+                     np.empty((*size, 2), np.int32) if ids else None,
+                     np.empty((*size, 3), np.float32) if normals else None)
 
     def render(self, camera: Camera, out: Frame | None = None, *, normals: bool = False,
                solid: bool = False, empty_depth: float = float("inf")) -> Frame:
@@ -422,37 +627,89 @@ class Renderer:
         out is a Frame whose arrays are filled; those that are None are left out.  color may have 4
         channels.  depth is empty_depth where there is nothing.  With solid=True alpha is ignored.
         """
-        if not isinstance(camera, Camera):
-            raise Error(f"camera must be a shade_h.Camera, not {arguments.shown(camera)}")
+        near, far, parallel, camera = self._seen("camera", camera)
         frame = self.frame(normals=normals) if out is None else self._checked(out)
-        camera = camera.sized(self.width, self.height)
-        near, far, parallel = _range_of(camera.projection)
         return self._draw(frame, camera.view, camera.projection, near, far, parallel, solid,
                           empty_depth)
 
-    def _draw(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
-              parallel: bool, solid: bool, empty_depth: float) -> Frame:
-        sky, sky_texture, low, high = self._sky
-        shot = SHOT.pack(
-            self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
-            self.srgb, bool(solid), parallel, self._count, len(self._lights), self._shadow,
-            sky, sky_texture, near, far, ctypes.c_float(empty_depth).value,
-            self.tolerance,
-            *view.T.ravel().tolist(), *projection.T.ravel().tolist(), *self._background, *low, *high,
-            *self._ambient, pointer(self._objects), ctypes.addressof(self._lamps),
-            *(pointer(array) or 0 for array in frame))
-        scratch = self._scene.take()
-        try:
-            check(library.python_renderer_draw(scratch, self._scene.handle, shot),
-                  "camera")
-        finally:
-            self._scene.free.append(scratch)
+    def _seen(self, name: str, camera: object) -> tuple[float, float, bool, Camera]:
+        if not isinstance(camera, Camera):
+            raise Error(f"{name} must be a shade_h.Camera, not {arguments.shown(camera)}")
+        camera = camera.sized(self.width, self.height)
+        return (*_range_of(camera.projection), camera)
+
+    def render_batch(self, cameras: Sequence[Camera] | Camera, poses: object = None,
+                     out: Frame | None = None, *, normals: bool = False, solid: bool = False,
+                     empty_depth: float = float("inf"), threads: int = 0) -> Frame:
+        """A picture for each camera, as render() draws it, in one Frame whose arrays begin with their
+        number; by threads, 0 for one a core.
+
+        poses, (pictures, objects, 4, 4), are those of all objects in the order of their numbers, for
+        each picture its own; the objects stay where they were.  One camera then serves all.
+        """
+        moved = None
+        if poses is not None:
+            moved = arguments.doubles("poses", poses, (None, len(self._shown), 4, 4))
+        seen = [cameras] * (1 if moved is None else len(moved)) if isinstance(cameras, Camera) \
+            else list(cameras)
+        if moved is not None and len(moved) != len(seen):
+            raise Error(f"poses must have a row for each of {len(seen)} cameras, not {len(moved)}")
+        shots = [self._seen(f"cameras[{i}]", camera) for i, camera in enumerate(seen)]
+        frame = self.frame(normals=normals, pictures=len(seen)) if out is None else \
+            self._checked(out, (len(seen),))
+        whole, records = self._scene.records(), None
+        if moved is not None:
+            records = np.tile(whole, (len(moved), 1))
+            for i, rows in enumerate(moved):
+                self._pose(f"poses[{i}]", rows, records[i])
+        packed = b"".join(
+            self._shot(Frame(*(None if array is None else array[i] for array in frame)), camera.view,
+                       camera.projection, near, far, parallel, solid, empty_depth,
+                       None if records is None else records[i])
+            for i, (near, far, parallel, camera) in enumerate(shots))
+        count = arguments.integer("threads", threads, 0, 256) or os.cpu_count() or 1
+        scratch = [self._scene.take() for _ in range(max(1, min(count, len(seen), 256)))]
+
+        def draw(stop: ctypes.c_int) -> int:
+            handles = (ctypes.c_void_p * len(scratch))(*scratch)
+            drawn: int = library.python_renderer_draw(
+                handles, len(scratch), self._scene.handle, packed, len(seen), ctypes.addressof(stop))
+            self._scene.free += scratch
+            del kept[:]
+            return drawn
+
+        kept = [frame, records, self._lamps]
+        check(interruptible(draw), "camera")
         return frame
 
-    def _checked(self, out: object) -> Frame:
+    def _shot(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
+              parallel: bool, solid: bool, empty_depth: float, objects: Array | None) -> bytes:
+        """A picture as the library is asked for it; objects None: those of the scene."""
+        sky, sky_texture, low, high = self._sky
+        return SHOT.pack(
+            self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
+            self.srgb, bool(solid), parallel, 0 if objects is None else len(objects),
+            len(self._lights), self._shadows, sky, sky_texture, near, far,
+            ctypes.c_float(empty_depth).value, self.tolerance,
+            *view.T.ravel().tolist(), *projection.T.ravel().tolist(), *self._background, *low, *high,
+            *self._ambient, pointer(objects) or 0, ctypes.addressof(self._lamps),
+            *(pointer(array) or 0 for array in frame))
+
+    def _draw(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
+              parallel: bool, solid: bool, empty_depth: float, objects: Array | None = None) -> Frame:
+        shot = self._shot(frame, view, projection, near, far, parallel, solid, empty_depth, objects)
+        scratch = ctypes.c_void_p(self._scene.take())
+        try:
+            check(library.python_renderer_draw(ctypes.byref(scratch), 1, self._scene.handle, shot, 1,
+                                               None), "camera")
+        finally:
+            self._scene.free.append(int(scratch.value or 0))
+        return frame
+
+    def _checked(self, out: object, pictures: tuple[int, ...] = ()) -> Frame:
         if not isinstance(out, Frame):
             raise Error(f"out must be a shade_h.Frame, not {arguments.shown(out)}")
-        size = (self.height, self.width)
+        size = (*pictures, self.height, self.width)
         if out.color is not None:
             channels = np.shape(out.color)[-1:] == (4,)
             arguments.into("out.color", out.color, (*size, 4 if channels else 3), np.uint8)
@@ -468,17 +725,25 @@ class Renderer:
     def __getstate__(self) -> dict[str, Any]:
         """All but what the library holds."""
         state = {k: v for k, v in self.__dict__.items() if k not in ("_scene", "_lamps")}
-        return {**state, "_objects": self._objects.copy()}
+        return {**state, "records": self._scene.records().copy()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """Gives the meshes and textures to the library again."""
+        """Gives the meshes, textures and objects to the library again."""
+        records = state.pop("records")
         self.__dict__.update(state)
-        made, self._made, self._scene = self._made, [], _Scene()
-        self._meshes = self._textures = 0
-        for what, *rest in made:
-            if what == "mesh":
-                self._keep_mesh(*rest)
-            else:
-                self._keep_texture(*rest)
-        shadow = None if self._shadow < 0 else self._shadow
-        self.light(self._lights, self._ambient, shadow)
+        self._scene = _Scene()
+        for number, mesh in list(self._meshes.items()):
+            self._keep_mesh(number, *mesh)
+        for number, texture in list(self._textures.items()):
+            self._keep_texture(number, *texture)
+        self._set_records(records)
+        self.light(self._lights, self._ambient,
+                   [k for k in range(_LAMPS) if self._shadows >> k & 1])
+
+
+def _free(taken: Any) -> int:
+    """The least number that is not taken."""
+    number = 0
+    while number in taken:
+        number += 1
+    return number

@@ -598,11 +598,11 @@ def test_bad_input_has_a_name_and_changes_nothing():
             ("size must hold finite", lambda: made.add("box", (1, 2, np.nan))),
             ("pose of object 3 must hold finite", lambda: made.pose(3, nan)),
             ("pose of object 3 must be a rotation", lambda: made.pose(3, 2 * np.eye(4))),
-            ("number must be from 0 to 23", lambda: made.pose(24, np.eye(4))),
+            ("number: there is no object 24", lambda: made.pose(24, np.eye(4))),
             (r"poses\[5\] must be a rotation", lambda: made.poses(
                 [np.eye(4) * (2 if i == 5 else 1) for i in range(24)])),
             (r"poses must have the shape \(24, 4, 4\)", lambda: made.poses(np.zeros((3, 4, 4)))),
-            ("texture must be from 0 to 0", lambda: made.add("sphere", 1, texture=3)),
+            ("texture: there is no texture 3", lambda: made.add("sphere", 1, texture=3)),
             ("texture 0 is no cube", lambda: made.sky_texture(0)),
             ("heights must have two rows", lambda: made.height_field([[1.0]], (1, 1))),
             ("at most 8 lamps", lambda: made.light([shade.Light.point((0, 0, 1))] * 9)),

@@ -152,10 +152,6 @@ def test_a_renderer_draws_the_colours_and_textures_of_a_file(tmp_path):
     made = shade.Renderer(40, 40)
     made.add(made.mesh(shade.Mesh(*quad, color="blue")))
     assert face_on(made)[20, 20].tolist() == [0x1F, 0x77, 0xB4]
-    both = shade.Mesh(np.concatenate([quad[0], np.add(quad[0], (0, 0, 1))]), [[0, 1, 2, 3], [4, 5, 6, 7]],
-                      uv=np.zeros((8, 2)), surfaces=([0, 1], [shade.Surface(None, texels), shade.Surface()]))
-    with pytest.raises(shade.Error, match="an object one texture"):
-        made.mesh(both)
 
 
 # ---- the packages whose names are here
@@ -168,7 +164,7 @@ def test_primitives_of_scenes_that_are_gone_leave_the_renderer():
         for _ in range(3):
             scene.add(pyrender.Mesh([pyrender.Primitive(np.random.rand(30, 3))]))
         renderer.render(scene)
-        assert len(renderer._shapes) <= 17 and len(renderer._base._made) <= 17
+        assert len(renderer._shapes) <= 17 and len(renderer._base._meshes) <= 17
     renderer.delete()
     assert renderer.render(scene)[0].shape == (8, 8, 3)
 

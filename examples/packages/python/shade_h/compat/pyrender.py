@@ -759,7 +759,7 @@ class OffscreenRenderer:
         if len(self._shapes) > 2 * len({id(p) for p in drawn}) + 8:    # most are of scenes that are gone
             self._base = None
         base = self._made()
-        base._count = 0
+        parts: list[Array] = []
         for node, pose in scene._walk():
             if node.camera is not None:
                 cameras.append((node, pose))
@@ -771,11 +771,12 @@ class OffscreenRenderer:
         for node, pose in scene._walk():
             if node.mesh is not None and node.mesh.is_visible:
                 for primitive in node.mesh.primitives:
-                    if primitive.mode == GLTF.POINTS:
-                        self._put_points(base, primitive, pose, main[0])
-                    else:
-                        self._put(base, primitive, pose, flags)
-                    used += [node] * (base._count - len(used))
+                    parts.append(self._points(primitive, pose, main[0])
+                                 if primitive.mode == GLTF.POINTS
+                                 else self._records(base, primitive, pose, flags))
+                    used += [node] * len(parts[-1])
+        objects = np.concatenate([*parts, np.zeros(0, SOLID)])
+        objects["id"] = np.arange(len(objects))
         self._light(base, scene, lamps, flags)
         p = main[0][0].camera.get_projection_matrix(self.viewport_width, self.viewport_height)
         h, w = self.viewport_height, self.viewport_width
@@ -786,7 +787,7 @@ class OffscreenRenderer:
         camera = main[0][0].camera
         far = 3e30 if camera.zfar is None else camera.zfar
         base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]), p, max(camera.znear, 1e-6), far,
-                   bool(p[3, 3]), seg, 0.0)
+                   bool(p[3, 3]), seg, 0.0, objects)
         if flags & RenderFlags.DEPTH_ONLY:
             return depth
         if ids is None:
@@ -798,7 +799,7 @@ class OffscreenRenderer:
                 table[i + 1] = np.broadcast_to(shown, 3)
         return table[ids[..., 0] + 1], depth
 
-    def _put(self, base: _Renderer, primitive: Primitive, pose: Array, flags: int) -> None:
+    def _records(self, base: _Renderer, primitive: Primitive, pose: Array, flags: int) -> Array:
         known = self._shapes.get(id(primitive))
         if known is None:
             m, uv = primitive.material, primitive.texcoord_0
@@ -807,14 +808,13 @@ class OffscreenRenderer:
                 texture = base.texture(m.baseColorTexture)
             if uv is not None:
                 uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
-            shape = base._keep_mesh(primitive.positions, primitive.normals, uv, primitive.color_0,
-                                    primitive.indices)
+            shape = base._keep_mesh(None, primitive.positions, primitive.normals, uv,
+                                    primitive.color_0, primitive.indices)
             known = self._shapes[id(primitive)] = (primitive, shape.number, texture)
         m = primitive.material
-        for place in [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]:
-            self._room(base, 1)
-            o = base._objects[base._count]
-            base._objects[base._count] = np.zeros((), SOLID)
+        places = [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]
+        made = np.zeros(len(places), SOLID)
+        for o, place in zip(made, places):
             size = np.maximum(np.linalg.norm(place[:3, :3], axis=0), 1e-30)
             o["mesh"], o["texture"], o["size"] = known[1], known[2], size
             o["turn"], o["place"] = place[:3, :3] / size, place[:3, 3]
@@ -832,41 +832,32 @@ class OffscreenRenderer:
             o["repeat"] = 1
             if flags & RenderFlags.FLAT:
                 o["emission"], o["specular"], o["tint"], o["metal"] = 1, 0, 0, 0
-            base._count += 1
+        return made
 
-    @staticmethod
-    def _room(base: _Renderer, count: int) -> None:
-        """Makes room for so many objects more."""
-        missing = base._count + count - len(base._objects)
-        if missing > 0:
-            more = max(missing, len(base._objects))
-            base._objects = np.concatenate([base._objects, np.zeros(more, SOLID)])
-
-    def _put_points(self, base: _Renderer, primitive: Primitive, pose: Array,
-                    eye: tuple[Node, Array]) -> None:
+    def _points(self, primitive: Primitive, pose: Array, eye: tuple[Node, Array]) -> Array:
         """Balls that glow in their colours, as wide as point_size pixels, and a pixel at least."""
         p = eye[0].camera.get_projection_matrix(self.viewport_width, self.viewport_height)
         view = np.linalg.inv(eye[1])
+        made = [np.zeros(0, SOLID)]
         for place in [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]:
             at = primitive.positions @ place[:3, :3].T + place[:3, 3]
             depth = 1 if p[3, 3] else np.maximum(-(at @ view[2, :3] + view[2, 3]), 1e-6)
             # half the diagonal of a pixel, so that a ball reaches the centre of one
             radius = 0.71 * max(self.point_size, 1.0) * 2 / self.viewport_height * depth / p[1, 1]
-            self._room(base, len(at))
-            o = base._objects[base._count:base._count + len(at)]
-            o[:] = np.zeros((), SOLID)
+            o = np.zeros(len(at), SOLID)
+            made.append(o)
             o["kind"], o["texture"], o["place"], o["turn"] = _BALL, -1, at, np.eye(3)
             o["size"] = np.broadcast_to(np.reshape(radius, (-1, 1)), (len(at), 3))
             o["flags"] = _NO_SHADOW
             factor = np.asarray(primitive.material.baseColorFactor)
             o["rgba"][:, :3] = factor[:3] if primitive.color_0 is None else factor[:3] * primitive.color_0
             o["rgba"][:, 3], o["emission"] = 1, 1
-            base._count += len(at)
+        return np.concatenate(made)
 
     @staticmethod
     def _light(base: _Renderer, scene: Scene, lamps: list[tuple[Light, Array]], flags: int) -> None:
         made: list[_Lamp] = []
-        shadow = None
+        shadow: list[int] = []
         for light, pose in lamps[:8]:
             power = light.intensity / math.pi
             color = (light.color[0] * power, light.color[1] * power, light.color[2] * power)
@@ -879,12 +870,12 @@ class OffscreenRenderer:
                 wanted = RenderFlags.SHADOWS_SPOT
             else:
                 lamp, wanted = _Lamp.point(at, color, attenuation=(0, 0, 1)), 0
-            if flags & wanted and shadow is None:
-                shadow = len(made)
+            if flags & wanted:
+                shadow.append(len(made))
             made.append(lamp)
         flat = bool(flags & RenderFlags.FLAT)
         base.light([] if flat else made, (0, 0, 0) if flat else scene.ambient_light.tolist(),
-                   None if flat else shadow)
+                   [] if flat else shadow)
         base._background = (*base._color("bg_color", scene.bg_color[:3]),
                             float(scene.bg_color[3]) if len(scene.bg_color) > 3 else 1.0)
 
