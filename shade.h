@@ -52,33 +52,33 @@
      Public
        >>config     124  options               >>types      250  materials, lamps, targets, states
        >>light      427  the equation, colour  >>draw       534  shaders, meshes, pixels
-       >>tools      678  why, lines, rays, ... >>plumbing   857  compilers, flags and bits
-       >>math       994  vectors and matrices
+       >>tools      678  why, lines, rays, ... >>plumbing   856  compilers, flags and bits
+       >>math       993  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1354  processors            >>base      1579  bits, masks, rows of vectors
-       >>matrix    1777  cameras, inverses     >>power     2054  x^n
-       >>pixels    2120  formats, sRGB
+       >>machine   1353  processors            >>base      1578  bits, masks, rows of vectors
+       >>matrix    1776  cameras, inverses     >>power     2053  x^n
+       >>pixels    2119  formats, sRGB
      Inside: light
-       >>lamps     2427  attenuation, cones    >>terms     2679  one term at one point
-       >>surface   2754  material and lights   >>lit       2869  the whole sum, at many points
+       >>lamps     2426  attenuation, cones    >>terms     2678  one term at one point
+       >>surface   2753  material and lights   >>lit       2868  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3257  who owns what         >>vertices  3463  shading, projection
-       >>triangles 3672  dropped, cut, edges   >>clip      4031  near, far, behind the eye
-       >>tiles     4222  pixels, depth test    >>cover     4583  what is hidden, tile by tile
-       >>fragments 4852  interpolation, lod    >>texture   5136  texels, filters
-       >>store     5580  blending, packing
+       >>state     3256  who owns what         >>vertices  3462  shading, projection
+       >>triangles 3671  dropped, cut, edges   >>clip      4030  near, far, behind the eye
+       >>tiles     4221  pixels, depth test    >>cover     4582  what is hidden, tile by tile
+       >>fragments 4851  interpolation, lod    >>texture   5135  texels, filters
+       >>store     5579  blending, packing
      Inside: calls of the renderer
-       >>check     5830  refusals              >>seen      6032  what can be seen, chunks
-       >>drive     6154  shade_draw            >>mesh      6342  shade_draw_mesh
+       >>check     5829  refusals              >>seen      6031  what can be seen, chunks
+       >>drive     6153  shade_draw            >>mesh      6341  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6742  shade_draw_lines      >>camera    6931  where a draw is seen from
-       >>shape     7025  normals, edges        >>chunks    7390  how boxes are made
-       >>rays      7558  shade_pick            >>survey    7745  experiments on a draw
-       >>explain   8207  why nothing is seen   >>replay    9375  of lines, pipelines
-       >>image     9702  makes mipmaps, PPM    >>presets  10026  classic materials
+       >>lines     6741  shade_draw_lines      >>camera    6930  where a draw is seen from
+       >>shape     7024  normals, edges        >>chunks    7389  how boxes are made
+       >>rays      7557  shade_pick            >>survey    7744  experiments on a draw
+       >>explain   8206  why nothing is seen   >>replay    9374  of lines, pipelines
+       >>image     9701  makes mipmaps, PPM    >>presets  10025  classic materials
      Sources
-       >>refs     10111                        >>history  10141
-       >>license  10147
+       >>refs     10110                        >>history  10140
+       >>license  10146
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -500,8 +500,8 @@ SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light);
 SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
                                     float exponent);
 /* B max(0, N.H)^n with H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12. [Blinn77] */
-SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light,
-                                          shade_vec3 to_eye, float exponent);
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                          float exponent);
 /* 1 / (a + b r + c r^2), at most 1e20.  It is 1 where a = b = c = 0; where only a is 0, r counts as
    max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
@@ -695,8 +695,8 @@ SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh 
    give: positions that are NaN or out of view, discarded, black or transparent pixels, what
    raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                        const uint32_t *indices, int index_count,
-                                        int vertex_count, const shade_stats *stats);
+                                        const uint32_t *indices, int index_count, int vertex_count,
+                                        const shade_stats *stats);
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
@@ -742,8 +742,7 @@ SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
-SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
-                                        shade_vec3 *high);
+SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low, shade_vec3 *high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
@@ -2381,8 +2380,8 @@ SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes, con
 }
 
 /* Loads a pixel in packed form, or its four floats into rows that are SHADE_LANES apart. */
-SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p,
-                                     uint32_t *packed, float *rgba)
+SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p, uint32_t *packed,
+                                     float *rgba)
 {
     if (l->bytes < 16) *packed = shade__load_packed(p, l->bytes, l->swapped);
     else
@@ -2390,8 +2389,8 @@ SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p,
 }
 
 /* Stores a pixel from its packed form, or from four rows of floats that are SHADE_LANES apart. */
-SHADE__INLINE void shade__store_pixel(const shade__layout *l, uint8_t *p,
-                                      uint32_t packed, const float *rgba)
+SHADE__INLINE void shade__store_pixel(const shade__layout *l, uint8_t *p, uint32_t packed,
+                                      const float *rgba)
 {
     const uint16_t half = (uint16_t)(l->swapped ? shade__swap16(packed) : packed);
     if (l->bytes == 4) SHADE_MEMCPY(p, &packed, 4);
@@ -2639,8 +2638,8 @@ SHADE__DISPATCH(shade__arrive,
                 (lamp, point, n, a),
                 shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
 
-SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
-                                   float *to_light, float *amount)
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
+                                   float *amount)
 {
     shade__arrival a;
     shade__lamp lamp;
@@ -2658,8 +2657,8 @@ static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
     for (int i = 0; i < SHADE__POINT; i++) shade__put(rows, i, v);
 }
 
-SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
-                              shade_vec3 *to_light, float *distance)
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
+                              float *distance)
 {
     shade__arrival a;
     shade__v3 block;
@@ -2707,8 +2706,8 @@ static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 normal, shad
     return shade__is_zero(half) ? 0 : shade_power(shade_dot(normal, half), exponent);
 }
 
-SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light,
-                                    shade_vec3 to_eye, float exponent)
+SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                    float exponent)
 {
     return shade_dot(normal, to_light) > 0
         ? shade__highlight(1, normal, to_light, to_eye, exponent) : 0;
@@ -2743,8 +2742,8 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
     return model == SHADE_MODEL_LAMBERT ? m.diffuse : shade_v3(0, 0, 0);
 }
 
-SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light,
-                                       shade_vec3 cool, shade_vec3 warm)
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, shade_vec3 cool,
+                                       shade_vec3 warm)
 {
     return shade_lerp(cool, warm, 0.5f + 0.5f * shade_dot(normal, to_light));
 }
@@ -2793,8 +2792,8 @@ SHADE__INLINE shade_vec3 shade__product(unsigned on, shade_vec3 k, shade_vec3 li
     return on ? shade_mul(k, light) : shade_v3(0, 0, 0);
 }
 
-static void shade__reflect_lamp(const shade__surface *s,
-                                const shade_light *light, shade__lamp *lamp)
+static void shade__reflect_lamp(const shade__surface *s, const shade_light *light,
+                                shade__lamp *lamp)
 {
     const shade_material *m = &s->material;
     const unsigned flags = s->lighting->flags, terms = s->terms;
@@ -2904,8 +2903,8 @@ SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 point)
 }
 
 /* Flips the sign of rn where N points away from the viewer. */
-SHADE__INLINE void shade__two_sides(shade__in_v3 point, shade__in_v3 normal,
-                                    shade_vec4 eye, const int n, shade__out rn)
+SHADE__INLINE void shade__two_sides(shade__in_v3 point, shade__in_v3 normal, shade_vec4 eye,
+                                    const int n, shade__out rn)
 {
     SHADE__FOR(i, n) {
         shade_vec3 to_eye = shade__view(eye, shade__at(point, i));
@@ -3102,9 +3101,9 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r, shade_
 /* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight).  surface->sign turns N.L
    into |N.L| for TWO_SIDED_ABS.  Lanes out of the lamp's reach add exactly 0: N.L may be infinite
    there.  plain: albedo and tint are 1. */
-SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
-                                  shade__in_v3 albedo, shade__in_v3 tint, const int plain,
-                                  const int n, shade__out_v3 rgb)
+SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r, shade__in_v3 albedo,
+                                  shade__in_v3 tint, const int plain, const int n,
+                                  shade__out_v3 rgb)
 {
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
     const uint32_t sign = r->surface->sign, open = r->surface->open;
@@ -3129,8 +3128,8 @@ SHADE__INLINE void shade__raise(shade__in base, float exponent, const int n, sha
     SHADE__FOR(i, n) { power[i] = shade__exp2_neg(power[i]); }
 }
 
-SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
-                                const int n, shade__lit *r)
+SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal, const int n,
+                                shade__lit *r)
 {
     const shade__surface *s = r->surface;
     if (shade__is_zero(r->lamp->specular)) {
@@ -3754,8 +3753,8 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stri
 
 /* area: twice the signed area.  inverse: 256 / |area|, or 256 for an area of 0: programs may trap
    divisions by zero. */
-SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
-                                shade__out area, double *SHADE_RESTRICT inverse)
+SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c, shade__out area,
+                                double *SHADE_RESTRICT inverse)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         double x1 = c->x[1][i] - c->x[0][i], y1 = c->y[1][i] - c->y[0][i];
@@ -3821,8 +3820,8 @@ SHADE__INLINE int64_t shade__whole(double x)
    integer v = 256 e + rest, e = floor(v / 256) is v / 256 - 127.5/256 rounded to the nearest.
    Left edges have dy < 0, top edges dy = 0 and dx > 0: their bias is 0, the others' -1.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
-SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
-                               int k, shade__setup *SHADE_RESTRICT s)
+SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k,
+                               shade__setup *SHADE_RESTRICT s)
 {
     const int next = k < 2 ? k + 1 : 0;
 
@@ -4079,8 +4078,8 @@ static float shade__between(float from, float to, double t)
    that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  As d_out is negative, the sum
    has positive terms and loses no digits, however different the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
-static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
-                                 int in, int out, double d_in, double d_out)
+static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int in, int out,
+                                 double d_in, double d_out)
 {
     double t = d_in / (d_in - d_out), s = t;
     const int v = SHADE__LOWEST_BIT(~p->taken), stride = plan->value_stride;
@@ -4325,8 +4324,8 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
    rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
    16384 pixels of t->x0 */
-static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
-                                               int rows, int *first, int *last)
+static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
+                                               int *first, int *last)
 {
     for (int k = 0; k < 3; k++) {
         const int32_t ex = t->edges.ex[k];
@@ -4342,8 +4341,8 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
 /* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns whether
    all three are.   pre: the tile is not outside an edge by more than a column
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
-SHADE__INLINE int shade__tile_edges(const shade__triangle *t,
-                                    const shade__tile *tile, shade__edges *edges)
+SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile *tile,
+                                    shade__edges *edges)
 {
     int inside = 1;
 
@@ -4385,8 +4384,8 @@ SHADE__INLINE void shade__set_run(shade__run *run, int lane, int x, int y, int n
 
 /* The runs of a set; bit i stands for pixel x + i of row y.   post: r has room for a run in each
    row of a tile */
-static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
-                                           int lane, int x, int y, uint32_t set)
+static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int lane, int x, int y,
+                                           uint32_t set)
 {
     while (set) {
         const int first = SHADE__LOWEST_BIT(set);
@@ -4407,8 +4406,8 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
 
 /* Adds the runs of a tile; returns the number of their pixels.  joined: a run of the tile to the
    left that ends where a run of this tile begins is extended instead. */
-SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
-                                  const shade__tile *tile, const int joined)
+SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, const shade__tile *tile,
+                                  const int joined)
 {
     int pixels = 0, count;
 
@@ -4540,8 +4539,8 @@ SHADE__DISPATCH(shade__test_large,
 
 /* The columns of a tile for n pixels from x on: 8, or whole vectors.  A tile that would leave the
    clip rectangle is moved to the left, and skips the columns before x. */
-SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n,
-                                       const int width, shade__tile *tile)
+SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n, const int width,
+                                       shade__tile *tile)
 {
     tile->columns = width > 8 && n <= 8 ? 8 : (n + width - 1) & -width;
     tile->x = shade__max(shade__min(x, plan->x1 - tile->columns), plan->x0);
@@ -4740,8 +4739,8 @@ SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__ti
 
 /* Draws a small triangle, tile below tile, each tested by all three edges.  narrow: it has one
    column of tiles.  Returns the number of pixels that passed. */
-SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
-                                       shade__runs *runs, const int width, const int narrow)
+SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade__runs *runs,
+                                       const int width, const int narrow)
 {
     const shade__plan *plan = &d->plan;
     shade__tile tile;
@@ -4946,8 +4945,8 @@ SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
 }
 
 /* Interpolates one value at width pixels of a row, into lanes of the queue. */
-SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
-                                       int back, shade__out to, const int width)
+SHADE__INLINE void shade__append_plane(float value, float step, shade__in px, int back,
+                                       shade__out to, const int width)
 {
     SHADE__FOR(i, width) {
         to[i] = shade__select(value + step * px[i], to[i], shade__mask(i < back));
@@ -4975,8 +4974,8 @@ SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, fl
 
 /* Writes width lanes of the queue.  For a constant p.back of 0 the compiler drops the selects. */
 SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
-                                 const shade__planes *SHADE_RESTRICT t,
-                                 shade__in value, shade__piece p, const int width)
+                                 const shade__planes *SHADE_RESTRICT t, shade__in value,
+                                 shade__piece p, const int width)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *SHADE_RESTRICT q = &d->u.queue;
@@ -5001,8 +5000,8 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
 }
 
 /* Values of the planes in row y, at the x of corner 0. */
-SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count,
-                                     int y, shade__out value)
+SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count, int y,
+                                     shade__out value)
 {
     const float py = (float)y + t->y_ref;
 
@@ -5012,8 +5011,8 @@ SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int 
 }
 
 /* Appends one run; shades the queue each time it is full.   post: it is not full */
-SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
-                                   const float *value, const shade__run *run)
+SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const float *value,
+                                   const shade__run *run)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
@@ -5482,8 +5481,8 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
 }
 
 /* Filters the texels found: sets four rows, or adds the level to them with its weights. */
-SHADE__INLINE void shade__filter(const shade__reader *r, int encoded,
-                                 const float *weight, float *out)
+SHADE__INLINE void shade__filter(const shade__reader *r, int encoded, const float *weight,
+                                 float *out)
 {
     SHADE_ALIGNED float level[4 * SHADE_LANES];
     float *to = weight ? level : out;
@@ -5553,8 +5552,8 @@ static void shade__sample(const shade_texture *t, const float *u, const float *v
     else shade__level(t, u, v, NULL, blocks, out);
 }
 
-SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u,
-                                 const float *v, const float *lod, float *rgba)
+SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
+                                 const float *lod, float *rgba)
 {
     if (!u || !v || !rgba) return;
     if (!shade__texture_good(texture)) {
@@ -6061,8 +6060,8 @@ struct shade__frustum {
 
 /* Plane i of the frustum: sign (c - limit w) >= 0 in clip space, where c is x, y or z for row 0, 1
    or 2. */
-static void shade__frustum_plane(const shade_mat4 *m, int row, double sign,
-                                 double limit, int i, shade__frustum *f)
+static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, double limit, int i,
+                                 shade__frustum *f)
 {
     for (int k = 0; k < 4; k++) {
         const double a = (double)shade__entries(m)[4 * k + row], w = (double)m->col[k].w;
@@ -6140,8 +6139,8 @@ static int shade__next_chunk(shade__draw *d)
 
 /* Supplies the chunks of a mesh that can be visible, in place of all its triangles. */
 static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from_object,
-                              int zero_to_one, const shade_mesh *mesh,
-                              shade__frustum *frustum, shade__supply *s)
+                              int zero_to_one, const shade_mesh *mesh, shade__frustum *frustum,
+                              shade__supply *s)
 {
     shade__frustum_of(t, clip_from_object, zero_to_one, frustum);
     s->end = 0;
@@ -6280,8 +6279,8 @@ SHADE__INLINE shade_result shade__draw_refusal(const shade_target *t, const shad
 }
 
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                 const uint32_t *indices, int index_count,
-                                 int vertex_count, shade_stats *stats)
+                                 const uint32_t *indices, int index_count, int vertex_count,
+                                 shade_stats *stats)
 {
     const shade__indices list = { indices, NULL };
     shade__supply supply;
@@ -6306,8 +6305,8 @@ static void shade__fill(uint8_t *SHADE_RESTRICT p, shade__in pattern, size_t n)
 
 /* The 256 bytes of a colour from (x, y) on: 8 packed pixels, twice the period of the dither,
    repeated. */
-static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
-                                 int y, uint8_t *pattern)
+static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
+                                 uint8_t *pattern)
 {
     const size_t period = 8 * shade__pixel_bytes(t->format);
     float rgba[4 * SHADE_LANES];
@@ -6555,8 +6554,8 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
 
 /* Light where the colours of the map, which come in rgb, are the albedo.  It is kept out of line,
    so that only maps take its stack. */
-static SHADE__NOINLINE void shade__lit_map(const shade__scene *s,
-                                           const shade_rows *rows, float *rgb)
+static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
+                                           float *rgb)
 {
     float albedo[3 * SHADE_LANES];
     shade_rows mapped = *rows;
@@ -6670,8 +6669,8 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
 
 /* Draws a checked scene, with the vertex shader of meshes and this fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
-                                      shade_fragment_shader *fragment,
-                                      int may_discard, shade_stats *stats)
+                                      shade_fragment_shader *fragment, int may_discard,
+                                      shade_stats *stats)
 {
     const shade_mesh *mesh = scene->mesh;
     const shade_draw_state *state = scene->state;
@@ -6766,8 +6765,8 @@ static void shade__trim(double a, double b, double *t)
 
 /* Sets p to the point t of the way along a segment, and at[] to its place relative to the middle of
    the picture, in pixels, y up. */
-static void shade__stroke_point(const shade__stroke *s, double end[2][4],
-                                double t, double *p, double *at)
+static void shade__stroke_point(const shade__stroke *s, double end[2][4], double t, double *p,
+                                double *at)
 {
     for (int i = 0; i < 4; i++) p[i] = end[0][i] + t * (end[1][i] - end[0][i]);
     for (int i = 0; i < 2; i++) at[i] = p[i] / p[3] * s->half[i];
@@ -7180,8 +7179,8 @@ SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t 
 
 /* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.
    Corners of equal keys ascend.  other has room for count more. */
-static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count,
-                                uint32_t *order, uint32_t *other)
+static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, uint32_t *order,
+                                uint32_t *other)
 {
     for (uint32_t i = 0; i < count; i++) order[i] = i;
     for (int k = 0; k < (edges ? 8 : 12); k++) {    /* an even number of steps ends in order */
@@ -7426,8 +7425,8 @@ static uint32_t shade__centroid_key(const shade_mesh *m, const uint32_t *triangl
 static uint32_t *shade__three(uint32_t *list, int i) { return list + 3 * (size_t)i; }
 
 /* The axis along which triangles lie furthest apart, with the least and greatest key there. */
-static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
-                               int count, uint32_t *low, uint32_t *high)
+static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles, int count, uint32_t *low,
+                               uint32_t *high)
 {
     uint32_t least[3] = { UINT32_MAX, UINT32_MAX, UINT32_MAX }, most[3] = { 0, 0, 0 };
     int longest = 0;
@@ -7448,8 +7447,8 @@ static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
 }
 
 /* Moves the triangles with a key of at most pivot to the front; returns their number. */
-static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
-                            int axis, uint32_t pivot)
+static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count, int axis,
+                            uint32_t pivot)
 {
     int front = 0;
     for (int i = 0; i < count; i++) {
@@ -7575,8 +7574,8 @@ static int shade__is_affine(const shade_mat4 *m)
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
 }
 
-SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
-                                   int width, int height, float x, float y)
+SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
+                                   float x, float y)
 {
     shade__camera c;
     shade_ray ray;
@@ -7592,8 +7591,8 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
 
 /* With s = origin - a, q = d x s and det = d.n, Cramer's rule gives t = -s.n / det, u = f.q / det
    and v = -e.q / det. */
-SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
-                             shade_vec3 c, float *t, shade_vec3 *barycentric)
+SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
+                             shade_vec3 *barycentric)
 {
     const shade_vec3 p[3] = { a, b, c };
     double d[3], e[3], f[3], s[3], n[3], q[3], det, u, v, at;
@@ -7654,8 +7653,8 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
 /* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
    allowance for rounding.  Returns 0 if it does not meet the box there.  A larger box never has a
    smaller range: a ray that meets the box of a triangle meets the box of its chunk. */
-static int shade__meets_box(const shade__object_ray *s, shade_vec3 low,
-                            shade_vec3 high, float limit, double *range)
+static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_vec3 high,
+                            float limit, double *range)
 {
     double from[3], to[3], size = s->reach;
     range[0] = 0;
@@ -7710,8 +7709,8 @@ static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model
     hit->barycentric = where;
 }
 
-SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
-                        float *t, shade_vec3 *barycentric)
+SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
+                        shade_vec3 *barycentric)
 {
     shade__object_ray local;
     shade__hit hit;
@@ -9357,8 +9356,8 @@ static const char *shade__clip_fault(const shade_target *t)
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
-                                   const shade_draw_state *state,
-                                   const shade_stats *stats)
+                                               const shade_draw_state *state,
+                                               const shade_stats *stats)
 {
     shade__survey s;
     const char *why;
