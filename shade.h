@@ -6,8 +6,8 @@
    matrix maths that this needs, and a small, fast triangle rasterizer with programmable vertex and
    fragment shaders to see it with.  It allocates nothing, keeps no global state, starts no threads
    and draws into memory that you own.  Every compiler and processor produces the same pixels, to
-   the bit, because all arithmetic is IEEE single and double precision and is never contracted;
-   shaders of yours need -ffp-contract=off for that (>>plumbing, "Fast math").
+   the bit, because all arithmetic is IEEE single and double precision and is never contracted.
+   Compile your own shaders with -ffp-contract=off (>>plumbing, "Fast math").
 
    To use it, write in exactly one C or C++ file
 
@@ -47,38 +47,40 @@
    >>contents
      The number is the line in which a section's banner begins.  The tag that ends a banner names
      the next section; in and out are what a section takes and gives, holds is what must stay true.
+     A way is the order of calls: "a: b, c; d" is a, which calls b and then c, followed by d.  A
+     function stands below those that it calls: read a section from its end up, along its way.
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     124  options               >>types      250  materials, lamps, targets, states
-       >>light      427  the equation, colour  >>draw       534  shaders, meshes, pixels
-       >>tools      678  why, lines, rays, ... >>plumbing   856  compilers, flags and bits
-       >>math       993  vectors and matrices
+       >>config     126  options               >>types      253  materials, lamps, targets, states
+       >>light      430  the equation, colour  >>draw       537  shaders, meshes, pixels
+       >>tools      681  why, lines, rays, ... >>plumbing   860  compilers, flags and bits
+       >>math       998  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1353  processors            >>base      1578  bits, masks, rows of vectors
-       >>matrix    1776  cameras, inverses     >>power     2053  x^n
-       >>pixels    2119  formats, sRGB
+       >>machine   1358  processors            >>base      1583  bits, masks, rows of vectors
+       >>matrix    1781  cameras, inverses     >>power     2058  x^n
+       >>pixels    2124  formats, sRGB
      Inside: light
-       >>lamps     2426  attenuation, cones    >>terms     2678  one term at one point
-       >>surface   2753  material and lights   >>lit       2868  the whole sum, at many points
+       >>lamps     2432  attenuation, cones    >>terms     2684  one term at one point
+       >>surface   2759  material and lights   >>lit       2876  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3256  who owns what         >>vertices  3462  shading, projection
-       >>triangles 3671  dropped, cut, edges   >>clip      4030  near, far, behind the eye
-       >>tiles     4221  pixels, depth test    >>cover     4582  what is hidden, tile by tile
-       >>fragments 4851  interpolation, lod    >>texture   5135  texels, filters
-       >>store     5579  blending, packing
+       >>state     3264  who owns what         >>vertices  3470  shading, projection
+       >>triangles 3679  dropped, cut, edges   >>clip      4038  near, far, behind the eye
+       >>tiles     4230  pixels, depth test    >>cover     4592  what is hidden, tile by tile
+       >>fragments 4861  interpolation, lod    >>texture   5145  texels, filters
+       >>store     5589  blending, packing
      Inside: calls of the renderer
-       >>check     5829  refusals              >>seen      6031  what can be seen, chunks
-       >>drive     6153  shade_draw            >>mesh      6341  shade_draw_mesh
+       >>check     5839  refusals              >>seen      6044  what can be seen, chunks
+       >>drive     6166  shade_draw            >>mesh      6355  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6741  shade_draw_lines      >>camera    6930  where a draw is seen from
-       >>shape     7024  normals, edges        >>chunks    7389  how boxes are made
-       >>rays      7557  shade_pick            >>survey    7744  experiments on a draw
-       >>explain   8206  why nothing is seen   >>replay    9374  of lines, pipelines
-       >>image     9701  makes mipmaps, PPM    >>presets  10025  classic materials
+       >>lines     6759  shade_draw_lines      >>camera    6950  where a draw is seen from
+       >>shape     7044  normals, edges        >>chunks    7412  how boxes are made
+       >>rays      7581  shade_pick            >>survey    7769  experiments on a draw
+       >>explain   8231  why nothing is seen   >>replay    9401  of lines, pipelines
+       >>image     9727  makes mipmaps, PPM    >>presets  10053  classic materials
      Sources
-       >>refs     10110                        >>history  10140
-       >>license  10146
+       >>refs     10138                        >>history  10168
+       >>license  10174
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -150,7 +152,8 @@
    also e, g, i, j, o and q.
                                                                                           >>types */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
-/* The one error inside a namespace, where these headers would declare their types. */
+/* Within a namespace the three headers below would declare their types there: hundreds of errors.
+   This makes one of them, and its name tells what to do. */
 struct shade__before_the_namespace_include_float_h_stddef_h_stdint_h;
 typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__global;
 #endif
@@ -369,8 +372,8 @@ typedef struct shade_target {
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* draws and clears change nothing outside this rectangle, */
-    int   clip_width, clip_height;    /* nothing at all if it is empty; four zeros: none is set */
+    int   clip_x, clip_y;        /* draws and clears change pixels of this rectangle alone, */
+    int   clip_width, clip_height;    /* and none if it is empty; four zeros: the whole picture */
     int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
                                  /* row_count rows; count 0: all rows of the picture */
 } shade_target;
@@ -605,9 +608,9 @@ typedef struct shade_pipeline {
    nearby triangles are usually shaded once.  Each triangle is front or back facing as a whole, by
    its corners on the screen.  stats may be NULL.  Without a colour buffer the fragment shader runs
    only where may_discard is set.
-     A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses:
-   the diagonal of a picture of 16384 rows, of any width, takes less than 1 ms in depth that was
-   just cleared, or 2 ms where its memory has pages of 4 kB, one for each row (make bench).
+     The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
+   it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
+   1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
      Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
    the same as from one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -682,8 +685,9 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 /* Says in one sentence why a draw gives no picture, or a wrong one, and which field to change; ""
    where nothing is suspicious; never NULL.  Call it after shade_draw_mesh, with the same arguments
    and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
-   recognises every refusal by its field, matrices that are transposed, swapped or in degrees,
-   meshes out of view, culling, depth that was not cleared, and light that does not arrive or clips.
+   names the field of every refusal, and recognises matrices that are transposed, swapped or made
+   from degrees, meshes out of view, culling, depth that was not cleared, and light that does not
+   arrive or clips.
    It writes nothing: it draws the mesh again and again, with one thing changed after the other, and
    counts pixels.  When it says that something is missing, no pixel shows it.  It takes the time of
    many frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
@@ -856,11 +860,12 @@ SHADE__CLOSE
 /*--------------------------------------------------------------------------------------- >>plumbing
    What inline functions and loops over lanes need of compilers, and what flags do to bits.
 
-   Fast math.  From gcc the implementation has the same bits with -ffast-math, -Ofast and their
-   parts.  clang cannot be told to keep them: the implementation refuses -ffast-math and
-   -ffinite-math-only.  clang does not report the other parts, nor -ffp-contract=fast, which
-   overrides the pragmas of >>plumbing: do not use them.  A program linked with -ffast-math flushes
-   denormal numbers to zero; only SHADE_FORMAT_RGBA32F and exponents far below 1 show it.
+   Fast math.  Compiled by gcc, the implementation has the same bits with -ffast-math, -Ofast and
+   their parts.  clang has no pragma that keeps the bits there, so the implementation refuses
+   -ffast-math and -ffinite-math-only.  It cannot see the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
+   -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
+   below 1 show.
      Inline functions are compiled into your files.  They have the same bits under all flags but
    -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
    Attributes and pragmas that turn fused instructions on for a part of a file may change them.
@@ -2158,13 +2163,14 @@ static SHADE__NOINLINE float shade__decode(float c)
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
-/* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table.  Half of the bits of c make a
-   crude root of it, by which floats fall into cells: a root of k / 372 or more, but less than (k +
-   1) / 372, is in cell k, which is 4 to 372.  The byte changes at most once in a cell.  The entry
-   is the byte after the change, above the low 24 bits of the first float with that byte.  c comes
-   before this float if bit 23 of the difference is set.  A cell without a change has the entry of
-   another byte, which begins fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of
-   the time with AVX-512, and .81 with AVX2 and SSE2. */
+/* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.  The
+   bit pattern of c, halved, is that of a crude square root.  Cell k holds all c with a root from
+   k / 372 up to (k + 1) / 372; the first entry is for cell 4, the last for cell 372.  Within a cell
+   the byte changes at most once.  An entry is the byte after the change, in the high 8 bits, and
+   the low 24 bits of the first float that has it.  If bit 23 of c minus the entry is set, c lies
+   before that float, and its byte is one less.  A cell without a change has the entry of another
+   one, whose change is fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of the
+   time with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2753,7 +2759,9 @@ SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exp
 /*---------------------------------------------------------------------------------------- >>surface
    What the points of a call are lit by: defaults are filled in, materials and lights multiplied,
    terms that are off made zero.
-     in      a shade_lighting, a material, the eye      out  shade__surface              >>lit */
+     in      a shade_lighting, a material, the eye      out  shade__surface
+     way     begin_surface: terms_of, ambient; then begin_tone, or reflect_lamp of the first lamps
+                                                                                            >>lit */
 
 /* The first SHADE__LAMPS lights are prepared once a draw, the others anew for each packet. */
 enum { SHADE__LAMPS = SHADE_LANES < 64 ? 1 : 4 };
@@ -3334,7 +3342,7 @@ typedef struct shade__plan {
     int      inputs_unread;           /* x, y, z, primitive, front and presets are not read */
     shade_vec3 eye;                   /* for the fragment shader; 0 without a draw state */
     shade__compare compare;           /* the test of the draw */
-    shade__compare tile_test;        /* the test of >>tiles: it lets all pass unless early */
+    shade__compare tile_test;         /* the test of >>tiles: it lets all pass unless early */
     float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
     double   half_width, half_height; /* of the picture, in 1/256 pixels */
 } shade__plan;
@@ -3441,7 +3449,7 @@ struct shade__draw {
     shade__bounds  bounds;
     shade__batch   batch;
     shade__setup   setup;
-    union { shade__incoming in; shade__queue queue; } u;    /* first one, then the other */
+    union { shade__incoming in; shade__queue queue; } u;    /* in until a batch has its places */
 };
 
 /* vertices: takes the next triangles and their vertices, up to SHADE_LANES; then shades these */
@@ -4033,9 +4041,10 @@ static void shade__triangles(shade__draw *d)
      in      three vertices of the batch     out  a polygon
      way     clip: polygon_of, clip_plane: new_vertex, place_polygon, apex
      method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds one at most, 2
-             while a plane cuts, and vertex 0, kept for CONSTANT.  If rounding made the polygon
-             concave it may need more vertices; it is dropped.  Whole triangles are lost there, in
-             shade__sort_out (all corners outside) and in shade__draw_fan (culled, no area).
+             while a plane cuts, and vertex 0, kept for CONSTANT.  A polygon that rounding made
+             concave may need more vertices, and is dropped.  Other triangles are dropped in
+             >>triangles: by shade__sort_out, if all corners lie outside of one plane, and by
+             shade__draw_fan, if what clipping leaves is culled or has no area.
 
                3w  +-----------------------+
                    |      guard band       |      A corner between the picture and the guard band
@@ -4235,7 +4244,7 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
                        |     |     |   |
                        run 0       run 1              runs of row 0: x, y, n of pixels in a row
 
-             The only run of a row is open: the next tile to the right may extend it.
+             Where a row has one run, it stays open: the next tile to the right may extend it.
      holds   Stores stay in the clip rectangle, that is, in the pixels of this thread.  A value at
              a pixel has the same bits whichever tile it is in: the base of its row plus
              its step in x times the exact distance.                                      >>cover */
@@ -4267,7 +4276,7 @@ typedef struct shade__tile {
     int      stride;
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
-    uint32_t any;                     /* is 0 where all sets are empty */
+    uint32_t any;                     /* 0: all sets are empty */
 } shade__tile;
 
 /* Runs of pixels on their way to the queue, sent when the array is nearly full. */
@@ -4404,8 +4413,9 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* Adds the runs of a tile; returns the number of their pixels.  joined: a run of the tile to the
-   left that ends where a run of this tile begins is extended instead. */
+/* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
+   open run of its row ends extends that one.  Nearly every set is one run or empty, so that a loop
+   round writes its run without a branch, and counts it only if it is new. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, const shade__tile *tile,
                                   const int joined)
 {
@@ -4414,7 +4424,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, cons
     if (!tile->any) return 0;
     if (SHADE__UNLIKELY(r->count > SHADE__RUNS_AHEAD)) shade__send(d, r);
     count = r->count;
-    for (int k = 0; k < tile->rows; k++) {    /* nearly every set is one run or empty */
+    for (int k = 0; k < tile->rows; k++) {
         const uint32_t set = tile->set[k], lowest = set & (0u - set);
         const int n = shade__count_bits(set);
         shade__run *run = &r->run[count];
@@ -4422,7 +4432,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, cons
         int goes_on;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
-            r->count = count;
+            r->count = count;    /* the set is several runs */
             shade__add_set(d, r, lane, tile->x, tile->y + k, set);
             count = r->count;
             continue;
@@ -4431,7 +4441,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, cons
         goes_on = joined && open->x + open->n == run->x;
         if (joined) {
             open->n += goes_on ? n : 0;
-            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;
+            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;    /* or the sentinel */
         }
         count += n && !goes_on;
     }
@@ -5187,7 +5197,7 @@ typedef struct shade__axis {
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* what y.i counts, in bytes; x.i counts bytes */
+    size_t y_bytes;              /* bytes for each unit of y.i: 1, or a row; x.i counts bytes */
     int nearest, blocks;
     uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
     shade__axis x, y;
@@ -5830,7 +5840,10 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
    Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
    a call uses only a shade_result, the functions are inlined, and their sentences vanish.
      in      targets, meshes, states, indices
-     out     NULL, or the fault; a shade_result                                            >>seen */
+     out     NULL, or the fault; a shade_result
+     way     draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
+             ladders of the calls.  shade__mesh_rows is laid out here, because a draw that needs
+             more than SHADE_MAX_VARYINGS rows is refused                                  >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
@@ -6154,7 +6167,8 @@ static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from
    The public calls: arguments are checked before any pixel changes, then batch follows batch.
      in      the arguments of a call             out  pixels and stats, or a shade_result
      way     shade_draw: draw_refusal, supply_all; run_draw: make_plan, then take_batch,
-             shade_vertices and triangles until no triangle is left
+             shade_vertices and triangles until no triangle is left.  shade_clear: clear_pattern,
+             fill
                                                                                          >>mesh */
 
 static shade__compare shade__compare_of(const shade_raster *r)
@@ -6341,6 +6355,10 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 /*------------------------------------------------------------------------------------------- >>mesh
    A mesh is drawn by a vertex shader and a fragment shader, as in any pipeline.
      in      arrays in object space    out  varyings in world space: P, N, albedo; or one lit colour
+     way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: draw_chunks, if there
+             are any, and run_draw, which calls the shaders.  mesh_vertex: fetch_vertices,
+             fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map; mesh_alpha.  Which
+             rows of the varyings they use: shade__mesh_rows in >>check
      holds   Where faces have values of their own (normals or light), every corner of a triangle is
              a vertex: its index is 3 times the triangle's plus the corner's number.  Where no
              shader reads P and N, they are not computed: textured floors without lamps are drawn
@@ -6742,6 +6760,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    A line is a rectangle on the screen, drawn as two triangles by the pipeline above.
      in      pairs of points
      out     pixels with the coverage, depth test and blending of triangles
+     way     shade_draw_lines: lines_refusal, stroke_of; run_draw, which calls the shaders.
+             stroke_vertex: stroke_corner: stroke_end, stroke_part: trim.  stroke_color
      holds   A segment is cut at the near and far planes first, so that both ends have a place on
              the screen.  One that lies outside becomes a triangle that lies outside, and counts as
              clipped.                                                                    >>camera */
@@ -7025,6 +7045,9 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
    What a mesh knows of its shape: normals of vertices and corners, edges, its box, and the view
    that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
+     way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
+             sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
+             mat4_fit: camera_of, frame_of, step_back
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
 
@@ -7389,6 +7412,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 /*----------------------------------------------------------------------------------------- >>chunks
    The triangles of a mesh sorted in space and cut into chunks with boxes; whether a box is seen.
      in      meshes                              out  the caller's chunks and indices
+     way     mesh_chunks: sort_triangles: split: longest_axis, partition; then box_chunk
      method  The list is split across its longest axis, at the border of a chunk nearest to the
              middle, and the two parts are split again.
      holds   The order depends on nothing but the mesh and the size of chunks: it is the same on
@@ -7557,6 +7581,7 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
 /*------------------------------------------------------------------------------------------- >>rays
    Rays through pixels, and the triangles of meshes that they meet.
      in      rays in world space, meshes         out  the nearest triangle
+     way     pick: object_ray_of, meets_box; pick_triangle: meets_box, shade_intersect
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
@@ -7744,10 +7769,10 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
      in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
-     holds   A survey is a draw.  An experiment changes a copy of it and draws the copy.  The
+     holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read, and the caller's fragment shader is not called.
-     way     shade__open_survey; of a copy: a change, then shade__count or shade__take_probes.
-                                                                                        >>explain */
+     way     open_survey; of a copy: a change, then count or take_probes: draw_trial: draw_scene of
+             >>mesh, with judge as its fragment shader                                  >>explain */
 
 enum {
     SHADE__SUSPECTS = 16,                /* more lamps than these are left out of experiments */
@@ -8210,9 +8235,11 @@ static int shade__faces_ahead(const shade__camera *c)
              changes and sentences, tried from top to bottom.
      holds   A sentence is true of the pixels that are shown: of all, or of the share that its rung
              asks for.  Black: none is brighter than 8 of 255.  A band or a strip is never blamed
-             for what another may show.
-     way     shade__mesh_refusal; shade__why: shade__bad_number; the ladders of no picture, of no
-             pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
+             for what another may show.  A function or ladder that returns NULL has found nothing,
+             and the next is tried; "" ends the search without a sentence.
+     way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
+             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
+             why_black, wrong_light, flat; helps; doubt                                 >>replay */
 
 /* Is the mesh empty, or do its positions overlap? */
 static const char *shade__no_mesh(const shade_mesh *m)
@@ -9378,8 +9405,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
      method  The draw is run again without a picture.  Shaders of this section call the given ones
              and count what they give.
      holds   The caller's memory is only read, unless the caller's own shaders write.
-     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere;
-             shade__why_kept_out; shade__why_faint.
+     way     explain_replay: run_again; why_matrix of lines; why_nowhere; why_kept_out; why_faint
                                                                                           >>image */
 
 /* What the shaders gave in one run. */
@@ -9702,6 +9728,8 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
    Pictures made of pictures: smaller ones, mipmaps, files.
      in      a picture of any format
      out     means in linear light, or a file
+     way     resolve, build_mipmaps and encode_ppm: open_decoder; convert: reduce: means, halve or
+             shrink; store_run of >>store
      method  The values of a channel are few: each is decoded once a call.              >>presets */
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
