@@ -64,23 +64,23 @@
        >>lamps     2432  attenuation, cones    >>terms     2684  one term at one point
        >>surface   2759  material and lights   >>lit       2876  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3264  who owns what         >>vertices  3470  shading, projection
-       >>triangles 3679  dropped, cut, edges   >>clip      4038  near, far, behind the eye
-       >>tiles     4230  pixels, depth test    >>cover     4592  what is hidden, tile by tile
-       >>fragments 4861  interpolation, lod    >>texture   5145  texels, filters
-       >>store     5589  blending, packing
+       >>state     3264  who owns what         >>vertices  3471  shading, projection
+       >>triangles 3680  dropped, cut, edges   >>clip      4039  near, far, behind the eye
+       >>tiles     4231  pixels, depth test    >>cover     4593  what is hidden, tile by tile
+       >>fragments 4863  interpolation, lod    >>texture   5147  texels, filters
+       >>store     5593  blending, packing
      Inside: calls of the renderer
-       >>check     5839  refusals              >>seen      6044  what can be seen, chunks
-       >>drive     6166  shade_draw            >>mesh      6355  shade_draw_mesh
+       >>check     5843  refusals              >>seen      6048  what can be seen, chunks
+       >>drive     6170  shade_draw            >>mesh      6359  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6759  shade_draw_lines      >>camera    6950  where a draw is seen from
-       >>shape     7044  normals, edges        >>chunks    7412  how boxes are made
-       >>rays      7581  shade_pick            >>survey    7769  experiments on a draw
-       >>explain   8231  why nothing is seen   >>replay    9401  of lines, pipelines
-       >>image     9727  makes mipmaps, PPM    >>presets  10053  classic materials
+       >>lines     6764  shade_draw_lines      >>camera    6955  where a draw is seen from
+       >>shape     7049  normals, edges        >>chunks    7417  how boxes are made
+       >>rays      7586  shade_pick            >>survey    7774  experiments on a draw
+       >>explain   8236  why nothing is seen   >>replay    9406  of lines, pipelines
+       >>image     9732  makes mipmaps, PPM    >>presets  10058  classic materials
      Sources
-       >>refs     10138                        >>history  10168
-       >>license  10174
+       >>refs     10143                        >>history  10173
+       >>license  10179
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3165,10 +3165,10 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
     const shade__v3 *normal = shade__rows_of(r->rows->normal);
     const shade__v3 *albedo = shade__factors(r->rows->albedo);
     const float *visibility = r->rows->visibility;
-    shade__lamp own;
+    shade__lamp fresh;
     uint32_t any;
-    if (k >= SHADE__LAMPS) shade__reflect_lamp(s, &s->lighting->lights[k], &own);
-    r->lamp = k < SHADE__LAMPS ? &s->lamp[k] : &own;
+    if (k >= SHADE__LAMPS) shade__reflect_lamp(s, &s->lighting->lights[k], &fresh);
+    r->lamp = k < SHADE__LAMPS ? &s->lamp[k] : &fresh;
     if (!s->tone && !r->lamp->on) return;
     shade__arrive_at(point, n, r);
     if (!r->a.any) return;
@@ -3303,6 +3303,7 @@ typedef struct shade__compare { uint32_t less, equal, greater, always, write; } 
    perspective, u and v follow once more, divided by w. */
 enum {
     SHADE__FIRST = 2,                 /* z and 1/w stand before the varyings */
+    SHADE__SIDE_MAX = 16384,          /* pixels or texels of a side of a picture */
     SHADE__VALUES_MAX = (SHADE_MAX_VARYINGS + SHADE__FIRST + 2 + 7) / 8 * 8,
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
@@ -4332,7 +4333,7 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
 /* Moves *first and *last inward, to the columns where each edge has pixels inside in one of the
    rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
-   16384 pixels of t->x0 */
+   SHADE__SIDE_MAX pixels of t->x0 */
 static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
                                                int *first, int *last)
 {
@@ -4341,7 +4342,7 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, 
         const int64_t ey = t->edges.ey[k];
         const int64_t e = t->e[k] + (y - t->y0 + (ey > 0 ? rows - 1 : 0)) * ey;
         const float x = -(float)e / (float)(ex ? ex : 1);    /* where e is 0 */
-        const float near_x = shade__minf(shade__maxf(x, -2), 16384);
+        const float near_x = shade__minf(shade__maxf(x, -2), SHADE__SIDE_MAX);
         if (ex > 0) *first = shade__max(*first, t->x0 + (int)(near_x + 0.984f));
         if (ex < 0) *last = shade__min(*last, t->x0 + (int)(near_x + 0.016f));
     }
@@ -4804,7 +4805,8 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     if (bounded && !b->across) shade__begin_bounds(plan, b);
     for (s.y = t.y0; s.y <= t.y1; s.y = s.bottom + 1) {
         /* a row of bounds, or all rows at once */
-        const int below = bounded ? (s.y - plan->y0) | ((1 << b->log_height) - 1) : 16384;
+        const int below = bounded ? (s.y - plan->y0) | ((1 << b->log_height) - 1)
+                                  : SHADE__SIDE_MAX;
         s.bottom = shade__min(t.y1, plan->y0 + below);
         s.x = t.x0;
         s.end = t.x1;
@@ -5156,7 +5158,7 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
     if (!t->pixels) return "The texture's pixels are NULL; point them at its texels.";
-    if (t->width < 1 || t->height < 1 || t->width > 16384 || t->height > 16384)
+    if (t->width < 1 || t->width > SHADE__SIDE_MAX || t->height < 1 || t->height > SHADE__SIDE_MAX)
         return "The texture's width and height must be from 1 to 16384 texels.";
     if (t->stride && t->stride < t->width)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
@@ -5272,8 +5274,10 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, con
     r->y.unit = wide ? 1 : (uint32_t)pitch;
     shade__address(u, blocks, r->nearest, &r->x);
     shade__address(v, blocks, r->nearest, &r->y);
-    if (r->nearest) SHADE__ZERO(r->x.f);
-    if (r->nearest) SHADE__ZERO(r->y.f);
+    if (r->nearest) {
+        SHADE__ZERO(r->x.f);
+        SHADE__ZERO(r->y.f);
+    }
     for (int b = 0; b < blocks; b++) {
         uint32_t apart = (uint32_t)(bytes != 4 || wide);
         SHADE__FOR(k, SHADE__BLOCK) {
@@ -5850,7 +5854,7 @@ SHADE__INLINE const char *shade__target_fault(const shade_target *t)
     const uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
     if (!t->color && !t->depth)
         return "target.color and target.depth are both NULL; point one of them at your memory.";
-    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
+    if (t->width < 1 || t->width > SHADE__SIDE_MAX || t->height < 1 || t->height > SHADE__SIDE_MAX)
         return "target.width and target.height must be from 1 to 16384 pixels.";
     if (t->stride && t->stride < t->width)
         return "target.stride is less than target.width; it counts pixels, and 0 means the width.";
@@ -6518,22 +6522,23 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     }
 }
 
-/* The rows of a varying; of one that the draw does not have, others. */
-SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *others)
+/* The rows of a varying, or spare ones where the draw does not have it. */
+SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *spare)
 {
-    return row < 0 ? others : shade__three_rows(out->varying[row]);
+    return row < 0 ? spare : shade__three_rows(out->varying[row]);
 }
 
-/* Attributes are fetched into the rows of their varyings, other values into own. */
+/* Attributes are fetched into the rows of their varyings, or into spare rows where the draw needs
+   them but hands them to no fragment. */
 static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
-    shade__v3 own[3];
-    shade__v3 *point = shade__rows_at(out, s->row.point, &own[0]);
-    shade__v3 *normal = shade__rows_at(out, s->row.normal, &own[1]);
-    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &own[2]);
+    shade__v3 spare[3];
+    shade__v3 *point = shade__rows_at(out, s->row.point, &spare[0]);
+    shade__v3 *normal = shade__rows_at(out, s->row.normal, &spare[1]);
+    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &spare[2]);
 
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
@@ -7825,7 +7830,7 @@ typedef struct shade__trial {
 /* Notes the depth of lane i, if its pixel is among those sampled. */
 static void shade__take_probe(const shade__trial *trial, const shade_fragments *in, int i)
 {
-    const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * 16384 + 1;
+    const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * SHADE__SIDE_MAX + 1;
     const uint32_t hash = place * 2654435769u >> 8;
     shade__probe *at = trial->probes + hash / trial->every % SHADE__PROBES;
     const float z = in->z[i];
@@ -9484,7 +9489,7 @@ static shade__tally shade__run_again(const shade__replay *r)
     p.uniforms = &run;
     p.may_discard = p.raster.depth_read_only = 1;
     shade__supply_all(r->indices, r->corners, &supply);
-    shade__run_draw(&r->picture, &p, 1, shade_v3(0, 0, 0), &supply, &tally.stats);
+    shade__run_draw(&r->picture, &p, 0, shade_v3(0, 0, 0), &supply, &tally.stats);
     return tally;
 }
 
@@ -9936,7 +9941,7 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
 SHADEDEF int shade_mipmap_count(int width, int height)
 {
     int n = 0;
-    if (width < 1 || height < 1 || shade__max(width, height) > 16384) return 0;
+    if (width < 1 || height < 1 || shade__max(width, height) > SHADE__SIDE_MAX) return 0;
     for (int size = shade__max(width, height); size > 1; size /= 2) n++;
     return n;
 }
