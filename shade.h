@@ -77,10 +77,10 @@
        >>shape     7049  normals, edges        >>chunks    7417  how boxes are made
        >>rays      7586  shade_pick            >>survey    7774  experiments on a draw
        >>explain   8236  why nothing is seen   >>replay    9406  of lines, pipelines
-       >>image     9732  makes mipmaps, PPM    >>presets  10058  classic materials
+       >>image     9732  makes mipmaps, PPM    >>presets  10064  classic materials
      Sources
-       >>refs     10143                        >>history  10173
-       >>license  10179
+       >>refs     10149                        >>history  10179
+       >>license  10185
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -9749,8 +9749,21 @@ static shade_result shade__check_picture(const shade_target *t)
     return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
 
+/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
+   2 i + 2 of the level above, and of each a share. */
+typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
+
+/* What a level of mipmaps is made with. */
+enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
+typedef struct shade__halving {
+    double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
+    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
+} shade__halving;
+
 /* The linear light of packed pixels: of[k] is indexed by the value of channel k. */
 typedef struct shade__decoder {
+    const shade_target *from;
+    shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *of[4];
     float value[512];    /* of colours, then of alpha; channels of one size share theirs */
@@ -9761,6 +9774,8 @@ static void shade__open_decoder(const shade_target *t, shade__decoder *d)
     const shade__layout l = d->layout = shade__layouts[t->format];
     const int encoded = shade__is_encoded(t->srgb, &l);
     float *at = d->value;
+    d->from = t;
+    d->halving = NULL;
     for (int k = 0; k < 4; k++) {
         d->of[k] = at;
         if ((k == 1 || k == 2) && l.full[k] == l.full[0]) {
@@ -9804,23 +9819,12 @@ SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_
     }
 }
 
-/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
-   2 i + 2 of the level above, and of each a share. */
-typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
-
-/* What a level of mipmaps is made with. */
-enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
-typedef struct shade__halving {
-    double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
-    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
-} shade__halving;
-
 /* The light of channel k of the pixel of 4 bytes at p, for sums in double. */
-SHADE__INLINE double shade__light_4(const shade__decoder *d, const shade__halving *h,
-                                    const shade__layout *l, const uint8_t *p, int k)
+SHADE__INLINE double shade__light_4(const shade__decoder *d, const shade__layout *l,
+                                    const uint8_t *p, int k)
 {
     if (SHADE__DOUBLES == 1) return (double)shade__light_of(d, l, p, k, 4);
-    return h->light[(k == 3 ? 256 : 0) + p[l->shift[k] / 8]];
+    return d->halving->light[(k == 3 ? 256 : 0) + p[l->shift[k] / 8]];
 }
 
 static shade__cut shade__cut_of(int size, int smaller, int i)
@@ -9835,28 +9839,28 @@ static shade__cut shade__cut_of(int size, int smaller, int i)
 }
 
 /* The means of 2 x 2 pixels of 4 bytes.  Their sums are exact in double. */
-SHADE__INLINE void shade__halve(const shade__decoder *d, const shade__halving *h, const uint8_t *p,
-                                size_t pitch, int n, float *mean)
+SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, size_t pitch, int n,
+                                float *mean)
 {
     const shade__layout l = d->layout;
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < n; i++) {
             const uint8_t *a = p + 8 * i, *b = a + pitch;
-            double sum = shade__light_4(d, h, &l, a, k) + shade__light_4(d, h, &l, a + 4, k);
-            sum += shade__light_4(d, h, &l, b, k) + shade__light_4(d, h, &l, b + 4, k);
+            double sum = shade__light_4(d, &l, a, k) + shade__light_4(d, &l, a + 4, k);
+            sum += shade__light_4(d, &l, b, k) + shade__light_4(d, &l, b + 4, k);
             mean[k * SHADE_LANES + i] = (float)(sum * 0.25);
         }
 }
 
 /* The same for any format and size. */
-SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *h,
-                                 const shade__cut *rows, const uint8_t *p, size_t pitch, int n,
-                                 const int bytes, float *mean)
+SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows, const uint8_t *p,
+                                 size_t pitch, int n, const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
-    const int columns = h->column[0].pixels, lines = rows->pixels;
+    const shade__cut *column = d->halving->column;
+    const int columns = column->pixels, lines = rows->pixels;
     for (int i = 0; i < n; i++, p += 2 * bytes) {
-        const shade__cut *c = &h->column[i];
+        const shade__cut *c = &column[i];
         const uint8_t *at = p;
         double sum[4] = { 0, 0, 0, 0 }, all = 0;
         for (int j = 0; j < lines; j++, at += pitch)
@@ -9864,7 +9868,7 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *
                 const double share = c->share[s] * rows->share[j];
                 const uint8_t *q = at + s * bytes;
                 SHADE__FOR_4(k) {
-                    const double light = bytes == 4 ? shade__light_4(d, h, &l, q, k)
+                    const double light = bytes == 4 ? shade__light_4(d, &l, q, k)
                                                     : (double)shade__light_of(d, &l, q, k, bytes);
                     sum[k] += light * share;
                 }
@@ -9876,31 +9880,31 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *
 
 /* The light of pixels x .. x + n - 1 of row y of a picture that is made of another one: means of
    factor x factor pixels, or of what the texels of a mipmap cover. */
-static void shade__reduce(const shade__decoder *d, const shade__halving *h,
-                          const shade_target *from, const shade_target *to, int factor, int x,
-                          int y, int n, float *mean)
+static void shade__reduce(const shade__decoder *d, const shade_target *to, int factor, int x, int y,
+                          int n, float *mean)
 {
+    const shade_target *from = d->from;
     const int bytes = d->layout.bytes;
     const size_t pitch = (size_t)shade__stride_of(from) * (size_t)bytes;
     const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
-    if (h) {
+    if (d->halving) {
         const shade__cut rows = shade__cut_of(from->height, to->height, y);
-        const int even = rows.pixels == 2 && h->column[0].pixels == 2;
-        if (bytes == 4 && even) shade__halve(d, h, p, pitch, n, mean);
-        else if (bytes == 4) shade__shrink(d, h, &rows, p, pitch, n, 4, mean);
-        else shade__shrink(d, h, &rows, p, pitch, n, bytes, mean);
+        const int even = rows.pixels == 2 && d->halving->column[0].pixels == 2;
+        if (bytes == 4 && even) shade__halve(d, p, pitch, n, mean);
+        else if (bytes == 4) shade__shrink(d, &rows, p, pitch, n, 4, mean);
+        else shade__shrink(d, &rows, p, pitch, n, bytes, mean);
     } else if (bytes == 4 && factor == 2) shade__means(d, p, pitch, 2, n, 4, mean);
     else if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
     else if (bytes == 16) shade__means(d, p, pitch, factor, n, 16, mean);
     else shade__means(d, p, pitch, factor, n, bytes, mean);
 }
 
-/* Makes a picture of another one, in its clip rectangle.  With a sink the picture is one row of
+/* Makes a picture of the decoder's, in its clip rectangle.  With a sink the picture is one row of
    RGBA8 that goes there as R, G, B bytes. */
-static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
-                                   const shade_target *from, const shade_target *to, int factor,
+static shade_result shade__convert(const shade__decoder *d, const shade_target *to, int factor,
                                    shade_write_fn *sink, void *user)
 {
+    shade__halving *h = d->halving;
     float rgba[4 * SHADE_LANES] = { 0 };
     uint8_t pixels[4 * SHADE_LANES], rgb[3 * SHADE_LANES];
     int clip[4];
@@ -9908,9 +9912,10 @@ static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
     for (int x = clip[0]; x < clip[2]; x += SHADE_LANES) {
         const int n = shade__min(SHADE_LANES, clip[2] - x);
         if (h)
-            for (int i = 0; i < n; i++) h->column[i] = shade__cut_of(from->width, to->width, x + i);
+            for (int i = 0; i < n; i++)
+                h->column[i] = shade__cut_of(d->from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
-            shade__reduce(d, h, from, to, factor, x, y, n, rgba);
+            shade__reduce(d, to, factor, x, y, n, rgba);
             shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
             if (!sink) continue;
 
@@ -9935,7 +9940,7 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
         return SHADE_ERROR_ARGUMENT;
 
     shade__open_decoder(in, &decoder);
-    return shade__convert(&decoder, NULL, in, out, factor, NULL, NULL);
+    return shade__convert(&decoder, out, factor, NULL, NULL);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
@@ -9978,6 +9983,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
     shade__open_decoder(&from, &decoder);
+    decoder.halving = &halving;
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     for (int n = 0; n < count; n++, from = to) {
         to = from;
@@ -9985,7 +9991,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        shade__convert(&decoder, &halving, &from, &to, 2, NULL, NULL);
+        shade__convert(&decoder, &to, 2, NULL, NULL);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -10031,7 +10037,7 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const s
     shade__open_decoder(&from, &decoder);
     for (int y = 0; y < shade__rows_held(target) && !result; y++) {
         to.clip_y = to.row_offset + y;
-        result = shade__convert(&decoder, NULL, &from, &to, 1, sink, user);
+        result = shade__convert(&decoder, &to, 1, sink, user);
     }
     return result;
 }
