@@ -687,23 +687,12 @@ TEST(readme, chunks_draw_the_same_and_skip_what_is_not_seen)
     CHECK_SAY(stats.skipped > 500, "%lld of %lld skipped", stats.skipped, stats.triangles);
 }
 
-static const test_case readme_cases[] = {
-    CASE(readme, program_draws_a_knot_of_gold),
-    CASE(readme, program_of_the_header_draws_a_triangle),
-    CASE(readme, explain_says_what_the_table_quotes),
-    CASE(readme, three_lamps_shine_as_said),
-    CASE(readme, unlit_shows_the_colours_alone),
-    CASE(readme, first_picture_shows_all_of_any_mesh),
-    CASE(readme, floats_become_bytes),
-    CASE(readme, window_shows_the_target),
-    CASE(readme, png_holds_the_target),
-    CASE(readme, shaders_draw_map_and_shadow),
-    CASE(readme, the_offset_advised_leaves_no_shadow_acne),
-    CASE(readme, mist_takes_a_tenth_of_the_light_each_unit),
-    CASE(readme, picking_finds_what_was_drawn),
-    CASE(readme, chunks_draw_the_same_and_skip_what_is_not_seen),
-};
-SECTION(readme);
+static test_case *first_case, **next_case = &first_case;
+void test_list(test_case *item)
+{
+    *next_case = item;
+    next_case = &item->next;
+}
 
 int main(int argc, char **argv)
 {
@@ -711,8 +700,8 @@ int main(int argc, char **argv)
     knot_ppm = argc > 1 ? argv[1] : NULL;
     triangle_ppm = argc > 2 ? argv[2] : NULL;
     test_now.seed = 20261121u;
-    for (int k = 0; k < readme_section.count; k++)
-        test_run_case(&readme_section, &readme_section.cases[k], &passed, &failed);
+    for (test_case *item = first_case; item; item = item->next)
+        test_run_case(item, &passed, &failed);
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

@@ -445,15 +445,3 @@ TEST(camera, highlights_of_another_eye_are_explained)
         canvas_close(&c);
     }
 }
-
-static const test_case camera_cases[] = {
-    CASE(camera, rays_do_not_change_where_a_camera_is_split),
-    CASE(camera, every_camera_that_draws_picks_what_it_draws),
-    CASE(camera, finite_matrices_give_finite_rays),
-    CASE(camera, boxes_are_seen_in_every_split),
-    CASE(camera, fits_do_not_change_with_a_motion_in_the_projection),
-    CASE(camera, what_is_explained_does_not_change_where_a_camera_is_split),
-    CASE(camera, highlights_of_another_eye_are_explained),
-};
-
-SECTION(camera);

@@ -1494,36 +1494,3 @@ TEST(chunks, bad_indices_are_found_where_their_box_is_met)
     m.index_count = 8;
     CHECK_INT(pick_with(&m, chunk, 1, shade_mat4_identity(), ray).triangle, -1);
 }
-
-static const test_case chunks_cases[] = {
-    CASE(chunks, pictures_have_the_same_bits_with_chunks_and_without),
-    CASE(chunks, sorted_meshes_have_the_same_bits_with_chunks_and_without),
-    CASE(chunks, bands_with_chunks_together_make_the_picture_without),
-    CASE(chunks, strips_with_chunks_together_make_the_picture_without),
-    CASE(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box),
-    CASE(chunks, rounding_of_numbers_that_cancel_hides_nothing),
-    CASE(chunks, depths_that_underflow_are_not_hidden),
-    CASE(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible),
-    CASE(chunks, a_zero_matrix_is_the_identity),
-    CASE(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels),
-    CASE(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call),
-    CASE(chunks, exactly_the_triangles_of_the_list_are_drawn),
-    CASE(chunks, a_triangle_in_several_chunks_is_blended_as_often),
-    CASE(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen),
-    CASE(chunks, runs_tile_the_list_in_boxes_of_their_corners),
-    CASE(chunks, counts_are_those_of_whole_chunks_and_a_rest),
-    CASE(chunks, bad_arguments_change_nothing_and_are_told_in_their_order),
-    CASE(chunks, without_mesh_or_room_nothing_is_made_and_no_vertex_makes_no_chunk),
-    CASE(chunks, no_numbers_take_long_to_sort),
-    CASE(chunks, a_shuffled_sheet_is_sorted_into_squares),
-    CASE(chunks, neighbouring_floats_are_sorted_apart),
-    CASE(chunks, shuffled_crumbs_are_sorted_into_cubes),
-    CASE(chunks, rays_meet_the_same_triangle_with_chunks_and_without),
-    CASE(chunks, picks_through_chunks_are_the_nearest_triangles_of_all),
-    CASE(chunks, picks_are_the_nearest_intersection_under_any_model),
-    CASE(chunks, a_ray_that_starts_on_triangles_picks_the_lowest),
-    CASE(chunks, boxes_of_any_scale_are_met),
-    CASE(chunks, bad_indices_are_found_where_their_box_is_met),
-};
-
-SECTION(chunks);

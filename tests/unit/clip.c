@@ -851,30 +851,3 @@ TEST(clip, a_dent_keeps_out_the_centre_that_is_cut_off)
         canvas_close(&c);
     }
 }
-
-static const test_case clip_cases[] = {
-    CASE(clip, a_dent_keeps_out_the_centre_that_is_cut_off),
-    CASE(clip, affine_values_survive_a_cut_between_any_two_w),
-    CASE(clip, dents_by_snapping_are_filled_without_overlap),
-    CASE(clip, pieces_that_snapping_turns_are_left_out),
-    CASE(clip, triangles_outside_one_plane_count_as_clipped),
-    CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),
-    CASE(clip, positions_that_are_no_numbers_are_rejected),
-    CASE(clip, zero_area_counts_as_culled),
-    CASE(clip, near_and_far_cut_where_they_should),
-    CASE(clip, corners_far_outside_the_guard_band_keep_their_edges),
-    CASE(clip, eye_space_far_to_the_sides_keeps_its_edges),
-    CASE(clip, meshes_beyond_the_guard_band_cover_every_pixel_once),
-    CASE(clip, meshes_through_the_near_plane_cover_every_pixel_once),
-    CASE(clip, facing_survives_the_cut),
-    CASE(clip, varyings_survive_the_cut),
-    CASE(clip, affine_is_linear_on_the_screen_in_three_examples),
-    CASE(clip, affine_is_linear_on_the_screen_whatever_is_cut),
-    CASE(clip, affine_behind_the_eye_is_linear_between_perspective_values),
-    CASE(clip, affine_behind_the_eye_stays_between_the_corners),
-    CASE(clip, polygons_dented_by_rounding_are_survived),
-    CASE(clip, any_position_at_all_is_accounted_for),
-    CASE(clip, only_the_volume_decides_between_the_planes_of_zero_to_one),
-};
-
-SECTION(clip);

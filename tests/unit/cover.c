@@ -598,28 +598,3 @@ TEST(cover, the_oracle_is_the_top_left_rule)
     }
     CHECK_SAY(ties > 1000, "%d centres on edges", ties);
 }
-
-static const test_case cover_cases[] = {
-    CASE(cover, the_oracle_is_the_top_left_rule),
-    CASE(cover, random_triangles_cover_exactly_the_top_left_pixels),
-    CASE(cover, corners_snap_to_the_nearest_256th_halves_up),
-    CASE(cover, meshes_cover_every_pixel_exactly_once),
-    CASE(cover, slivers_a_256th_wide_are_exact),
-    CASE(cover, depth_of_slivers_stays_between_their_corners),
-    CASE(cover, varyings_of_slivers_are_finite),
-    CASE(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing),
-    CASE(cover, small_boxes_of_long_triangles_are_exact),
-    CASE(cover, the_biggest_pictures_are_exact),
-    CASE(cover, wide_flat_triangles_are_exact),
-    CASE(cover, wide_triangles_between_pixel_centres_are_exact),
-    CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
-    CASE(cover, triangles_of_a_million_pixels_are_exact),
-    CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),
-    CASE(cover, ends_of_slivers_of_thousands_of_pixels_are_exact),
-    CASE(cover, slivers_with_a_short_side_are_exact),
-    CASE(cover, borders_of_huge_triangles_are_exact),
-    CASE(cover, level_edges_of_big_triangles_follow_the_rule),
-    CASE(cover, facing_is_counter_clockwise_on_the_screen),
-};
-
-SECTION(cover);

@@ -239,11 +239,3 @@ TEST(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass)
         canvas_close(&c);
     }
 }
-
-static const test_case depth_cases[] = {
-    CASE(depth, is_the_same_bits_whatever_is_interpolated),
-    CASE(depth, passes_of_every_pair_of_shadings_agree),
-    CASE(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass),
-};
-
-SECTION(depth);

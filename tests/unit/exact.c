@@ -281,13 +281,3 @@ TEST(exact, fans_of_slivers_cover_every_pixel_once)
         canvas_close(&c);
     }
 }
-
-static const test_case exact_cases[] = {
-    CASE(exact, every_triangle_on_a_quarter_pixel_lattice),
-    CASE(exact, every_triangle_of_256ths_around_a_centre),
-    CASE(exact, lattice_meshes_cover_every_pixel_once),
-    CASE(exact, strips_across_the_biggest_pictures_cover_every_pixel_once),
-    CASE(exact, fans_of_slivers_cover_every_pixel_once),
-};
-
-SECTION(exact);

@@ -833,28 +833,3 @@ TEST(explain, hostile_input_is_defined)
         free(s);
     }
 }
-
-static const test_case explain_cases[] = {
-    CASE(explain, every_mistake_gets_the_word_that_leads_to_it),
-    CASE(explain, no_more_than_these_mistakes_are_silent),
-    CASE(explain, the_scene_without_a_mistake_gets_none),
-    CASE(explain, random_good_scenes_get_none),
-    CASE(explain, what_other_meshes_explain_gets_none),
-    CASE(explain, of_more_than_sixteen_lamps_no_colour_is_blamed),
-    CASE(explain, of_faces_no_normals_are_blamed),
-    CASE(explain, of_a_pool_beside_the_middle_of_a_face_no_field_is_blamed_alone),
-    CASE(explain, a_draw_that_had_pixels_is_not_said_to_have_none),
-    CASE(explain, small_pools_of_light_are_light),
-    CASE(explain, light_begins_above_8_of_255),
-    CASE(explain, a_band_is_not_blamed_for_its_half_of_a_mesh),
-    CASE(explain, a_multiple_of_a_projection_is_the_same_one),
-    CASE(explain, depth_is_blamed_after_whole_draws_alone),
-    CASE(explain, what_is_unusual_is_no_mistake),
-    CASE(explain, depth_that_changed_since_the_draw_is_not_blamed),
-    CASE(explain, no_sentence_about_a_random_draw_is_false),
-    CASE(explain, nothing_is_said_of_sensible_scenes),
-    CASE(explain, it_writes_nothing),
-    CASE(explain, hostile_input_is_defined),
-};
-
-SECTION(explain);

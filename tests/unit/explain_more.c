@@ -644,13 +644,3 @@ TEST(explain_more, a_shader_that_lights_one_channel_leaves_no_black)
     }
     free(s);
 }
-
-static const test_case explain_more_cases[] = {
-    CASE(explain_more, each_sentence_has_its_limit),
-    CASE(explain_more, a_bias_that_shows_a_far_mesh_is_not_called_far),
-    CASE(explain_more, of_more_than_sixteen_lamps_none_is_said_to_be_behind),
-    CASE(explain_more, aspect_and_depth_are_those_of_the_camera),
-    CASE(explain_more, a_shader_that_lights_one_channel_leaves_no_black),
-};
-
-SECTION(explain_more);

@@ -722,10 +722,3 @@ TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
     CHECK_SAY(said_something > test_rounds(10000) && nothing_seen > test_rounds(3000), "%ld, %ld",
               said_something, nothing_seen);
 }
-
-static const test_case explain_pipelines_cases[] = {
-    CASE(explain_pipelines, each_mistake_gets_its_sentence),
-    CASE(explain_pipelines, what_is_said_of_any_draw_is_true),
-};
-
-SECTION(explain_pipelines);

@@ -830,30 +830,3 @@ TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
         canvas_close(&c);
     }
 }
-
-static const test_case fragment_cases[] = {
-    CASE(fragment, without_a_lod_texture_lod_is_zero_in_every_packet),
-    CASE(fragment, packets_are_full_but_the_last_of_a_batch),
-    CASE(fragment, perspective_varyings_match_double_for_every_count),
-    CASE(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones),
-    CASE(fragment, comparisons_do_what_their_names_say),
-    CASE(fragment, a_second_identical_draw_has_equal_depth),
-    CASE(fragment, bias_is_added_and_what_is_stored_is_clamped),
-    CASE(fragment, bias_moves_sloping_depth_as_a_whole),
-    CASE(fragment, reversed_depth_sees_what_is_nearer),
-    CASE(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer),
-    CASE(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel),
-    CASE(fragment, without_a_depth_buffer_every_test_passes),
-    CASE(fragment, blending_follows_submission_order_in_float),
-    CASE(fragment, blending_of_stored_bytes_follows_submission_order),
-    CASE(fragment, alpha_of_over_builds_up),
-    CASE(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth),
-    CASE(fragment, testing_depth_before_or_after_shading_gives_the_same_picture),
-    CASE(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed),
-    CASE(fragment, without_colour_the_shader_runs_only_where_it_may_discard),
-    CASE(fragment, without_a_shader_only_depth_is_written),
-    CASE(fragment, colours_a_shader_leaves_alone_are_opaque_black),
-    CASE(fragment, vertex_colours_smear_between_the_corners),
-};
-
-SECTION(fragment);

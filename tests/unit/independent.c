@@ -389,16 +389,3 @@ TEST(independent, a_distance_or_a_sum_that_overflows_has_one_outcome)
     lamp.quadratic = 1e30f;
     CHECK_NEAR(shade_light_at(&lamp, shade_v3(1e18f, 0, 0), NULL, NULL), 0, 0);
 }
-
-static const test_case independent_cases[] = {
-    CASE(independent, a_lane_of_a_packet_is_the_scalar_call),
-    CASE(independent, a_lane_among_others_is_the_lane_among_copies_of_itself),
-    CASE(independent, what_arrives_at_a_lane_is_what_arrives_at_the_point),
-    CASE(independent, a_texel_of_a_packet_is_the_scalar_sample),
-    CASE(independent, a_picture_is_the_same_in_bands_and_pixel_by_pixel),
-    CASE(independent, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane),
-    CASE(independent, the_sign_of_a_nan_decides_nothing),
-    CASE(independent, a_distance_or_a_sum_that_overflows_has_one_outcome),
-};
-
-SECTION(independent);

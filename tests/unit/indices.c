@@ -157,13 +157,3 @@ TEST(indices, of_both_widths_are_refused)
     CHECK(canvas_untouched(&c));
     canvas_close(&c);
 }
-
-static const test_case indices_cases[] = {
-    CASE(indices, of_16_bits_give_every_call_what_those_of_32_give),
-    CASE(indices, sorted_chunks_of_16_bits_are_drawn_by_their_indices_of_32),
-    CASE(indices, the_last_of_65536_vertices_is_reached),
-    CASE(indices, one_past_the_vertices_is_found_wherever_it_stands),
-    CASE(indices, of_both_widths_are_refused),
-};
-
-SECTION(indices);

@@ -799,32 +799,3 @@ TEST(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte)
         }
     }
 }
-
-static const test_case lanes_cases[] = {
-    CASE(lanes, every_combination_of_rows_is_the_equation_of_its_lane),
-    CASE(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers_of_two),
-    CASE(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte),
-    CASE(lanes, each_of_many_lamps_has_its_own_row_of_visibility),
-    CASE(lanes, a_term_that_is_off_reads_nothing),
-    CASE(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite),
-    CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),
-    CASE(lanes, light_opposite_to_the_viewer_has_no_halfway_vector),
-    CASE(lanes, a_packet_matches_the_equation_for_every_flag_and_model),
-    CASE(lanes, every_lane_is_computed_the_same),
-    CASE(lanes, highlights_hold_the_bound_where_it_is_tightest),
-    CASE(lanes, albedo_multiplies_diffuse_and_ambient_only),
-    CASE(lanes, light_at_lanes_is_what_arrives_at_each_lane),
-    CASE(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more),
-    CASE(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light),
-    CASE(lanes, visibility_multiplies_the_diffuse_and_specular_light_of_its_lamp),
-    CASE(lanes, all_lamps_in_full_sight_are_the_bits_without_visibility),
-    CASE(lanes, models_without_light_of_lamps_read_no_visibility),
-    CASE(lanes, nothing_is_written_but_the_three_rows),
-    CASE(lanes, missing_arguments_mean_their_defaults),
-    CASE(lanes, many_lights_add_up),
-    CASE(lanes, a_lamp_without_an_axis_is_no_spot),
-    CASE(lanes, emission_alone_reads_no_albedo),
-    CASE(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane),
-};
-
-SECTION(lanes);

@@ -915,31 +915,3 @@ TEST(lines, depth_only_targets_take_lines_too)
     CHECK_NEAR(canvas_depth(&c, 7, 5), 0.5, 0);
     canvas_close(&c);
 }
-
-static const test_case lines_cases[] = {
-    CASE(lines, coverage_is_the_pixels_of_the_rectangle_exactly),
-    CASE(lines, coverage_is_the_rectangle_in_any_direction),
-    CASE(lines, no_width_is_one_pixel),
-    CASE(lines, any_finite_width_covers_what_it_reaches),
-    CASE(lines, square_ends_close_the_joints_of_a_path),
-    CASE(lines, a_line_without_length_is_nothing_or_a_square),
-    CASE(lines, near_and_far_cut_the_segment_before_it_gets_its_width),
-    CASE(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn),
-    CASE(lines, ends_a_million_pictures_away_keep_their_pixels),
-    CASE(lines, far_ends_seen_by_a_camera_keep_their_pixels),
-    CASE(lines, an_end_that_touches_near_or_far_is_a_point),
-    CASE(lines, a_line_from_infinitely_far_enters_from_its_direction),
-    CASE(lines, the_scale_of_a_scene_does_not_matter),
-    CASE(lines, places_that_are_none_are_rejected_wherever_they_lie),
-    CASE(lines, any_finite_numbers_keep_to_the_picture_and_the_count),
-    CASE(lines, a_degenerate_camera_draws_no_line),
-    CASE(lines, nothing_is_drawn_outside_the_clip_rectangle),
-    CASE(lines, depth_runs_from_end_to_end_and_is_tested),
-    CASE(lines, a_small_negative_bias_lifts_lines_off_their_own_faces),
-    CASE(lines, cull_is_ignored),
-    CASE(lines, colour_and_blending_are_the_state_s),
-    CASE(lines, bad_arguments_are_refused_before_a_pixel_changes),
-    CASE(lines, depth_only_targets_take_lines_too),
-};
-
-SECTION(lines);

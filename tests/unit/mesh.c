@@ -1060,35 +1060,3 @@ TEST(mesh, vertex_normals_of_bad_meshes_are_refused)
         CHECK_INT(shade_mesh_normals(&s, n), SHADE_OK);
     }
 }
-
-static const test_case mesh_cases[] = {
-    CASE(mesh, matrices_that_begin_with_zeros_are_used),
-    CASE(mesh, a_mesh_of_nothing_needs_no_positions),
-    CASE(mesh, per_fragment_is_the_equation_at_every_pixel),
-    CASE(mesh, per_vertex_interpolates_the_light_of_the_corners),
-    CASE(mesh, per_face_is_lit_once_at_the_centroid),
-    CASE(mesh, mirrored_models_keep_their_given_normals),
-    CASE(mesh, faces_of_distant_light_and_viewer_have_one_colour),
-    CASE(mesh, per_face_takes_the_colour_of_the_first_vertex),
-    CASE(mesh, gouraud_misses_the_highlight_that_phong_finds),
-    CASE(mesh, light_between_gouraud_vertices_is_not_clamped),
-    CASE(mesh, every_layout_of_the_same_mesh_gives_the_same_bits),
-    CASE(mesh, bands_of_a_mesh_give_the_bits_of_the_whole),
-    CASE(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert),
-    CASE(mesh, the_state_of_the_pipeline_is_handed_on),
-    CASE(mesh, a_nan_in_a_matrix_rejects_every_triangle),
-    CASE(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero),
-    CASE(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes),
-    CASE(mesh, a_negative_number_of_lights_is_none_and_no_index_is_no_triangle),
-    CASE(mesh, transparency_and_cutoff_lie_between_zero_and_one),
-    CASE(mesh, a_bad_index_is_found_wherever_it_stands),
-    CASE(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention),
-    CASE(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut),
-    CASE(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn),
-    CASE(mesh, depth_alone_has_the_holes_of_the_picture),
-    CASE(mesh, vertex_normals_are_weighted_by_angle_and_unit),
-    CASE(mesh, corners_of_a_cube_point_along_its_diagonals),
-    CASE(mesh, vertex_normals_of_bad_meshes_are_refused),
-};
-
-SECTION(mesh);

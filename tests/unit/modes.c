@@ -195,16 +195,4 @@ TEST(modes, programs_that_trap_may_draw)
     modes_ordinary(modes_arm, modes_disarm);
     signal(SIGFPE, before);
 }
-#define MODES_CASE_TRAPS CASE(modes, programs_that_trap_may_draw),
-#else
-#define MODES_CASE_TRAPS
 #endif
-
-static const test_case modes_cases[] = {
-    CASE(modes, no_rounding_reads_a_texel_beyond_the_row),
-    CASE(modes, no_mode_writes_outside_a_picture),
-    CASE(modes, what_is_finite_and_in_range_raises_no_flag),
-    MODES_CASE_TRAPS
-};
-
-SECTION(modes);

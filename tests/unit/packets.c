@@ -700,12 +700,3 @@ TEST(packets, packets_of_many_triangles_end_at_every_pixel_of_a_run)
         }
     packets_queue_close(q);
 }
-
-static const test_case packets_cases[] = {
-    CASE(packets, every_lane_sets_up_every_kind_of_triangle),
-    CASE(packets, every_lane_sets_up_triangles_as_big_as_there_are),
-    CASE(packets, runs_of_every_length_meet_the_queue_at_every_fill),
-    CASE(packets, packets_of_many_triangles_end_at_every_pixel_of_a_run),
-};
-
-SECTION(packets);

@@ -860,37 +860,3 @@ TEST(ray, a_flat_triangle_is_met_however_far_it_is)
     }
     CHECK_SAY(met > 4000, "%d met", met);
 }
-
-static const test_case ray_cases[] = {
-    CASE(ray, perspective_rays_leave_the_eye_through_the_pixel),
-    CASE(ray, off_centre_frustums_bend_their_rays),
-    CASE(ray, rays_of_an_infinite_reversed_projection_point_forward),
-    CASE(ray, orthographic_rays_are_parallel_and_leave_the_near_plane),
-    CASE(ray, the_middle_of_a_picture_is_straight_ahead),
-    CASE(ray, any_matrices_give_a_ray_without_a_crash),
-    CASE(ray, a_degenerate_camera_has_rays_without_direction),
-    CASE(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say),
-    CASE(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle),
-    CASE(ray, triangles_without_area_are_never_hit),
-    CASE(ray, corners_in_a_line_to_the_bit_are_never_hit),
-    CASE(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at),
-    CASE(ray, no_numbers_meet_nothing_or_something_finite),
-    CASE(ray, pick_is_the_nearest_triangle_of_all),
-    CASE(ray, pick_places_the_mesh_by_its_model),
-    CASE(ray, of_triangles_met_at_one_place_the_first_is_picked),
-    CASE(ray, the_length_of_a_direction_scales_t),
-    CASE(ray, pick_finds_nothing_in_bad_meshes_and_on_bad_rays),
-    CASE(ray, pick_finds_nothing_where_points_or_the_matrix_are_not_finite_or_flat),
-    CASE(ray, a_triangle_of_any_bits_hides_no_other_from_pick),
-    CASE(ray, pick_never_meets_a_triangle_without_area),
-    CASE(ray, pick_says_what_is_drawn_at_every_pixel),
-    CASE(ray, cast_and_drawn_pictures_agree_in_perspective),
-    CASE(ray, cast_and_drawn_pictures_agree_off_centre),
-    CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
-    CASE(ray, cast_and_drawn_pictures_agree_without_perspective),
-    CASE(ray, a_model_whose_w_is_two_is_picked_at_half_its_size),
-    CASE(ray, a_flat_triangle_is_met_however_far_it_is),
-    CASE(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all),
-};
-
-SECTION(ray);

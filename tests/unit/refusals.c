@@ -402,12 +402,3 @@ TEST(refusals, every_result_names_its_fields_in_a_text_of_its_own)
         CHECK(text && text[0] && strcmp(text, shade_result_string(SHADE_OK)) != 0);
     }
 }
-
-static const test_case refusals_cases[] = {
-    CASE(refusals, of_any_two_faults_the_first_category_is_told),
-    CASE(refusals, sizes_that_do_not_fit_are_arguments_behind_good_targets),
-    CASE(refusals, alpha_alone_is_no_format_of_a_target),
-    CASE(refusals, every_result_names_its_fields_in_a_text_of_its_own),
-};
-
-SECTION(refusals);

@@ -531,16 +531,3 @@ TEST(shaders, those_of_pipelines_have_no_eye)
     }
     canvas_close(&c);
 }
-
-static const test_case shaders_cases[] = {
-    CASE(shaders, it_is_handed_the_eye_of_the_view),
-    CASE(shaders, those_of_pipelines_have_no_eye),
-    CASE(shaders, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on),
-    CASE(shaders, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply),
-    CASE(shaders, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else),
-    CASE(shaders, one_that_sets_nothing_draws_opaque_black),
-    CASE(shaders, one_that_lights_as_the_library_does_draws_its_bits),
-    CASE(shaders, colours_of_vertices_cut_holes_into_depth_alone),
-};
-
-SECTION(shaders);

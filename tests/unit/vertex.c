@@ -239,15 +239,3 @@ TEST(vertex, a_position_behind_the_eye_is_survived) /* w = -1 */
     CHECK_INT(stats.drawn, 1);
     canvas_close(&c);
 }
-
-static const test_case vertex_cases[] = {
-    CASE(vertex, vertices_of_a_grid_are_shaded_once_per_batch),
-    CASE(vertex, without_indices_each_vertex_is_shaded_once_in_order),
-    CASE(vertex, only_referenced_vertices_are_shaded),
-    CASE(vertex, every_triangle_gets_its_own_three_vertices),
-    CASE(vertex, what_a_shader_leaves_alone_is_zero),
-    CASE(vertex, indices_reach_up_to_the_greatest_count),
-    CASE(vertex, a_position_behind_the_eye_is_survived),
-};
-
-SECTION(vertex);

@@ -149,11 +149,3 @@ TEST(work, what_lies_behind_a_big_triangle_takes_no_tiles)
     }
     canvas_close(&c);
 }
-
-static const test_case work_cases[] = {
-    CASE(work, diagonals_take_the_tiles_that_they_cross),
-    CASE(work, triangles_take_their_rows_and_the_tiles_that_they_cross),
-    CASE(work, what_lies_behind_a_big_triangle_takes_no_tiles),
-};
-
-SECTION(work);
