@@ -67,6 +67,20 @@ static inline void stage_look(stage *s)
     s->state.view = shade_mat4_look_at(s->eye, s->center, shade_v3(0, 1, 0));
     s->state.projection = shade_mat4_perspective(s->fovy, s->aspect, s->z_near, s->z_far);
 }
+static inline void stage_place(stage *s, shade_vec3 eye, shade_vec3 center)
+{
+    s->eye = eye;
+    s->center = center;
+    stage_look(s);
+}
+static inline void stage_lens(stage *s, float fovy, float aspect, float z_near, float z_far)
+{
+    s->fovy = fovy;
+    s->aspect = aspect;
+    s->z_near = z_near;
+    s->z_far = z_far;
+    stage_look(s);
+}
 /* What every scene has: a ball, grey colours, a white map, and no lamp yet. */
 static inline void stage_begin(stage *s)
 {
@@ -160,11 +174,17 @@ static inline void stage_reverse(stage *s, float z_near)
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
-static inline void stage_lamp(stage *s, shade_light lamp)
+/* The first lamp, alone. */
+static inline shade_light *stage_one_lamp(stage *s)
+{
+    s->state.lighting.light_count = 1;
+    return &s->lamps[0];
+}
+static inline shade_light *stage_lamp(stage *s, shade_light lamp)
 {
     s->lamps[0] = lamp;
     s->state.lighting.lights = s->lamps;
-    s->state.lighting.light_count = 1;
+    return stage_one_lamp(s);
 }
 /* A lamp where the first one is, that points at the middle of the mesh. */
 static shade_light stage_spot(const stage *s, float cutoff, float exponent)
@@ -173,10 +193,11 @@ static shade_light stage_spot(const stage *s, float cutoff, float exponent)
     return shade_spot_light(from, shade_sub(s->center, from), cutoff, exponent,
                             shade_v3(1, 1, 1));
 }
-static inline void stage_map(stage *s)
+static inline shade_texture *stage_map(stage *s)
 {
     s->mesh.texcoords = &s->texcoord[0].x;
     s->state.diffuse_map = &s->map;
+    return &s->map;
 }
 /* Winds the triangles the other way from an index on. */
 static inline void stage_turn(stage *s, int first)
@@ -261,10 +282,7 @@ MISTAKE(clear_forgotten) { s->clear = NAN; }
 MISTAKE(cleared_to_zero) { s->clear = 0; }
 MISTAKE(cleared_once_for_two_frames) { s->draws = 2; }
 MISTAKE(test_greater) { s->state.raster.depth_test = SHADE_COMPARE_GREATER; }
-MISTAKE(test_equal)
-{
-    s->state.raster.depth_test = SHADE_COMPARE_EQUAL;
-}
+MISTAKE(test_equal) { s->state.raster.depth_test = SHADE_COMPARE_EQUAL; }
 MISTAKE(test_always) { s->state.raster.depth_test = SHADE_COMPARE_ALWAYS; }
 MISTAKE(depth_never_written) { s->state.raster.depth_read_only = 1; }
 MISTAKE(bias_of_one) { s->state.raster.depth_bias = 1; }
@@ -308,10 +326,7 @@ MISTAKE(indices_forgotten)
     s->mesh.vertex_count -= s->mesh.vertex_count % 3;
 }
 MISTAKE(index_count_forgotten) { s->mesh.index_count = 0; }
-MISTAKE(index_count_of_triangles)
-{
-    s->mesh.index_count = s->mesh.index_count / 9 * 3;
-}
+MISTAKE(index_count_of_triangles) { s->mesh.index_count = s->mesh.index_count / 9 * 3; }
 MISTAKE(index_count_less_one) { s->mesh.index_count--; }
 MISTAKE(indices_of_16_bits)
 {
@@ -355,10 +370,7 @@ MISTAKE(positions_interleaved_without_stride)
         s->position[2 * i + 1] = s->normal[i];
     }
 }
-MISTAKE(positions_never_filled)
-{
-    memset(s->position, 0, sizeof s->position);
-}
+MISTAKE(positions_never_filled) { memset(s->position, 0, sizeof s->position); }
 MISTAKE(positions_nan)
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) s->position[i].y = NAN;
@@ -437,11 +449,7 @@ MISTAKE(texcoords_never_filled)
     stage_map(s);
     memset(s->texcoord, 0, sizeof s->texcoord);
 }
-MISTAKE(map_without_pixels)
-{
-    stage_map(s);
-    s->map.pixels = NULL;
-}
+MISTAKE(map_without_pixels) { stage_map(s)->pixels = NULL; }
 MISTAKE(map_black)
 {
     stage_map(s);
@@ -465,16 +473,8 @@ MISTAKE(map_not_marked_srgb)
     s->map.srgb = 0;
     s->target.srgb = 1;
 }
-MISTAKE(trilinear_without_mipmaps)
-{
-    stage_map(s);
-    s->map.filter = SHADE_FILTER_TRILINEAR;
-}
-MISTAKE(map_of_no_size)
-{
-    stage_map(s);
-    s->map.width = 0;
-}
+MISTAKE(trilinear_without_mipmaps) { stage_map(s)->filter = SHADE_FILTER_TRILINEAR; }
+MISTAKE(map_of_no_size) { stage_map(s)->width = 0; }
 MISTAKE(chunk_count_forgotten)
 {
     stage_chunks(s);
@@ -509,11 +509,7 @@ MISTAKE(lamp_black)
     s->state.lighting.light_count = 1;
     s->lamps[0].diffuse = s->lamps[0].specular = BLACK;
 }
-MISTAKE(light_of_255)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].diffuse = shade_v3(255, 255, 255);
-}
+MISTAKE(light_of_255) { stage_one_lamp(s)->diffuse = shade_v3(255, 255, 255); }
 MISTAKE(lamp_of_a_hundredth)
 {
     s->state.lighting.light_count = 1;
@@ -524,10 +520,7 @@ MISTAKE(lamp_behind)
     const shade_vec3 behind = shade_madd(s->center, -1, shade_sub(s->eye, s->center));
     stage_lamp(s, shade_point_light(behind, shade_v3(1, 1, 1)));
 }
-MISTAKE(lamp_inside)
-{
-    stage_lamp(s, shade_point_light(s->center, shade_v3(1, 1, 1)));
-}
+MISTAKE(lamp_inside) { stage_lamp(s, shade_point_light(s->center, shade_v3(1, 1, 1))); }
 MISTAKE(lamp_in_eye_space)    /* a lamp at the eye, as OpenGL 1 had it */
 {
     stage_lamp(s, shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1)));
@@ -565,22 +558,10 @@ MISTAKE(sun_as_a_point)    /* a direction whose w was left at 1 */
     stage_lamp(s, shade_directional_light(shade_v3(0, -0.2f, -0.4f), shade_v3(1, 1, 1)));
     s->lamps[0].position.w = 1;
 }
-MISTAKE(point_as_a_sun)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].position.w = 0;
-}
+MISTAKE(point_as_a_sun) { stage_one_lamp(s)->position.w = 0; }
 MISTAKE(cutoff_in_degrees) { stage_lamp(s, stage_spot(s, 30, 1)); }
-MISTAKE(cosine_in_degrees)
-{
-    stage_lamp(s, stage_spot(s, 0.5f, 1));
-    s->lamps[0].spot_cos_cutoff = 30;
-}
-MISTAKE(angle_for_its_cosine)
-{
-    stage_lamp(s, stage_spot(s, 0.5f, 1));
-    s->lamps[0].spot_cos_cutoff = 0.5f;
-}
+MISTAKE(cosine_in_degrees) { stage_lamp(s, stage_spot(s, 0.5f, 1))->spot_cos_cutoff = 30; }
+MISTAKE(angle_for_its_cosine) { stage_lamp(s, stage_spot(s, 0.5f, 1))->spot_cos_cutoff = 0.5f; }
 MISTAKE(cone_toward_the_eye)
 {
     stage_lamp(s, stage_spot(s, 0.5f, 1));
@@ -604,27 +585,15 @@ MISTAKE(lighting_of_ambient_alone)
 }
 MISTAKE(ambient_of_one) { s->state.lighting.ambient = shade_v3(1, 1, 1); }
 MISTAKE(ambient_of_255) { s->state.lighting.ambient = shade_v3(128, 128, 128); }
-MISTAKE(lamp_without_specular)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].specular = BLACK;
-}
+MISTAKE(lamp_without_specular) { stage_one_lamp(s)->specular = BLACK; }
 MISTAKE(lamp_of_ambient_light)    /* filled by hand */
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].diffuse = s->lamps[0].specular = BLACK;
     s->lamps[0].ambient = shade_v3(0.5f, 0.5f, 0.5f);
 }
-MISTAKE(lamp_nan)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].position.x = NAN;
-}
-MISTAKE(lamp_negative)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].diffuse = shade_v3(-1, -1, -1);
-}
+MISTAKE(lamp_nan) { stage_one_lamp(s)->position.x = NAN; }
+MISTAKE(lamp_negative) { stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1); }
 MISTAKE(terms_of_nothing) { s->state.lighting.terms = SHADE_TERM_EMISSION; }
 MISTAKE(terms_of_highlights) { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
 MISTAKE(terms_unknown) { s->state.lighting.terms = 64; }
@@ -641,14 +610,8 @@ MISTAKE(a_pool_of_light_by_vertices)    /* it falls where there are some, or non
 /* the material */
 MISTAKE(material_forgotten) { s->state.material = NULL; }
 MISTAKE(material_never_filled) { memset(&s->material, 0, sizeof s->material); }
-MISTAKE(material_of_255)
-{
-    s->material.diffuse = s->material.ambient = shade_v3(255, 200, 100);
-}
-MISTAKE(material_of_ambient_light)
-{
-    s->material.diffuse = s->material.specular = BLACK;
-}
+MISTAKE(material_of_255) { s->material.diffuse = s->material.ambient = shade_v3(255, 200, 100); }
+MISTAKE(material_of_ambient_light) { s->material.diffuse = s->material.specular = BLACK; }
 MISTAKE(ambient_without_k_a)
 {
     memset(&s->state.lighting, 0, sizeof s->state.lighting);
@@ -668,10 +631,7 @@ MISTAKE(material_negative)
 }
 MISTAKE(shininess_forgotten) { s->material.shininess = 0; }
 MISTAKE(shininess_of_a_table) { s->material.shininess = 0.4f; }
-MISTAKE(emission_of_the_diffuse_colour)
-{
-    s->material.emission = s->material.diffuse;
-}
+MISTAKE(emission_of_the_diffuse_colour) { s->material.emission = s->material.diffuse; }
 MISTAKE(emission_white) { s->material.emission = shade_v3(1, 1, 1); }
 MISTAKE(invisible)
 {
@@ -693,10 +653,7 @@ MISTAKE(cutoff_above_the_alpha)
 }
 MISTAKE(cull_unknown) { s->state.raster.cull = (shade_cull)4; }
 MISTAKE(blend_unknown) { s->state.raster.blend = (shade_blend)77; }
-MISTAKE(depth_test_unknown)
-{
-    s->state.raster.depth_test = (shade_compare)513;
-}
+MISTAKE(depth_test_unknown) { s->state.raster.depth_test = (shade_compare)513; }
 MISTAKE(shader_discards_all) { s->state.fragment = shader_that_discards; }
 MISTAKE(shader_leaves_black) { s->state.fragment = shader_black; }
 MISTAKE(shader_by_vertices)
@@ -707,17 +664,10 @@ MISTAKE(shader_by_vertices)
 
 /* cameras */
 MISTAKE(view_forgotten) { memset(&s->state.view, 0, sizeof s->state.view); }
-MISTAKE(eye_and_center_exchanged)
-{
-    const shade_vec3 eye = s->eye;
-    s->eye = s->center;
-    s->center = eye;
-    stage_look(s);
-}
+MISTAKE(eye_and_center_exchanged) { stage_place(s, s->center, s->eye); }
 MISTAKE(looks_the_other_way)
 {
-    s->center = shade_madd(s->eye, 1, shade_sub(s->eye, s->center));
-    stage_look(s);
+    stage_place(s, s->eye, shade_madd(s->eye, 1, shade_sub(s->eye, s->center)));
 }
 MISTAKE(looks_to_the_side)
 {
@@ -728,20 +678,13 @@ MISTAKE(looks_to_the_side)
     s->center = shade_madd(s->center, 0.2f, ahead);
     stage_look(s);
 }
-MISTAKE(eye_at_its_center)
-{
-    s->eye = s->center;
-    stage_look(s);
-}
+MISTAKE(eye_at_its_center) { stage_place(s, s->center, s->center); }
 MISTAKE(up_along_the_view)
 {
     s->state.view = shade_mat4_look_at(s->eye, s->center, shade_sub(s->eye, s->center));
 }
 MISTAKE(view_inverted) { s->state.view = shade_mat4_inverse(s->state.view); }
-MISTAKE(view_by_rows)
-{
-    s->state.view = shade_mat4_transpose(s->state.view);
-}
+MISTAKE(view_by_rows) { s->state.view = shade_mat4_transpose(s->state.view); }
 MISTAKE(view_nan) { s->state.view.col[3].x = NAN; }
 MISTAKE(view_moves_the_camera)    /* not the world */
 {
@@ -753,19 +696,14 @@ MISTAKE(view_that_scales)
 {
     s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(0.5f, 0.5f, 0.5f)), s->state.view);
 }
-MISTAKE(view_twice)
-{
-    s->state.model = s->state.view;
-}
+MISTAKE(view_twice) { s->state.model = s->state.view; }
 MISTAKE(eye_a_thousand_away)
 {
-    s->eye = shade_madd(s->center, 1000, shade_sub(s->eye, s->center));
-    stage_look(s);
+    stage_place(s, shade_madd(s->center, 1000, shade_sub(s->eye, s->center)), s->center);
 }
 MISTAKE(eye_inside)
 {
-    s->eye = shade_madd(s->center, 0.02f, shade_sub(s->eye, s->center));
-    stage_look(s);
+    stage_place(s, shade_madd(s->center, 0.02f, shade_sub(s->eye, s->center)), s->center);
 }
 MISTAKE(projection_forgotten) { memset(&s->state.projection, 0, sizeof s->state.projection); }
 MISTAKE(both_cameras_forgotten)
@@ -773,82 +711,28 @@ MISTAKE(both_cameras_forgotten)
     memset(&s->state.view, 0, sizeof s->state.view);
     memset(&s->state.projection, 0, sizeof s->state.projection);
 }
-MISTAKE(fovy_in_degrees)
-{
-    s->fovy = 40;
-    stage_look(s);
-}
-MISTAKE(fovy_zero)
-{
-    s->fovy = 0;
-    stage_look(s);
-}
+MISTAKE(fovy_in_degrees) { stage_lens(s, 40, s->aspect, s->z_near, s->z_far); }
+MISTAKE(fovy_zero) { stage_lens(s, 0, s->aspect, s->z_near, s->z_far); }
 MISTAKE(fovy_made_radians_twice)
 {
-    s->fovy = shade_radians(s->fovy);
-    stage_look(s);
+    stage_lens(s, shade_radians(s->fovy), s->aspect, s->z_near, s->z_far);
 }
-MISTAKE(fovy_of_half_a_turn)
-{
-    s->fovy = 3;
-    stage_look(s);
-}
+MISTAKE(fovy_of_half_a_turn) { stage_lens(s, 3, s->aspect, s->z_near, s->z_far); }
 MISTAKE(aspect_of_integers)
 {
     if (s->target.height) s->aspect = (float)(s->target.width / s->target.height);
     stage_look(s);
 }
-MISTAKE(aspect_upside_down)
-{
-    s->aspect = 1 / s->aspect;
-    stage_look(s);
-}
-MISTAKE(aspect_zero)
-{
-    s->aspect = 0;
-    stage_look(s);
-}
-MISTAKE(near_zero)
-{
-    s->z_near = 0;
-    stage_look(s);
-}
-MISTAKE(near_negative)
-{
-    s->z_near = -1;
-    stage_look(s);
-}
-MISTAKE(near_is_far)
-{
-    s->z_near = s->z_far;
-    stage_look(s);
-}
-MISTAKE(near_and_far_exchanged)
-{
-    const float z = s->z_near;
-    s->z_near = s->z_far;
-    s->z_far = z;
-    stage_look(s);
-}
-MISTAKE(near_tiny)
-{
-    s->z_near = 1e-7f;
-    stage_look(s);
-}
-MISTAKE(far_too_near)
-{
-    s->z_far = 2 * s->z_near;
-    stage_look(s);
-}
-MISTAKE(near_too_far)
-{
-    s->z_near = s->z_far / 2;
-    stage_look(s);
-}
-MISTAKE(projection_by_rows)
-{
-    s->state.projection = shade_mat4_transpose(s->state.projection);
-}
+MISTAKE(aspect_upside_down) { stage_lens(s, s->fovy, 1 / s->aspect, s->z_near, s->z_far); }
+MISTAKE(aspect_zero) { stage_lens(s, s->fovy, 0, s->z_near, s->z_far); }
+MISTAKE(near_zero) { stage_lens(s, s->fovy, s->aspect, 0, s->z_far); }
+MISTAKE(near_negative) { stage_lens(s, s->fovy, s->aspect, -1, s->z_far); }
+MISTAKE(near_is_far) { stage_lens(s, s->fovy, s->aspect, s->z_far, s->z_far); }
+MISTAKE(near_and_far_exchanged) { stage_lens(s, s->fovy, s->aspect, s->z_far, s->z_near); }
+MISTAKE(near_tiny) { stage_lens(s, s->fovy, s->aspect, 1e-7f, s->z_far); }
+MISTAKE(far_too_near) { stage_lens(s, s->fovy, s->aspect, s->z_near, 2 * s->z_near); }
+MISTAKE(near_too_far) { stage_lens(s, s->fovy, s->aspect, s->z_far / 2, s->z_far); }
+MISTAKE(projection_by_rows) { s->state.projection = shade_mat4_transpose(s->state.projection); }
 MISTAKE(all_by_rows)
 {
     s->state.view = shade_mat4_transpose(s->state.view);
@@ -896,20 +780,14 @@ MISTAKE(ortho_in_pixels)
     s->state.projection = shade_mat4_ortho(0, (float)s->target.width, (float)s->target.height, 0,
                                            -1, 1);
 }
-MISTAKE(ortho_too_short)
-{
-    s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, -1, 1);
-}
+MISTAKE(ortho_too_short) { s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, -1, 1); }
 MISTAKE(ortho_empty) { s->state.projection = shade_mat4_ortho(1, 1, -1, 1, 0.1f, 9); }
 
 /* the model */
 MISTAKE(model_scaled_to_nothing) { s->state.model = STAGE_SCALE(0); }
 MISTAKE(model_in_millimetres) { s->state.model = STAGE_SCALE(1e3f); }
 MISTAKE(model_far_too_small) { s->state.model = STAGE_SCALE(1e-5f); }
-MISTAKE(model_moved_away)
-{
-    s->state.model = shade_mat4_translation(shade_v3(70, 0, 0));
-}
+MISTAKE(model_moved_away) { s->state.model = shade_mat4_translation(shade_v3(70, 0, 0)); }
 MISTAKE(model_by_rows)
 {
     s->state.model = shade_mat4_transpose(shade_mat4_translation(shade_v3(1, 0, 0)));
@@ -925,10 +803,7 @@ MISTAKE(mirrored)
     s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(model_turned_by_degrees)
-{
-    s->state.model = shade_mat4_rotation(90, shade_v3(0, 1, 0));
-}
+MISTAKE(model_turned_by_degrees) { s->state.model = shade_mat4_rotation(90, shade_v3(0, 1, 0)); }
 MISTAKE(moved_before_scaled)    /* scale * translation, not translation * scale */
 {
     s->state.model = shade_mat4_mul(STAGE_SCALE(0.5f), shade_mat4_translation(shade_v3(1, 0, 0)));
@@ -945,19 +820,17 @@ MISTAKE(stats_of_another_mesh) { s->other_stats = 1; }
 MISTAKE(clip_negative) { s->target.clip_width = -1; }
 MISTAKE(vertex_count_negative) { s->mesh.vertex_count = -3; }
 MISTAKE(index_count_negative) { s->mesh.index_count = -3; }
-MISTAKE(chunk_outside)
+/* One chunk of all triangles, with this box. */
+static inline shade_chunk *stage_chunk(stage *s, shade_vec3 low, shade_vec3 high)
 {
     s->mesh.chunks = &s->chunk;
     s->mesh.chunk_count = 1;
-    s->chunk.first = 1;
+    s->chunk.low = low;
+    s->chunk.high = high;
+    return &s->chunk;
 }
-MISTAKE(chunks_of_another_mesh)
-{
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(9, 9, 9);
-    s->chunk.high = shade_v3(10, 10, 10);
-}
+MISTAKE(chunk_outside) { stage_chunk(s, BLACK, BLACK)->first = 1; }
+MISTAKE(chunks_of_another_mesh) { stage_chunk(s, shade_v3(9, 9, 9), shade_v3(10, 10, 10)); }
 MISTAKE(index_beyond) { s->index[77] = STAGE_VERTICES; }
 MISTAKE(vertices_not_in_threes)
 {
@@ -987,31 +860,29 @@ MISTAKE(beyond_far_where_the_inverse_looks)
 MISTAKE(left_handed) { s->state.model = shade_mat4_translation(shade_v3(0, 0, 8)); }
 MISTAKE(view_infinite) { s->state.view.col[3].x = INFINITY; }
 MISTAKE(projection_nan) { s->state.projection.col[0].x = NAN; }
-MISTAKE(wound_clockwise_quad)
+static inline void stage_quad(stage *s)
 {
-    static const uint32_t clockwise[6] = { 0, 2, 1, 0, 3, 2 };
+    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
     static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
     memcpy(s->position, quad, sizeof quad);
-    memcpy(s->index, clockwise, sizeof clockwise);
+    memcpy(s->index, corners, sizeof corners);
     s->mesh.index_count = 6;
+}
+MISTAKE(wound_clockwise_quad)
+{
+    stage_quad(s);
+    stage_turn(s, 0);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
 MISTAKE(culled_by_mirror)
 {
-    mistake_wound_clockwise_quad(s);
-    s->index[1] = 1;
-    s->index[2] = 2;
-    s->index[4] = 2;
-    s->index[5] = 3;
+    stage_quad(s);
+    s->state.raster.cull = SHADE_CULL_BACK;
     s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
 }
 MISTAKE(culled_front)
 {
-    mistake_wound_clockwise_quad(s);
-    s->index[1] = 1;
-    s->index[2] = 2;
-    s->index[4] = 2;
-    s->index[5] = 3;
+    stage_quad(s);
     s->state.raster.cull = SHADE_CULL_FRONT;
 }
 MISTAKE(culled_inside)
@@ -1022,10 +893,7 @@ MISTAKE(culled_inside)
 MISTAKE(culled_inside_with_chunks)
 {
     mistake_culled_inside(s);
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(-1, -1, -1);
-    s->chunk.high = shade_v3(1, 1, 1);
+    stage_chunk(s, shade_v3(-1, -1, -1), shade_v3(1, 1, 1));
 }
 /* Rings from the far one to the near one, and the other way: fronts are drawn first, or last. */
 MISTAKE(inside_out_from_below)
@@ -1094,10 +962,7 @@ MISTAKE(zero_on_the_right)
     clear_to_zero_in(s, STAGE_WIDTH / 2, 0, STAGE_WIDTH / 2, STAGE_HEIGHT);
 }
 MISTAKE(zero_above) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH, STAGE_HEIGHT / 2); }
-MISTAKE(zero_below)
-{
-    clear_to_zero_in(s, 0, STAGE_HEIGHT / 2, STAGE_WIDTH, STAGE_HEIGHT / 2);
-}
+MISTAKE(zero_below) { clear_to_zero_in(s, 0, STAGE_HEIGHT / 2, STAGE_WIDTH, STAGE_HEIGHT / 2); }
 MISTAKE(hidden_by_the_frame_before) { s->clear = 0.5f; }
 MISTAKE(greater_cleared_to_zero)
 {
@@ -1121,8 +986,7 @@ MISTAKE(smaller_than_a_pixel)
 MISTAKE(map_cut_by_alpha)
 {
     for (int k = 3; k < 16; k += 4) s->texel[k] = 100;
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     s->state.alpha_cutoff = 0.5f;
 }
 MISTAKE(no_depth_with_culling)
@@ -1150,11 +1014,7 @@ MISTAKE(no_light_beside_the_eye)
 }
 MISTAKE(normals_inward_of_a_quad)
 {
-    static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
-    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
-    memcpy(s->position, quad, sizeof quad);
-    memcpy(s->index, corners, sizeof corners);
-    s->mesh.index_count = 6;
+    stage_quad(s);
     for (int i = 0; i < 4; i++) s->normal[i] = shade_v3(0, 0, -1);
 }
 MISTAKE(attenuated_away)
@@ -1174,9 +1034,8 @@ MISTAKE(spot_attenuated_away)
 /* Seen from afar and lit at a flat angle: R.V is 0.08 at most and shows nothing, N.H would. */
 MISTAKE(mirror_turned_away)
 {
-    static const uint32_t two[6] = { 0, 1, 2, 0, 2, 3 };
-    mistake_wound_clockwise_quad(s);
-    memcpy(s->index, two, sizeof two);
+    stage_quad(s);
+    s->state.raster.cull = SHADE_CULL_BACK;
     for (int k = 0; k < 4; k++) s->normal[k] = shade_v3(0, 0, 1);
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 40), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     s->state.projection = shade_mat4_perspective(0.08f, 1.5f, 0.1f, 100);
@@ -1250,8 +1109,7 @@ MISTAKE(lamp_behind_what_the_map_leaves)
         s->texcoord[i] = shade_v2(i < 3 ? 0.25f : 0.75f, 0.25f);
     }
     s->texel[3] = s->texel[11] = 0;
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     s->state.alpha_cutoff = 0.5f;
     s->state.lighting.light_count = 1;
     s->target.depth = NULL;
@@ -1385,12 +1243,7 @@ MISTAKE(bad_map_without_texcoords)
     s->map.pixels = NULL;
     mistake_map_without_texcoords(s);
 }
-MISTAKE(mipmap_count_without_mipmaps)
-{
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
-    s->map.mipmap_count = 1;
-}
+MISTAKE(mipmap_count_without_mipmaps) { stage_map(s)->mipmap_count = 1; }
 MISTAKE(mipmaps_not_counted)
 {
     mistake_trilinear_without_mipmaps(s);
@@ -1438,8 +1291,7 @@ MISTAKE(attenuation_of_far_lamps)
 MISTAKE(attenuation_of_far_lamps_with_a_map)
 {
     mistake_attenuation_of_far_lamps(s);
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     for (int k = 0; k < 16; k++) s->texel[k] = 140;
 }
 /* corners right of the picture, below it and far beyond: outside, but of no plane with all three */
