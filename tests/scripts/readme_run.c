@@ -92,10 +92,8 @@ static d3 gold_light(const shade_light *light, d3 P, d3 N, d3 from)
 {
     static const double k_d[3] = { 0.75164, 0.60648, 0.22648 };
     static const double k_s[3] = { 0.628281, 0.555802, 0.366065 };
-    shade_material m;
-    shade_lighting lighting;
-    memset(&m, 0, sizeof m);
-    memset(&lighting, 0, sizeof lighting);
+    shade_material m = { 0 };
+    shade_lighting lighting = { 0 };
     m.diffuse = shade_v3((float)ref_decode_srgb(k_d[0]), (float)ref_decode_srgb(k_d[1]),
                          (float)ref_decode_srgb(k_d[2]));
     m.specular = shade_v3((float)ref_decode_srgb(k_s[0]), (float)ref_decode_srgb(k_s[1]),
@@ -292,10 +290,8 @@ TEST(readme, window_shows_the_target)
 #ifdef README_SDL
     static const int red[2] = { 0, 2 };    /* the byte of red in RGBA8 and BGRA8 */
     for (int format = SHADE_FORMAT_RGBA8; format <= SHADE_FORMAT_BGRA8; format++) {
-        SDL_Event quit;
         random_bytes(64, 48, (shade_format)format);
-        memset(&quit, 0, sizeof quit);
-        quit.type = SDL_QUIT;
+        SDL_Event quit = { .type = SDL_QUIT };
         CHECK_INT(SDL_Init(SDL_INIT_VIDEO), 0);
         CHECK_INT(SDL_PushEvent(&quit), 1);
         show();
@@ -483,11 +479,9 @@ static shadow_count count_shadows(int around, double height, float share)
     const float fovy = 1.3f;
     const shade_vec3 at = { 4, 2.5f, 1.5f };
     const shade_vec3 axis = shade_normalize(shade_neg(at)), N = { 0, 1, 0 };
-    shade_target lamp_target;
-    shade_pipeline pipeline;
     shadow_count n = { 0, 0, 0, 0 };
-    memset(&lamp_target, 0, sizeof lamp_target);
-    memset(&pipeline, 0, sizeof pipeline);
+    shade_target lamp_target = { 0 };
+    shade_pipeline pipeline = { 0 };
     lamp_target.width = lamp_target.height = SIDE;
     lamp_target.depth = map[0];
     start(8, 8, shade_v3(0, 4, 6), shade_v3(0, 0, 0));

@@ -58,15 +58,11 @@ static int64_t exact_y(exact_lattice l, int p) { return l.first + p / l.side * l
 /* Draws what the sheet holds and compares; returns the number of wrong triangles. */
 static long exact_draw(exact_sheet *s, canvas *c)
 {
-    shade_pipeline p;
     shade_stats stats;
     long wrong = 0;
     long long covered = 0;
-    memset(&p, 0, sizeof p);
-    p.vertex = exact_vertex;
-    p.fragment = exact_fragment;
-    p.uniforms = &s;
-    p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+    shade_pipeline p = { .vertex = exact_vertex, .fragment = exact_fragment, .uniforms = &s,
+                         .raster.depth_test = SHADE_COMPARE_ALWAYS };
     memset(s->got, 0, sizeof s->got);
     stats = canvas_draw(c, &p, 3 * s->count);
     for (int k = 0; k < s->count; k++) {

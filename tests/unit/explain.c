@@ -267,9 +267,7 @@ TEST(explain, of_a_pool_beside_the_middle_of_a_face_no_field_is_blamed_alone)
 TEST(explain, a_draw_that_had_pixels_is_not_said_to_have_none)
 {
     stage *s = stage_open();
-    shade_stats stats;
-    memset(&stats, 0, sizeof stats);
-    stats.triangles = STAGE_INDICES / 3;
+    shade_stats stats = { .triangles = STAGE_INDICES / 3 };
     s->state.model = shade_mat4_translation(shade_v3(50, 0, 0));
     CHECK(*shade_explain(&s->target, &s->mesh, &s->state, &stats));
     stats.fragments = 1;
@@ -340,8 +338,7 @@ TEST(explain, it_writes_nothing)
         const char *said = stage_explain(s, 1);
         memcpy(copy, s, sizeof *s);
         if (!s->no_target && !s->no_mesh && !s->no_state) {
-            shade_stats stats;
-            memset(&stats, 0, sizeof stats);
+            shade_stats stats = { 0 };
             shade_explain(&s->target, &s->mesh, &s->state, &stats);
             shade_explain(&s->target, &s->mesh, &s->state, NULL);
         }

@@ -812,8 +812,7 @@ static void fragment_lod_is_zero(const void *uniforms, const shade_fragments *SH
 TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
 {
     shade_vec4 clip[3];
-    scene s;
-    memset(&s, 0, sizeof s);
+    scene s = { 0 };
     for (int k = 0; k < 3; k++) clip[k] = clip_corners[k];
     s.clip = clip;
     for (int i = 0; i < 6; i++) {

@@ -319,12 +319,8 @@ TEST(independent, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane)
     static float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
     shade_light lamp = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
     shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
-    shade_lighting lighting;
     float rgb[2][3][SHADE_LANES];
-    memset(&lighting, 0, sizeof lighting);
-    lighting.lights = &lamp;
-    lighting.light_count = 1;
-    lighting.ambient = shade_v3(1, 1, 1);
+    shade_lighting lighting = { .lights = &lamp, .light_count = 1, .ambient = shade_v3(1, 1, 1) };
     m.emission = shade_v3(-0.0f, -0.0f, -0.0f);
     for (int lit = 0; lit < 2; lit++) {
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -345,12 +341,7 @@ TEST(independent, the_sign_of_a_nan_decides_nothing)
     const float nan[2] = { bits_float(0x7FC00000u), bits_float(0xFFC00001u) };
     shade_light lamp = shade_point_light(shade_v3(0, 3, 0), shade_v3(1, 1, 1));
     static const float texel[4][4] = { { 1 }, { 2 }, { 3 }, { 4 } };
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = texel;
-    t.width = 4;
-    t.height = 1;
-    t.format = SHADE_FORMAT_RGBA32F;
+    shade_texture t = { .pixels = texel, .width = 4, .height = 1, .format = SHADE_FORMAT_RGBA32F };
     for (int falls = 0; falls < 2; falls++) {
         lamp.quadratic = (float)falls;
         CHECK_NEAR(shade_light_at(&lamp, shade_v3(nan[0], 0, 0), NULL, NULL), 0, 1e-30);

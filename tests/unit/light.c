@@ -182,10 +182,7 @@ TEST(light, each_bit_of_terms_selects_its_term_alone)
 
 static shade_lighting one_light(const shade_light *light)
 {
-    shade_lighting li;
-    memset(&li, 0, sizeof li);
-    li.lights = light;
-    li.light_count = light ? 1 : 0;
+    shade_lighting li = { .lights = light, .light_count = light ? 1 : 0 };
     return li;
 }
 
@@ -217,10 +214,7 @@ TEST(light, the_gate_stops_highlights_behind_the_terminator) /* N.L = -0.14, (N.
     CHECK_NEAR(shade_phong_specular(n, l, n, 4), 0, 0);
     shade_light light = shade_directional_light(shade_neg(l), grey(1));
     shade_lighting li = one_light(&light);
-    shade_material m;
-    memset(&m, 0, sizeof m);
-    m.specular = grey(1);
-    m.shininess = 4;
+    shade_material m = { .specular = grey(1), .shininess = 4 };
     check_color(__LINE__, "gated", shade_lit(&li, &m, shade_v3(0, 0, 9), grey(0), n),
                 d3_of(0, 0, 0), 0);
     li.flags = SHADE_FLAG_UNGATED_SPECULAR;
@@ -691,9 +685,7 @@ TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* 
 {
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(2));
     shade_lighting li = one_light(&light);
-    shade_material m;
-    memset(&m, 0, sizeof m);
-    m.specular = shade_v3(0.25f, 0.5f, 1);
+    shade_material m = { .specular = shade_v3(0.25f, 0.5f, 1) };
     shade_vec3 n = shade_v3(0.6f, 0, 0.8f), eye = shade_v3(-30, 2, 0.5f);
     check_color(__LINE__, "n 0", shade_lit(&li, &m, eye, grey(0), n), d3_of(0.5, 1, 2), 1e-6);
     m.shininess = -7;
@@ -1090,11 +1082,8 @@ TEST(light, lengths_of_normals_and_directions_do_not_matter)
         const float size = rnd_log(1.1e-18, 0.9e18), other = rnd_log(1.1e-18, 0.9e18);
         const shade_vec3 white = shade_v3(1, 1, 1), eye = d3_round(rnd_direction());
         shade_material m = shade_preset_material(SHADE_PRESET_GOLD);
-        shade_lighting lighting;
         shade_light lamps[2];
-        memset(&lighting, 0, sizeof lighting);
-        lighting.lights = lamps;
-        lighting.light_count = 2;
+        shade_lighting lighting = { .lights = lamps, .light_count = 2 };
         lamps[0] = shade_directional_light(d3_round(way), white);
         lamps[1] = shade_spot_light(d3_round(d3_scale(way, -2)), d3_round(way), 1, 3, white);
         const shade_vec3 want = shade_lit(&lighting, &m, eye, shade_v3(0, 0, 0), d3_round(n));

@@ -54,10 +54,7 @@ static shade_vec3 line_point(double X, double Y, double z, int width, int height
 
 static shade_line_state line_state(float width)
 {
-    shade_line_state s;
-    memset(&s, 0, sizeof s);
-    s.width = width;
-    s.color = shade_v4(1, 1, 1, 1);
+    shade_line_state s = { .width = width, .color = shade_v4(1, 1, 1, 1) };
     return s;
 }
 
@@ -413,11 +410,10 @@ typedef struct ref_line {
 
 static ref_line ref_line_of(const shade_line_state *s, const shade_vec3 p[2], int width, int height)
 {
-    ref_line r;
     double e[2][4], t[2];
     dmat m = matrix_or_identity(s->clip_from_points);
     int zero_to_one = s->raster.depth_zero_to_one != 0;
-    memset(&r, 0, sizeof r);
+    ref_line r = { 0 };
     for (int k = 0; k < 2; k++) {
         const double in[4] = { (double)p[k].x, (double)p[k].y, (double)p[k].z, 1 };
         dmat_apply(m, in, e[k]);

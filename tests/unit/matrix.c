@@ -16,8 +16,7 @@ static void check_mat4(int line, shade_mat4 got, dmat want, double within)
 #define CHECK_MAT4(got, want, within) check_mat4(__LINE__, got, want, within)
 static shade_mat4 widen(shade_mat3 m)
 {
-    shade_mat4 r;
-    memset(&r, 0, sizeof r);
+    shade_mat4 r = { 0 };
     for (int c = 0; c < 3; c++) r.col[c] = shade_v4(m.col[c].x, m.col[c].y, m.col[c].z, 0);
     r.col[3].w = 1;
     return r;

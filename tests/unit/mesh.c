@@ -11,10 +11,8 @@ typedef struct mesh_oracle {
 
 static mesh_oracle mesh_oracle_of(const test_mesh *m)
 {
-    mesh_oracle o;
     dmat view = matrix_or_identity(m->state.view), inverse;
-    memset(&o, 0, sizeof o);
-    o.model = matrix_or_identity(m->state.model);
+    mesh_oracle o = { .model = matrix_or_identity(m->state.model) };
     o.normals = dmat_normals(o.model);
     o.clip = dmat_mul(matrix_or_identity(m->state.projection), dmat_mul(view, o.model));
     dmat_invert(view, 4, &inverse);
@@ -263,10 +261,7 @@ TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
 TEST(mesh, gouraud_misses_the_highlight_that_phong_finds)
 {
     shade_light light = shade_point_light(shade_v3(0, -0.2f, 0.5f), grey(1));
-    shade_material m;
-    memset(&m, 0, sizeof m);
-    m.specular = grey(1);
-    m.shininess = 80;
+    shade_material m = { .specular = grey(1), .shininess = 80 };
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.material = &m;
@@ -429,9 +424,8 @@ TEST(mesh, matrices_that_begin_with_zeros_are_used)
         s.projection = m;
         shade_stats stats = canvas_draw_mesh(&c[0], &turned, &s);
         CHECK(stats.fragments > 10);
-        scene plain;
         shade_vec4 clip[3];
-        memset(&plain, 0, sizeof plain);
+        scene plain = { 0 };
         for (int k = 0; k < 3; k++) {
             clip[k] = shade_mat4_transform(
                 m, shade_v4(moved[3 * k], moved[3 * k + 1], moved[3 * k + 2], 1));

@@ -43,8 +43,7 @@ static int modes_set(int mode)
 static void modes_check_texels(int mode, int width, float u)
 {
     static float texel[64 * 4 + 64];
-    shade_texture t;
-    memset(&t, 0, sizeof t);
+    shade_texture t = { 0 };
     for (int i = 0; i < 64 * 4 + 64; i++)
         texel[i] = i / 4 < width ? (float)(i / 4) : 1e30f;
     t.pixels = texel;

@@ -4,8 +4,7 @@
 
 static ray_camera random_camera(int kind)
 {
-    ray_camera c;
-    memset(&c, 0, sizeof c);
+    ray_camera c = { 0 };
     c.width = rnd_int(1, 400);
     c.height = rnd_int(1, 300);
     d3 eye = d3_scale(rnd_direction(), (double)rnd_log(0.5, 10));
@@ -356,10 +355,9 @@ TEST(ray, of_triangles_met_at_one_place_the_first_is_picked)
 {
     for (int i = 0; i < 2000; i++) {
         shade_vec3 p[24], near[3];
-        shade_mesh m;
         int first = rnd_int(0, 7), count = 0;
         float z = (float)rnd_int(-4, 4), t;
-        memset(&m, 0, sizeof m);
+        shade_mesh m = { 0 };
         for (int k = 0; k < 8; k++) { /* from first on, every other time at z, else behind */
             float at = k == first || (k > first && rnd_one_in(2)) ? z : z - (float)rnd_int(1, 3);
             near[0] = shade_v3(-8, -8, at);
@@ -487,8 +485,7 @@ TEST(ray, pick_finds_nothing_where_points_or_the_matrix_are_not_finite_or_flat)
     /* seen edge-on; but a matrix of zeros is the identity */
     check_pick(0, &c.m, shade_mat4_scaling(shade_v3(1, 0, 1)), c.ray, -1);
     check_pick(0, &c.m, shade_mat4_scaling(shade_v3(0, 0, 0)), c.ray, -1);
-    shade_mat4 zeros;
-    memset(&zeros, 0, sizeof zeros);
+    shade_mat4 zeros = { 0 };
     check_pick(0, &c.m, zeros, c.ray, 0);
 }
 

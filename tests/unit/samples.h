@@ -42,8 +42,7 @@ static inline shade_material random_material(void)
    origin, for xyz/w is rounded once and a farther one would lose its direction to that rounding. */
 static inline shade_light random_light(shade_vec3 P, double size)
 {
-    shade_light light;
-    memset(&light, 0, sizeof light);
+    shade_light light = { 0 };
     double bright = rnd_one_in(3) ? (double)rnd_log(1e-3, 1e6) : 2;
     light.diffuse = random_color(bright);
     light.specular = rnd_one_in(2) ? light.diffuse : random_color(bright);
@@ -195,9 +194,8 @@ typedef struct ref_arrival {
 
 static inline ref_arrival ref_arriving(const shade_light *light, d3 P)
 {
-    ref_arrival a;
     double e = (double)light->spot_exponent;
-    memset(&a, 0, sizeof a);
+    ref_arrival a = { 0 };
     a.L = ref_to_light(light, P, &a.distance);
     a.amount = 1;
     if (light->position.w != 0)

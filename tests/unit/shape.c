@@ -316,9 +316,8 @@ typedef struct shape_soup {
 
 static shape_soup shape_soup_open(int triangles)
 {
-    shape_soup s;
     size_t bytes = (size_t)triangles * 3 * sizeof(shade_vec3);
-    memset(&s, 0, sizeof s);
+    shape_soup s = { 0 };
     s.position = test_memory(bytes);
     s.out = test_memory(bytes);
     s.triangles = triangles;

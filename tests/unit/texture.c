@@ -198,12 +198,8 @@ TEST(texture, nearest_takes_nothing_from_other_texels)
     static const float odd[] = { NAN, INFINITY, -INFINITY, 3e38f };
     for (int k = 0; k < 4; k++) {
         float pixels[3][3][4];
-        shade_texture t;
-        memset(&t, 0, sizeof t);
-        t.pixels = pixels;
-        t.width = t.height = 3;
-        t.format = SHADE_FORMAT_RGBA32F;
-        t.filter = SHADE_FILTER_NEAREST;
+        shade_texture t = { .pixels = pixels, .width = 3, .height = 3,
+                            .format = SHADE_FORMAT_RGBA32F, .filter = SHADE_FILTER_NEAREST };
         for (int i = 0; i < 36; i++) (&pixels[0][0][0])[i] = odd[k];
         for (int n = 0; n < 4; n++) pixels[1][1][n] = k == 3 ? -3e38f : 0.25f * (float)n;
         for (int n = 0; n < 100; n++) {
@@ -222,13 +218,8 @@ TEST(texture, full_texels_are_exactly_one_and_empty_ones_zero)
 {
     for (int i = 0; i < 2 * 3 * SHADE_FORMAT_RGBA32F; i++) {
         unsigned char pixels[4 * 4 * 4];
-        shade_texture t;
-        memset(&t, 0, sizeof t);
-        t.pixels = pixels;
-        t.width = t.height = 4;
-        t.srgb = i & 1;
-        t.filter = (shade_filter)(i / 2 % 3);
-        t.format = (shade_format)(i / 6);
+        shade_texture t = { .pixels = pixels, .width = 4, .height = 4, .srgb = i & 1,
+                            .filter = (shade_filter)(i / 2 % 3), .format = (shade_format)(i / 6) };
         for (int full = 0; full < 2; full++) {
             memset(pixels, full ? 255 : 0, sizeof pixels);
             for (int k = 0; k < 30; k++) {
@@ -248,12 +239,7 @@ TEST(texture, full_texels_are_exactly_one_and_empty_ones_zero)
 TEST(texture, srgb_texels_are_decoded_before_they_are_blended)
 {
     unsigned char pixels[2][4] = { { 0, 0, 0, 0 }, { 255, 255, 255, 255 } };
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = pixels;
-    t.width = 2;
-    t.height = 1;
-    t.srgb = 1;
+    shade_texture t = { .pixels = pixels, .width = 2, .height = 1, .srgb = 1 };
     shade_vec4 c = shade_sample(&t, 0.5f, 0.5f, 0);
     CHECK_NEAR(c.x, 0.5, 2e-6);
     CHECK_NEAR(c.w, 0.5, 1e-7);
@@ -278,13 +264,8 @@ TEST(texture, light_of_an_srgb_code_has_the_bits_of_the_curve)
         uint16_t half = (uint16_t)((code & 31) << 11 | (code & 63) << 5 | (code & 31));
         const float c8 = (float)code * eighth;
         shade_vec3 want = shade_v3(c8, c8, c8);
-        shade_texture t;
-        memset(&t, 0, sizeof t);
-        t.pixels = pixels;
-        t.width = t.height = 1;
-        t.srgb = 1;
-        t.format = formats[n / 256 % 4];
-        t.filter = (shade_filter)(n / 1024);
+        shade_texture t = { .pixels = pixels, .width = 1, .height = 1, .srgb = 1,
+                            .format = formats[n / 256 % 4], .filter = (shade_filter)(n / 1024) };
         if (t.format == SHADE_FORMAT_RGB565_SWAPPED) half = (uint16_t)(half << 8 | half >> 8);
         memset(pixels, code, sizeof pixels);
         if (!wide) {
@@ -306,13 +287,8 @@ TEST(texture, light_of_an_srgb_code_has_the_bits_of_the_curve)
 TEST(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule)
 {
     float pixels[4][4];
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = pixels;
-    t.width = 4;
-    t.height = 1;
-    t.format = SHADE_FORMAT_RGBA32F;
-    t.wrap_v = SHADE_WRAP_CLAMP;
+    shade_texture t = { .pixels = pixels, .width = 4, .height = 1, .format = SHADE_FORMAT_RGBA32F,
+                        .wrap_v = SHADE_WRAP_CLAMP };
     for (int i = 0; i < 16; i++) pixels[i / 4][i % 4] = (float)(i / 4);
     static const struct {
         float u, repeat, clamp, mirror;
@@ -390,12 +366,8 @@ TEST(texture, any_address_and_any_stride_give_the_same_bits)
     }
     for (int row = 0; row < 8; row++) memcpy(bytes + 1 + 32 * row, aligned + (row & 1) * WIDE, 32);
     for (int i = 0; i < 300; i++) {
-        shade_texture near_rows, far_rows, odd;
-        memset(&near_rows, 0, sizeof near_rows);
-        near_rows.pixels = aligned;
-        near_rows.width = 8;
-        near_rows.height = 2;
-        near_rows.stride = WIDE;
+        shade_texture far_rows, odd;
+        shade_texture near_rows = { .pixels = aligned, .width = 8, .height = 2, .stride = WIDE };
         far_rows = odd = near_rows;
         far_rows.height = 16384; /* rows * stride beyond 2^31: only the first two are there */
         odd.pixels = bytes + 1;
@@ -416,9 +388,8 @@ TEST(texture, a_bad_texture_is_white)
     for (int i = 0; i < 64; i++) pixels[i] = 0.25f;
     for (int i = 0; i < SHADE_LANES; i++) u[i] = v[i] = 0.3f;
     for (int k = -2; k < TEXTURE_FAULTS; k++) {
-        shade_texture t;
         const shade_texture *p;
-        memset(&t, 0, sizeof t);
+        shade_texture t = { 0 };
         p = k == -1 ? NULL : &t;
         t.pixels = pixels;
         t.width = t.height = 4;
@@ -442,8 +413,7 @@ TEST(texture, no_texel_outside_the_picture_is_read)
         int w = rnd_int(1, 12), h = rnd_int(1, 12), stride = w + rnd_int(1, 6);
         size_t cells = (size_t)(stride * h + 2 * FRAME);
         float *all = test_memory(16 * cells);
-        shade_texture t;
-        memset(&t, 0, sizeof t);
+        shade_texture t = { 0 };
         for (size_t k = 0; k < 4 * cells; k++) all[k] = (float)NAN;
         for (int y = 0; y < h; y++)
             for (int x = 0; x < w; x++)
@@ -817,8 +787,7 @@ typedef struct lod_planes {
 
 static lod_planes lod_planes_of(const lod_scene *s, const ref_triangle *t)
 {
-    lod_planes p;
-    memset(&p, 0, sizeof p);
+    lod_planes p = { 0 };
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 3; j++) {
             double e = t->e[k][j]; /* barycentric over w */
@@ -880,12 +849,8 @@ static void check_lod(shade_interpolation interpolation, int flat, double scale)
         s.first = rnd_int(0, 3);
         s.lod = lod;
         for (int k = 0; k < 48 * 64; k++) lod[k / 64][k % 64] = (float)NAN;
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = &s,
+                             .varyings = 5 };
         shade_texture map = lod_map(rnd_int(1, 600), rnd_int(1, 600));
         p.interpolation = interpolation;
         p.lod_texture = &map;
@@ -934,15 +899,9 @@ TEST(texture, lod_is_the_same_in_scenes_of_any_size)
 static void draw_lod(const lod_scene *s, const shade_texture *map, shade_interpolation how)
 {
     canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
-    shade_pipeline p;
-    memset(&p, 0, sizeof p);
-    p.vertex = lod_vertex;
-    p.fragment = lod_fragment;
-    p.uniforms = s;
-    p.varyings = 5;
-    p.interpolation = how;
-    p.lod_texture = map;
-    p.lod_varying = s->first;
+    shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = s,
+                         .varyings = 5, .interpolation = how, .lod_texture = map,
+                         .lod_varying = s->first };
     for (int k = 0; k < 48 * 64; k++) s->lod[k / 64][k % 64] = (float)NAN;
     canvas_draw(&c, &p, 3);
     canvas_close(&c);
@@ -1041,24 +1000,17 @@ TEST(texture, the_lod_oracle_agrees_with_finite_differences)
 TEST(texture, a_bad_lod_texture_is_refused)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 1);
-    lod_scene s;
     static float lod[48][64];
-    memset(&s, 0, sizeof s);
+    lod_scene s = { 0 };
     for (int k = 0; k < 3; k++) s.clip[k] = clip_corners[k];
     s.lod = lod;
     for (int k = 0; k <= 2 * TEXTURE_FAULTS; k++) {
         shade_texture map = lod_map(4, 4);
-        shade_pipeline p;
         shade_stats stats;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = k % 2 ? NULL : lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
-        p.lod_texture = &map;
-        p.lod_varying = 1;
-        p.interpolation = (shade_interpolation)(k % 3);
-        p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = k % 2 ? NULL : lod_fragment,
+                             .uniforms = &s, .varyings = 5, .lod_texture = &map, .lod_varying = 1,
+                             .interpolation = (shade_interpolation)(k % 3),
+                             .raster.depth_test = SHADE_COMPARE_ALWAYS };
         if (k < 2 * TEXTURE_FAULTS) spoil_texture(&map, k / 2);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats),
                   k < 2 * TEXTURE_FAULTS ? SHADE_ERROR_TEXTURE : SHADE_OK);
@@ -1074,20 +1026,12 @@ TEST(texture, a_bad_lod_texture_is_refused)
 TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
-    lod_scene s;
     static float lod[48][64];
-    memset(&s, 0, sizeof s);
-    s.lod = lod;
+    lod_scene s = { .lod = lod };
     for (int k = -2; k < 8; k++) {
         shade_texture map = lod_map(4, 4);
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
-        p.lod_texture = &map;
-        p.lod_varying = k;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = &s,
+                             .varyings = 5, .lod_texture = &map, .lod_varying = k };
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
                   k < 0 || k > 3 ? SHADE_ERROR_TEXTURE : SHADE_OK);
         p.lod_varying = 2147483647 - (k + 2);
@@ -1103,20 +1047,15 @@ TEST(texture, coordinates_that_stand_still_have_no_detail) /* and no NaN */
     static float lod[48][64];
     for (int i = 0; i < 20; i++) {
         canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
-        lod_scene s;
-        memset(&s, 0, sizeof s);
+        lod_scene s = { 0 };
         for (int k = 0; k < 3; k++) {
             s.clip[k] = clip_of_fx8((double)rnd_int(0, 64 * 256), (double)rnd_int(0, 48 * 256), 64,
                                     48, 0, 1);
         }
         for (int k = 0; k < 48 * 64; k++) lod[k / 64][k % 64] = -1;
         s.lod = lod;
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = &s,
+                             .varyings = 5 };
         shade_texture map = lod_map(256, 256);
         p.lod_texture = &map;
         p.lod_varying = 1;

@@ -36,8 +36,7 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
     for (int k = 0; k < 6; k++) {
         int n = sizes[k], vertices = (n + 1) * (n + 1), count = grid_of(n, clip, indices);
         canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
-        recorder r;
-        memset(&r, 0, sizeof r);
+        recorder r = { 0 };
         memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         scene s = { clip, NULL, 0, NULL, &r };
@@ -66,8 +65,7 @@ TEST(vertex, without_indices_each_vertex_is_shaded_once_in_order)
     static unsigned char seen[3000];
     for (int i = 0; i < 3000; i++) clip[i] = clip_corners[i % 3];
     for (int count = 3; count <= 3000; count += 333) {
-        recorder r;
-        memset(&r, 0, sizeof r);
+        recorder r = { 0 };
         memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
@@ -91,9 +89,7 @@ TEST(vertex, only_referenced_vertices_are_shaded)
         memset(wanted, 0, sizeof wanted);
         for (int i = 0; i < 1000; i++) clip[i] = clip_corners[rnd_int(0, 2)];
         for (int i = 0; i < 300; i++) wanted[indices[i] = (uint32_t)rnd_int(0, 999)] = 1;
-        recorder r;
-        memset(&r, 0, sizeof r);
-        r.vertex_seen = seen;
+        recorder r = { .vertex_seen = seen };
         canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
