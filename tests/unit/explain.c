@@ -25,9 +25,8 @@ static int is_said(const char *said, const char *words)
 TEST(explain, every_mistake_gets_the_word_that_leads_to_it)
 {
     stage *s = stage_open();
-    for (int k = 0; k < TEST_COUNT(mistakes); k++)
+    for (const mistake *m = mistake_first; m; m = m->next)
         for (int where = 0; where < 4; where++) {
-            const mistake *m = &mistakes[k];
             const int on = where & 1 ? ON_TEAPOT : ON_BALL, with_stats = where >> 1;
             if (!(m->scenes & on) || (!with_stats && (m->scenes & WITH_STATS))) continue;
             if (on == ON_BALL) stage_of_ball(s);
@@ -59,15 +58,15 @@ TEST(explain, no_more_than_these_mistakes_are_silent)
     };
     stage *s = stage_open();
     int all = 0, n = 0;
-    for (int k = 0; k < TEST_COUNT(mistakes); k++) {
+    for (const mistake *m = mistake_first; m; m = m->next) {
         int known = 0;
-        if (!(mistakes[k].scenes & ON_TEAPOT)) continue;
+        if (!(m->scenes & ON_TEAPOT)) continue;
         stage_of_teapot(s);
-        mistakes[k].make(s);
+        m->make(s);
         all++;
-        for (int i = 0; i < TEST_COUNT(silent); i++) known |= !strcmp(silent[i], mistakes[k].name);
+        for (int i = 0; i < TEST_COUNT(silent); i++) known |= !strcmp(silent[i], m->name);
         const int quiet = !*stage_explain(s, 1);
-        CHECK_SAY(quiet == known, "%s", mistakes[k].name);
+        CHECK_SAY(quiet == known, "%s", m->name);
         n += quiet;
     }
     printf("explain: of %d mistakes of a newcomer %d are silent\n", all, n);
@@ -331,10 +330,12 @@ TEST(explain, light_begins_above_8_of_255)
 TEST(explain, it_writes_nothing)
 {
     stage *s = stage_open(), *copy = stage_open();
-    for (int k = 0; k < TEST_COUNT(mistakes); k += 7) {
-        if (mistakes[k].scenes & ON_TEAPOT) stage_of_teapot(s);
+    int k = 0;
+    for (const mistake *m = mistake_first; m; m = m->next) {
+        if (k++ % 7) continue;
+        if (m->scenes & ON_TEAPOT) stage_of_teapot(s);
         else stage_of_ball(s);
-        mistakes[k].make(s);
+        m->make(s);
         const char *said = stage_explain(s, 1);
         memcpy(copy, s, sizeof *s);
         if (!s->no_target && !s->no_mesh && !s->no_state) {
@@ -352,8 +353,13 @@ TEST(explain, it_writes_nothing)
 typedef struct unusual {
     const char *name;
     void (*make)(stage *);
+    struct unusual *next;
 } unusual;
-#define UNUSUAL(name) static void unusual_##name(stage *s)
+LISTED(unusual);
+#define UNUSUAL(name)                                                                              \
+    static void unusual_##name(stage *s);                                                          \
+    LIST(unusual, name, #name, unusual_##name)                                                     \
+    static void unusual_##name(stage *s)
 UNUSUAL(texcoords_with_their_stride)
 {
     s->mesh.texcoords = &s->texcoord[0].x;
@@ -685,55 +691,10 @@ TEST(explain, depth_is_blamed_after_whole_draws_alone)
 
 TEST(explain, what_is_unusual_is_no_mistake)
 {
-    static const unusual all[] = {
-        { "texcoords with their stride", unusual_texcoords_with_their_stride },
-        { "drawn twice, where depth is too coarse", unusual_drawn_twice_where_depth_is_too_coarse },
-        { "texcoords without a map", unusual_texcoords_without_a_map },
-        { "parallel from the eye", unusual_parallel_from_the_eye },
-        { "near at one half", unusual_near_one_half },
-        { "a left-handed camera", unusual_left_handed_camera },
-        { "faces of both sides", unusual_faces_of_both_sides },
-        { "normals that faces do not take", unusual_normals_that_faces_do_not_take },
-        { "normals that no lamp meets", unusual_normals_that_no_lamp_meets },
-        { "normals of both sides", unusual_normals_of_both_sides },
-        { "overexposed", unusual_overexposed },
-        { "the ambient term alone", unusual_ambient_term_alone },
-        { "an aspect rounded by 2 %", unusual_aspect_rounded },
-        { "a projection that turns", unusual_projection_that_turns },
-        { "a projection that nods", unusual_projection_that_nods },
-        { "a view that scales, without projection", unusual_view_that_scales_alone },
-        { "a box always looked into", unusual_box_always_looked_into },
-        { "a one-point projection", unusual_one_point_projection },
-        { "a shadow on a plane", unusual_shadow_on_a_plane },
-        { "a reversed camera along x", unusual_reversed_camera_along_x },
-        { "a floor at a flat angle", unusual_floor_at_a_flat_angle },
-        { "unlit", unusual_unlit },
-        { "an overlay of dim ambient light", unusual_overlay_of_dim_ambient },
-        { "stored where alpha is zero", unusual_stored_where_alpha_is_zero },
-        { "part of an atlas", unusual_part_of_an_atlas },
-        { "turned by a quarter", unusual_turned_by_a_quarter },
-        { "light of 255 in floats", unusual_light_of_255_in_floats },
-        { "a lamp in its glowing globe", unusual_lamp_in_its_glowing_globe },
-        { "depth read only", unusual_depth_read_only },
-        { "depth alone", unusual_depth_alone },
-        { "added without depth", unusual_added_without_depth },
-        { "a quad from behind without depth", unusual_quad_from_behind_without_depth },
-        { "a room", unusual_room },
-        { "wound inward, without culling", unusual_wound_inward_without_culling },
-        { "mirrored, without culling", unusual_mirrored_without_culling },
-        { "a black outline", unusual_black_outline },
-        { "a shader with alpha of its own", unusual_shader_with_alpha_of_its_own },
-        { "a shader that maps by itself", unusual_shader_that_maps_by_itself },
-        { "columns beside the mesh", unusual_columns_beside_the_mesh },
-        { "mipmaps that are there", unusual_trilinear_with_mipmaps },
-        { "reversed, near at one", unusual_reversed_with_near_one },
-        { "a projection that shears", unusual_projection_that_shears },
-        { "a keystone", unusual_projection_of_a_keystone },
-    };
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+    for (const unusual *u = unusual_first; u; u = u->next) {
         stage *s = stage_open();
-        all[k].make(s);
-        stage_is_good(s, all[k].name);
+        u->make(s);
+        stage_is_good(s, u->name);
         free(s);
     }
 }

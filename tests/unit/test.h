@@ -7,6 +7,7 @@
 #ifndef TEST_H
 #define TEST_H
 
+#include "listed.h"
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>
@@ -25,21 +26,10 @@ typedef struct test_case {
 /* Adds a case to the list of all. */
 void test_list(test_case *item);
 
-/* Defines a function that runs before main, with gcc, clang and Microsoft's compiler. */
-#ifdef _MSC_VER
-#pragma section(".CRT$XCU", read)
-#define TEST_BEFORE_MAIN(name)                                                                     \
-    static void name(void);                                                                        \
-    __declspec(allocate(".CRT$XCU")) void (*const name##_entry)(void) = name;                      \
-    static void name(void)
-#else
-#define TEST_BEFORE_MAIN(name) __attribute__((constructor)) static void name(void)
-#endif
-
 /* Opens a case, whose name is the property that it asserts, and lists it. */
 #define TEST(section, name)                                                                        \
     static void section##__##name(void);                                                           \
-    TEST_BEFORE_MAIN(section##__##name##_is_listed)                                                \
+    BEFORE_MAIN(section##__##name##_is_listed)                                                     \
     {                                                                                              \
         static test_case item = { #section, #name, section##__##name, NULL };                      \
         test_list(&item);                                                                          \
