@@ -681,11 +681,11 @@ TEST(readme, chunks_draw_the_same_and_skip_what_is_not_seen)
     CHECK_SAY(stats.skipped > 500, "%lld of %lld skipped", stats.skipped, stats.triangles);
 }
 
-static test_case *first_case, **next_case = &first_case;
+LISTED(test_case);
 void test_list(test_case *item)
 {
-    *next_case = item;
-    next_case = &item->next;
+    *test_case_next = item;
+    test_case_next = &item->next;
 }
 
 int main(int argc, char **argv)
@@ -694,7 +694,7 @@ int main(int argc, char **argv)
     knot_ppm = argc > 1 ? argv[1] : NULL;
     triangle_ppm = argc > 2 ? argv[2] : NULL;
     test_now.seed = 20261121u;
-    for (test_case *item = first_case; item; item = item->next)
+    for (test_case *item = test_case_first; item; item = item->next)
         test_run_case(item, &passed, &failed);
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;

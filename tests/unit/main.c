@@ -27,23 +27,22 @@ static int is_among(const char *name, char **names, int count)
     return 0;
 }
 
-/* Cases in the order in which they were listed. */
-static test_case *all_cases, **next_case = &all_cases;
+LISTED(test_case);
 
 void test_list(test_case *item)
 {
 #ifndef SHADE__TILE_TESTED    /* the cases of work.c need the implementation here, which counts */
     if (!strcmp(item->section, "work")) return;
 #endif
-    *next_case = item;
-    next_case = &item->next;
+    *test_case_next = item;
+    test_case_next = &item->next;
 }
 
 /* Runs the cases of a section, or all; returns how many there are. */
 static int run_section(const char *section, int *passed, int *failed)
 {
     int count = 0;
-    for (const test_case *item = all_cases; item; item = item->next) {
+    for (const test_case *item = test_case_first; item; item = item->next) {
         if (section && strcmp(section, item->section)) continue;
         test_run_case(item, passed, failed);
         if (test_now.stop && *failed) exit(1);
@@ -57,7 +56,7 @@ static int run_until_failure(char **names, int count)
     int passed = 0, failed = 0;
     test_now.stop = 1;
     for (int i = 0; i < count; i++) run_section(names[i], &passed, &failed);
-    for (const test_case *item = all_cases; item; item = item->next) {
+    for (const test_case *item = test_case_first; item; item = item->next) {
         if (is_among(item->section, names, count)) continue;
         test_run_case(item, &passed, &failed);
         if (failed) return 1;
@@ -81,8 +80,9 @@ int main(int argc, char **argv)
     if (!run_section(only, &passed, &failed)) {
         const char *before = "";
         printf("no section \"%s\"; there are:", only ? only : "");
-        for (const test_case *item = all_cases; item; before = item->section, item = item->next) {
+        for (const test_case *item = test_case_first; item; item = item->next) {
             if (strcmp(before, item->section)) printf(" %s", item->section);
+            before = item->section;
         }
         printf("\n");
         failed = 1;
