@@ -198,8 +198,7 @@ static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
         for (int k = 0; k < 4; k++) m.col[k] = fuzz_vec4(in, most);
         break;
     case 11: return shade_mat4_identity();
-    case 12:
-        return fuzz_camera(in, most);
+    case 12: return fuzz_camera(in, most);
     default: break;
     }
     return m;

@@ -196,6 +196,15 @@ static inline void canvas_clear(canvas *c, float depth)
     CHECK_INT(shade_clear(&c->target, shade_v4(0, 0, 0, 0), depth), SHADE_OK);
 }
 
+/* A canvas that is cleared, to depth 1. */
+static inline canvas canvas_ready(int width, int height, int stride, shade_format format,
+                                  int with_depth)
+{
+    canvas c = canvas_open(width, height, stride, format, with_depth);
+    canvas_clear(&c, 1);
+    return c;
+}
+
 /* Two canvases cleared alike, and their end, where the same was to be drawn on both. */
 static inline void canvas_twins(canvas c[2], int width, int height, shade_format format,
                                 float depth)

@@ -771,9 +771,8 @@ static void open_squares(chunk_squares *s)
 /* What lies in the four columns, each digit of it. */
 static int draw_squares(const chunk_squares *s, shade_stats *stats)
 {
-    canvas c = canvas_open(4, 2, 0, SHADE_FORMAT_RGBA32F, 0);
+    canvas c = canvas_ready(4, 2, 0, SHADE_FORMAT_RGBA32F, 0);
     int digits = 0;
-    canvas_clear(&c, 1);
     CHECK_INT(shade_draw_mesh(&c.target, &s->mesh, &s->state, stats), SHADE_OK);
     CHECK(stats->triangles == stats->skipped + stats->drawn);
     for (int x = 0; x < 4; x++) {
@@ -858,11 +857,9 @@ TEST(chunks, a_triangle_in_several_chunks_is_blended_as_often)
     for (int round = 0; round < 200; round++) {
         const shade_format format = rnd_one_in(2) ? rnd_format() : SHADE_FORMAT_RGBA32F;
         const int with_depth = rnd_one_in(2);
-        canvas together = canvas_open(24, 18, 0, format, with_depth);
-        canvas apart = canvas_open(24, 18, 0, format, with_depth);
+        canvas together = canvas_ready(24, 18, 0, format, with_depth);
+        canvas apart = canvas_ready(24, 18, 0, format, with_depth);
         random_flakes(&s);
-        canvas_clear(&together, 1);
-        canvas_clear(&apart, 1);
         draw_flakes(&s, &together, 0, FLAKE_CHUNKS);
         for (int k = 0; k < FLAKE_CHUNKS; k++) draw_flakes(&s, &apart, k, k + 1);
         CHECK_SAY(canvas_same(&together, &apart), "round %d", round);

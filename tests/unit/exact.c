@@ -114,8 +114,7 @@ static long exact_all(exact_lattice l)
             right[a][b] = (uint16_t)exact_side(l, a, b, -1);
         }
     for (int with_depth = 0; with_depth < 2; with_depth++) {
-        canvas c = canvas_open(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_FORMAT_RGBA8, with_depth);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_FORMAT_RGBA8, with_depth);
         memset(&sheet, 0, sizeof sheet);
         for (int a = 0; a < points; a++) {
             for (int b = a + 1; b < points; b++) {

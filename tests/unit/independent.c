@@ -264,8 +264,7 @@ static void alone_check_pixels(const canvas *whole, const canvas *parts, const c
 
 static canvas alone_draw(const alone_scene *a, shade_format format, int w, int h)
 {
-    canvas c = canvas_open(ALONE_W, ALONE_H, 0, format, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(ALONE_W, ALONE_H, 0, format, 1);
     for (int y = 0; y < ALONE_H; y += h) {
         for (int x = 0; x < ALONE_W; x += w) {
             c.target.clip_x = x;

@@ -14,8 +14,7 @@ TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
     int sure = 0, lit = 0;
     for (int i = 0; i < 200000; i++) {
         random_sample(&s);
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         shade_terms got = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
         shade_vec3 sum = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(sum));
@@ -130,8 +129,7 @@ TEST(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for)
     int checked = 0, on_brink = 0, brink = 0;
     for (int i = 0; i < 200000; i++) {
         random_brink_sample(&s);
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         double bound = stated_bound(&s, d3_max(want.total), &brink);
         if (bound == 0) continue;
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
@@ -617,8 +615,7 @@ TEST(light, any_orthogonal_space_gives_the_same_light)
             s.lights[k] = random_light(s.P, 5);
             if (s.lights[k].spot_exponent > 50) s.lights[k].spot_exponent = 50;
         }
-        ref_lit exact = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                  d3_from(s.eye), no_albedo());
+        ref_lit exact = ref_of_sample(&s);
         shade_mat4 m =
             shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())),
                            shade_mat4_translation(random_vector(2)));
@@ -707,8 +704,7 @@ TEST(light, a_lamp_at_the_point_itself_is_finite) /* r = 0 */
         s.lights[0] = random_light(s.P, 3);
         s.lights[0].position = shade_v4(s.P.x, s.P.y, s.P.z, 1);
         if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM) s.lighting.model = SHADE_MODEL_PHONG;
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!want.unsure) check_color(__LINE__, "lit", got, want.total, want.bound);
@@ -724,8 +720,7 @@ TEST(light, an_eye_at_the_point_itself_is_finite)
         random_sample(&s);
         s.eye = s.lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? grey(0) : s.P;
         s.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED;
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!want.unsure && !check_color(__LINE__, "lit", got, want.total, want.bound))
@@ -793,8 +788,7 @@ TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w)
         shade_vec3 p = random_vector(4);
         s.lights[0].position = shade_v4(p.x, p.y, p.z, 1);
         if (d3_length(d3_sub(d3_from(p), d3_from(s.P))) < 0.5) continue;
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         static const float w[] = { 1, 2, -1, 0.25f, -8, 1024 };
         for (int k = 0; k < 6 && !want.unsure; k++) {
             s.lights[0].position = shade_v4(p.x * w[k], p.y * w[k], p.z * w[k], w[k]);
@@ -850,8 +844,7 @@ TEST(light, length_of_the_normal_does_not_matter)
         random_sample(&s);
         shade_vec3 a = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         shade_vec3 b = shade_lit(&s.lighting, &s.material, s.eye, s.P, shade_scale(s.N, 1024));
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         if (!want.unsure) check_color(__LINE__, "longer", b, d3_from(a), 2 * want.bound);
     }
 }

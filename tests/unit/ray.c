@@ -551,7 +551,7 @@ TEST(ray, pick_says_what_is_drawn_at_every_pixel)
     static picked_screen screen;
     long compared = 0, hits = 0;
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c = canvas_ready(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
         shade_mat4 view = shade_mat4_look_at(d3_round(d3_scale(rnd_direction(), 12)),
                                              random_vector(0.5), d3_round(rnd_direction()));
         shade_mat4 projection = i % 3 ? shade_mat4_perspective(0.6f, (float)W / H, 1, 40)
@@ -563,7 +563,6 @@ TEST(ray, pick_says_what_is_drawn_at_every_pixel)
         scene flat = { screen.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&flat);
         p.fragment = pick_ids;
-        canvas_clear(&c, 1);
         CHECK_INT(shade_draw(&c.target, &p, s.mesh.indices, 3 * screen.triangles, PICK_VERTICES,
                              NULL), SHADE_OK);
         for (int k = 0; k < W * H; k++) {

@@ -117,8 +117,7 @@ static shade_result whole_result(whole_call *w, char call)
     case 'M': return shade_draw_mesh(w->target, w->mesh, w->state, &w->stats);
     case 'L': return shade_draw_lines(w->target, w->points, w->point_count, w->lines, &w->stats);
     case 'N': return shade_mesh_normals(w->mesh, w->normals);
-    case 'C':
-        return shade_mesh_corner_normals(w->mesh, w->crease, w->normals, w->memory, w->bytes);
+    case 'C': return shade_mesh_corner_normals(w->mesh, w->crease, w->normals, w->memory, w->bytes);
     case 'E': return shade_mesh_edges(w->mesh, w->edges, w->capacity, &count);
     case 'B':
         return shade_mesh_chunks(w->mesh, w->triangles, w->chunks, w->capacity,

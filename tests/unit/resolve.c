@@ -431,12 +431,11 @@ TEST(resolve, factors_of_one_to_eight_are_taken)
 /* The edge of a half plane drawn at 4 x 4 comes out as the covered share of each pixel. */
 TEST(resolve, supersampled_edges_are_shares_of_sixteenths)
 {
-    canvas in = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
+    canvas in = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
     canvas out = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
     shade_vec4 clip[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { -1, 1, 0, 1 } };
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    canvas_clear(&in, 1);
     canvas_draw(&in, &p, 3);
     CHECK_INT(shade_resolve(&out.target, &in.target, 4), SHADE_OK);
     for (int k = 0; k < 16 * 16; k++) {

@@ -561,8 +561,7 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
 TEST(store, a_failed_write_stops_the_ppm)
 {
     static ppm_sink sink;
-    canvas c = canvas_open(50, 40, 0, SHADE_FORMAT_RGBA8, 0);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(50, 40, 0, SHADE_FORMAT_RGBA8, 0);
     memset(&sink, 0, sizeof sink);
     CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
     int calls = sink.calls;
@@ -624,9 +623,8 @@ TEST(store, a_full_disk_is_an_error)
     snprintf(path, sizeof path, "%.200s/shade_full_%08x.ppm", folder ? folder : "/tmp",
              (unsigned)(uintptr_t)path);
     for (int big = 0; big < 2; big++) {
-        canvas c = canvas_open(big ? 600 : 4, big ? 400 : 3, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas c = canvas_ready(big ? 600 : 4, big ? 400 : 3, 0, SHADE_FORMAT_RGBA8, 0);
         struct rlimit limit, none;
-        canvas_clear(&c, 1);
         fflush(stdout);
         CHECK_INT(getrlimit(RLIMIT_FSIZE, &limit), 0);
         void (*before)(int) = signal(SIGXFSZ, SIG_IGN);

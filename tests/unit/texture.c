@@ -1239,11 +1239,10 @@ static void check_maps(shade_shading shading)
     static map_scene s;
     long checked = 0;
     for (int i = 0; i < 120; i++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 0);
+        canvas c = canvas_ready(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 0);
         ref_triangle t;
         shade_vec4 clip[3];
         random_map_scene(&s, shading);
-        canvas_clear(&c, 1);
         canvas_draw_mesh(&c, &s.mesh, &s.state);
         for (int k = 0; k < 3; k++) {
             clip[k] = shade_v4((float)s.snapped[k][0], (float)s.snapped[k][1],
@@ -1344,11 +1343,10 @@ TEST(texture, bad_texture_coordinates_draw_a_defined_texel)
 {
     static map_scene s;
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         random_map_scene(&s, (shade_shading)(i % 3));
         for (int k = 0; k < 6; k++)
             if (rnd_one_in(2)) s.uv[k / 2][k % 2] = rnd_nasty();
-        canvas_clear(&c, 1);
         canvas_draw_mesh(&c, &s.mesh, &s.state);
         close_map_scene(&s);
         canvas_close(&c);

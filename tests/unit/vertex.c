@@ -35,14 +35,13 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
     static const int sizes[] = { 1, 3, 10, 30, 64, 100 };
     for (int k = 0; k < 6; k++) {
         int n = sizes[k], vertices = (n + 1) * (n + 1), count = grid_of(n, clip, indices);
-        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         recorder r = { 0 };
         memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         shade_stats stats;
-        canvas_clear(&c, 1);
         CHECK_INT(shade_draw(&c.target, &p, indices, count, vertices, &stats), SHADE_OK);
         int most = (n <= 10 ? vertices + vertices / 4 : vertices * 21 / 10) + 2;
         if (SHADE_LANES < 128) most = SHADE_LANES < 64 ? count : vertices * 22 / 10 + 2;
@@ -220,13 +219,12 @@ TEST(vertex, indices_reach_up_to_the_greatest_count)
 
 TEST(vertex, a_position_behind_the_eye_is_survived) /* w = -1 */
 {
-    canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas c = canvas_ready(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 clip[3];
     for (int k = 0; k < 3; k++) clip[k] = shade_v4(1, -1, 0, -1);
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
     shade_stats stats;
-    canvas_clear(&c, 1);
     stats = canvas_draw(&c, &p, 3);
     CHECK_INT(stats.drawn, 0);
     clip[0] = clip_corners[0];
