@@ -4330,8 +4330,8 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
     return e;
 }
 
-/* Moves *first and *last inward, to the columns where each edge has pixels inside in one of the
-   rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
+/* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in any of
+   the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
    SHADE__SIDE_MAX pixels of t->x0 */
 static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
@@ -4653,7 +4653,7 @@ SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t leas
 
 /* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Moves s->x to
    the first column that is not hidden, or beyond s->end if all are, and s->last to the last column
-   before one that is hidden or differs in s->inside.  Brings the bounds nearer that the triangle
+   before one that is hidden or differs in s->inside.  Brings nearer the bounds that the triangle
    fills. */
 static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__bounds *b,
                                                 const shade__triangle *t, shade__stretch *s)
@@ -7933,7 +7933,7 @@ static int shade__shows(shade__survey *s)
     return shade__count(&wide, s->dim) > 0;
 }
 
-/* Do two surveys differ in the number of pixels, or of those beyond some brightness? */
+/* Do two surveys differ in the number of pixels, of all or of bright ones? */
 static int shade__differ(const shade__survey *a, const shade__survey *b)
 {
     if (shade__covered(a) != shade__covered(b)) return 1;
@@ -7942,7 +7942,7 @@ static int shade__differ(const shade__survey *a, const shade__survey *b)
     return 0;
 }
 
-/* Is there light that a surface of its square root would still show? */
+/* Is there a pixel of sqrt(dim) or more?  Even a surface that reflects only sqrt(dim) shows it. */
 static int shade__bright(const shade__survey *s)
 {
     return shade__count(s, shade__sqrt(s->dim)) > 0;
@@ -7962,7 +7962,7 @@ static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE
     shade__draw_trial(&q, &trial);
 }
 
-/* Has a pixel a last fragment that is not its nearest, or a farthest one? */
+/* Is there a pixel whose last fragment is not its nearest?  With last 0: whose farthest is not? */
 static int shade__hides_nearest(const shade__survey *s, int last)
 {
     shade__probe probes[SHADE__PROBES];
@@ -8007,10 +8007,10 @@ static int shade__coincides(const shade__survey *s)
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
-/* What the picture shows: after a draw these are the fragments of stored depth.  A band shows too
-   little, blending shows more, a bias makes depths equal at the end of their range, and depth may
-   have changed since: all fragments are drawn then, so that what they lack is not there.  Where
-   depth is not written, fragments that passed hide others. */
+/* What the picture shows: after a whole, opaque draw the fragments that have the stored depth.  In
+   other cases it does not tell: a band shows too little, blending shows more, a bias clamps depths,
+   and depth may have changed since.  All fragments are drawn then: what none of them has, the
+   picture lacks.  Where depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -8024,14 +8024,14 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
-/* Is n a tenth of all or less?  None, where some of them may be hidden. */
+/* Is n at most a tenth of all?  Where some of them may be hidden, is it 0? */
 static int shade__few(const shade__survey *s, long long n, long long all)
 {
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Does the picture show a pixel from `least` to `most`?  Where fragments hide others, and stored
-   depth does not tell which, all of them must be. */
+/* Does the picture show a pixel with a brightness from least to most?  Where fragments hide others,
+   and stored depth does not tell which, all fragments must have one. */
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
@@ -8548,8 +8548,8 @@ static const shade__rung shade__nothing[] = {
       "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
       "where state.view looks." },
     { shade__always,
-      "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen edge-on, "
-      "or lies beside the picture; check state.model and state.view." },
+      "The mesh covers no pixel centre: it is too small on the screen, seen edge-on, or lies "
+      "beside the picture; check state.model and state.view." },
 };
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
@@ -8683,18 +8683,18 @@ static const shade__rung shade__unseen[] = {
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
       "0 for a reversed projection." },
     { shade__depth_is_far,
-      "Depth is that of the far plane all over the mesh, so that nothing passes raster.depth_test: "
-      "near of state.projection is too small beside far for floats; raise near." },
+      "Every depth of the mesh is the far plane's, so that nothing passes raster.depth_test: near "
+      "of state.projection is too small beside far for floats; raise near." },
     { shade__depth_hides,
-      "What target.depth holds hides the mesh: other meshes, the frame before without a "
-      "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
-      "raster.depth_bias pushes it behind them." },
+      "The mesh is hidden by depth that target.depth already holds: of other meshes, of the frame "
+      "before without a shade_clear, or of the mesh itself, which then needs "
+      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh behind." },
     { NULL, NULL }
 };
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Are nine tenths of the pixels with fronts pixels with a nearer back? */
+/* Of the pixels with a front face, do nine tenths have a back face before it? */
 static int shade__is_inside_out(const shade__survey *s)
 {
     shade__probe probes[SHADE__PROBES];
@@ -8762,8 +8762,8 @@ static const shade__rung shade__picture[] = {
 
 /* ---- the mesh is drawn, but black: the surface */
 
-/* Does the mesh show only if alpha is 1, or does not even a glowing surface show?  The blending is
-   left out from here on. */
+/* Does blending hide the mesh: does it show without, or would not even a glowing surface show with
+   it?  From here on blending is left out. */
 static int shade__alpha_is_zero(shade__survey *q)
 {
     shade__survey glow = *q;
@@ -9616,8 +9616,8 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
     if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
         return NULL;    /* one of many things in a scene may well be hidden */
-    return "What target.depth holds hides everything: other draws, the frame before without a "
-           "shade_clear, or raster.depth_bias, which pushes it back.";
+    return "Everything is hidden by depth that target.depth already holds: of other draws, or of "
+           "the frame before without a shade_clear; or raster.depth_bias pushes it back.";
 }
 
 /* ---- pixels are drawn, but wrongly */

@@ -667,8 +667,8 @@ TEST(explain, depth_is_blamed_after_whole_draws_alone)
 {
     stage *s = stage_open();
     s->clear = 0.25f;
-    CHECK(strstr(stage_explain(s, 1), "What target.depth holds hides") != NULL);
-    CHECK(strstr(stage_explain(s, 0), "What target.depth holds hides") != NULL);
+    CHECK(strstr(stage_explain(s, 1), "hidden by depth") != NULL);
+    CHECK(strstr(stage_explain(s, 0), "hidden by depth") != NULL);
     s->draws = 2;
     s->clear = 1;
     CHECK(!*stage_explain(s, 0));

@@ -54,7 +54,7 @@ NEAR(equal, 1, "is SHADE_COMPARE_EQUAL")
         s->clear = NAN;
     }
 }
-NEAR(far_plane, 1, "Depth is that of the far plane")
+NEAR(far_plane, 1, "Every depth of the mesh is the far plane's")
 {
     s->z_near = miss ? 1e-5f : 1e-8f;
     stage_look(s);

@@ -223,7 +223,7 @@ PIPED(test_equal, OF_BOTH, "SHADE_COMPARE_EQUAL")
 {
     p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_EQUAL;
 }
-PIPED(hidden, OF_BOTH | STATS_ALONE, "hides everything") { p->clear = 0.01f; }
+PIPED(hidden, OF_BOTH | STATS_ALONE, "Everything is hidden") { p->clear = 0.01f; }
 PIPED(bad_test, OF_BOTH, "raster.depth_test")
 {
     p->pipe.raster.depth_test = p->lines.raster.depth_test = (shade_compare)9;
@@ -581,7 +581,7 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
         return !got && piped_fragments(p, lines, piped_without_depth);
     if (strstr(said, "shade_clear before drawing"))
         return !got && piped_fragments(p, lines, piped_cleared);
-    if (strstr(said, "hides everything"))
+    if (strstr(said, "Everything is hidden"))
         return !got && piped_fragments(p, lines, piped_without_depth);
     if (strstr(said, "lie in surfaces")) return !got && piped_fragments(p, lines, piped_biased);
     if (strstr(said, "fragment is NULL")) {

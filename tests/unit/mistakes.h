@@ -1104,7 +1104,7 @@ MISTAKE(clip_beside, BALL, "clip_x")
     s->target.clip_x = STAGE_WIDTH;
     s->target.clip_width = s->target.clip_height = 20;
 }
-MISTAKE(smaller_than_a_pixel, BALL_STATS, "centre of a pixel")
+MISTAKE(smaller_than_a_pixel, BALL_STATS, "covers no pixel centre")
 {
     s->state.model = shade_mat4_scaling(shade_v3(5e-3f, 5e-3f, 5e-3f));
 }
@@ -1258,7 +1258,7 @@ MISTAKE(all_discarded_of_depth, BALL_STATS, "state.fragment")
     s->state.alpha_cutoff = 0.5f;
     mistake_shader_discards_all(s);
 }
-MISTAKE(small_depth_of_a_shader, BALL_STATS, "centre of a pixel")
+MISTAKE(small_depth_of_a_shader, BALL_STATS, "covers no pixel centre")
 {
     s->target.color = NULL;
     mistake_shader_discards_all(s);
@@ -1429,7 +1429,7 @@ MISTAKE(attenuation_of_far_lamps_with_a_map, BALL, "Attenuation")
     for (int k = 0; k < 16; k++) s->texel[k] = 140;
 }
 /* corners right of the picture, below it and far beyond: outside, but of no plane with all three */
-MISTAKE(around_a_corner_of_the_picture, BALL, "covers the centre of a pixel nowhere")
+MISTAKE(around_a_corner_of_the_picture, BALL, "covers no pixel centre")
 {
     stage_two_triangles(s, shade_v3(0, 0, 0), shade_v3(0, 0, 0));
     s->position[0] = shade_v3(5.4f, 0, -4);
