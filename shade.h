@@ -66,21 +66,21 @@
      Inside: the way of a triangle
        >>state     3264  who owns what         >>vertices  3471  shading, projection
        >>triangles 3680  dropped, cut, edges   >>clip      4039  near, far, behind the eye
-       >>tiles     4231  pixels, depth test    >>cover     4593  what is hidden, tile by tile
-       >>fragments 4863  interpolation, lod    >>texture   5147  texels, filters
-       >>store     5593  blending, packing
+       >>tiles     4231  pixels, depth test    >>cover     4594  what is hidden, tile by tile
+       >>fragments 4864  interpolation, lod    >>texture   5148  texels, filters
+       >>store     5594  blending, packing
      Inside: calls of the renderer
-       >>check     5843  refusals              >>seen      6048  what can be seen, chunks
-       >>drive     6170  shade_draw            >>mesh      6359  shade_draw_mesh
+       >>check     5844  refusals              >>seen      6049  what can be seen, chunks
+       >>drive     6171  shade_draw            >>mesh      6360  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6764  shade_draw_lines      >>camera    6955  where a draw is seen from
-       >>shape     7049  normals, edges        >>chunks    7417  how boxes are made
-       >>rays      7586  shade_pick            >>survey    7774  experiments on a draw
-       >>explain   8236  why nothing is seen   >>replay    9406  of lines, pipelines
-       >>image     9732  makes mipmaps, PPM    >>presets  10064  classic materials
+       >>lines     6765  shade_draw_lines      >>camera    6956  where a draw is seen from
+       >>shape     7050  normals, edges        >>chunks    7418  how boxes are made
+       >>rays      7587  shade_pick            >>survey    7775  experiments on a draw
+       >>explain   8237  why nothing is seen   >>replay    9407  of lines, pipelines
+       >>image     9733  makes mipmaps, PPM    >>presets  10065  classic materials
      Sources
-       >>refs     10149                        >>history  10179
-       >>license  10185
+       >>refs     10150                        >>history  10180
+       >>license  10186
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3293,8 +3293,8 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 
 typedef struct shade__draw shade__draw;
 
-/* Pixels x .. x + n - 1 of row y, inside the triangle of a lane of the setup. */
-typedef struct shade__run { int32_t x, y, n, lane; } shade__run;
+/* Pixels x .. x + n - 1 of row y, inside a triangle of the setup. */
+typedef struct shade__run { int32_t x, y, n, triangle; } shade__run;
 
 /* The depth test as masks: the comparisons that pass, and whether depth is written. */
 typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
@@ -4262,7 +4262,7 @@ typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edg
 /* A triangle while its pixels are found. */
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels with a centre that may be inside; ends included */
-    int      lane;                    /* of the setup */
+    int      index;                   /* in the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     shade__edges edges;               /* the steps; and e, set by shade__cover_columns */
     float    x_ref, y_ref;
@@ -4284,7 +4284,7 @@ typedef struct shade__tile {
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
-    int next;                         /* lane of the next triangle */
+    int next;                         /* triangle of the setup */
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
@@ -4294,7 +4294,7 @@ SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i, shade__trian
     t->y0 = t->edges.y = s->y0[i];
     t->x1 = s->x1[i];
     t->y1 = s->y1[i];
-    t->lane = i;
+    t->index = i;
     for (int k = 0; k < 3; k++) {
         t->e[k] = s->e[k][i];
         t->edges.ex[k] = s->ex[k][i];
@@ -4384,24 +4384,24 @@ static SHADE__NOINLINE void shade__send(shade__draw *d, shade__runs *r)
     shade__close_runs(r);
 }
 
-SHADE__INLINE void shade__set_run(shade__run *run, int lane, int x, int y, int n)
+SHADE__INLINE void shade__set_run(shade__run *run, int triangle, int x, int y, int n)
 {
     run->x = x;
     run->y = y;
     run->n = n;
-    run->lane = lane;
+    run->triangle = triangle;
 }
 
 /* The runs of a set; bit i stands for pixel x + i of row y.   post: r has room for a run in each
    row of a tile */
-static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int lane, int x, int y,
-                                           uint32_t set)
+static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int triangle, int x,
+                                           int y, uint32_t set)
 {
     while (set) {
         const int first = SHADE__LOWEST_BIT(set);
         const int n = SHADE__LOWEST_BIT(~(set >> first));    /* ~ is not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
-        shade__set_run(&r->run[r->count++], lane, x + first, y, n);
+        shade__set_run(&r->run[r->count++], triangle, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
     }
     if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
@@ -4417,8 +4417,8 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
 /* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
    open run of its row ends extends that one.  Nearly every set is one run or empty, so that a loop
    round writes its run without a branch, and counts it only if it is new. */
-SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, const shade__tile *tile,
-                                  const int joined)
+SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
+                                  const shade__tile *tile, const int joined)
 {
     int pixels = 0, count;
 
@@ -4434,11 +4434,12 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane, cons
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
             r->count = count;    /* the set is several runs */
-            shade__add_set(d, r, lane, tile->x, tile->y + k, set);
+            shade__add_set(d, r, triangle, tile->x, tile->y + k, set);
             count = r->count;
             continue;
         }
-        shade__set_run(run, lane, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u), tile->y + k, n);
+        shade__set_run(run, triangle, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u),
+                       tile->y + k, n);
         goes_on = joined && open->x + open->n == run->x;
         if (joined) {
             open->n += goes_on ? n : 0;
@@ -4718,7 +4719,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
             if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
             else shade__test_large(plan, t, &edges, &tile,
                                    inside && tile.columns - tile.skip == SHADE__TILE);
-            pixels += shade__add_tile(d, runs, t->lane, &tile, 1);
+            pixels += shade__add_tile(d, runs, t->index, &tile, 1);
         }
     }
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
@@ -4767,7 +4768,7 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
             shade__tile_depth(plan, &tile);
             if (narrow) shade__test_tile(plan, t, &t->edges, &tile, width, 0);
             else shade__test_large(plan, t, &t->edges, &tile, 0);
-            pixels += shade__add_tile(d, runs, t->lane, &tile, 0);
+            pixels += shade__add_tile(d, runs, t->index, &tile, 0);
         }
     }
     return pixels;
@@ -4775,23 +4776,23 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
 
 /* Draws a small triangle of up to four columns of tiles, or returns 0 if it is none.  Once bounds
    have begun shade__cover_large draws all of them, because it skips what bounds hide. */
-static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int lane)
+static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
     shade__triangle t;
     int pixels;
 
     if (d->bounds.across || plan->x1 - plan->x0 < SHADE__TILE ||
-        !shade__is_small(&d->setup, lane, 4 * SHADE__TILE))
+        !shade__is_small(&d->setup, index, 4 * SHADE__TILE))
         return 0;
-    shade__triangle_of(&d->setup, lane, &t);
+    shade__triangle_of(&d->setup, index, &t);
     pixels = shade__cover_columns(d, &t, runs, SHADE__TILE / 2, 0);
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
     return 1;
 }
 
 /* Draws the parts of a triangle that bounds do not hide. */
-static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int lane)
+static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
     shade__bounds *b = &d->bounds;
@@ -4799,7 +4800,7 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     shade__stretch s;
     int bounded;
 
-    shade__triangle_of(&d->setup, lane, &t);
+    shade__triangle_of(&d->setup, index, &t);
     bounded = SHADE__HAS(SHADE__BOUNDED) && t.x1 - t.x0 >= SHADE__TILE - 1 &&
               t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->away != 0;
     if (bounded && !b->across) shade__begin_bounds(plan, b);
@@ -5069,8 +5070,8 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
     SHADE_ALIGNED float value[SHADE__VALUES_MAX];
 
     for (int k = 0; k < runs; k++) {
-        if (!k || run[k].lane != run[k - 1].lane)
-            shade__make_planes(&d->plan, &d->setup, run[k].lane, &t);
+        if (!k || run[k].triangle != run[k - 1].triangle)
+            shade__make_planes(&d->plan, &d->setup, run[k].triangle, &t);
         shade__row_values(&t, d->plan.value_stride, run[k].y, value);
         shade__push_run(d, &t, value, &run[k]);
     }
