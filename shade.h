@@ -47,40 +47,41 @@
    >>contents
      The number is the line in which a section's banner begins.  The tag that ends a banner names
      the next section; in and out are what a section takes and gives, holds is what must stay true.
-     A way is the order of calls: "a: b, c; d" is a, which calls b and then c, followed by d.  A
-     function stands below those that it calls: read a section from its end up, along its way.
+     A way is the order of calls, in names without shade__: "a: b, c; d" is a, which calls b and
+     then c, followed by d.  A function stands below those that it calls: read a section from its
+     end up, along its way.
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     126  options               >>types      253  materials, lamps, targets, states
-       >>light      430  the equation, colour  >>draw       537  shaders, meshes, pixels
-       >>tools      681  why, lines, rays, ... >>plumbing   860  compilers, flags and bits
-       >>math       998  vectors and matrices
+       >>config     127  options               >>types      254  materials, lamps, targets, states
+       >>light      431  the equation, colour  >>draw       538  shaders, meshes, pixels
+       >>tools      682  why, lines, rays, ... >>plumbing   862  compilers, flags and bits
+       >>math      1000  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1358  processors            >>base      1583  bits, masks, rows of vectors
-       >>matrix    1781  cameras, inverses     >>power     2058  x^n
-       >>pixels    2124  formats, sRGB
+       >>machine   1360  processors            >>base      1585  bits, masks, rows of vectors
+       >>matrix    1783  cameras, inverses     >>power     2060  x^n
+       >>pixels    2126  formats, sRGB
      Inside: light
-       >>lamps     2432  attenuation, cones    >>terms     2684  one term at one point
-       >>surface   2759  material and lights   >>lit       2876  the whole sum, at many points
+       >>lamps     2434  attenuation, cones    >>terms     2686  one term at one point
+       >>surface   2761  material and lights   >>lit       2878  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3264  who owns what         >>vertices  3471  shading, projection
-       >>triangles 3680  dropped, cut, edges   >>clip      4039  near, far, behind the eye
-       >>tiles     4231  pixels, depth test    >>cover     4594  what is hidden, tile by tile
-       >>fragments 4864  interpolation, lod    >>texture   5148  texels, filters
-       >>store     5594  blending, packing
+       >>state     3266  who owns what         >>vertices  3473  shading, projection
+       >>triangles 3682  dropped, cut, edges   >>clip      4041  near, far, behind the eye
+       >>tiles     4233  pixels, depth test    >>cover     4596  what is hidden, tile by tile
+       >>fragments 4866  interpolation, lod    >>texture   5150  texels, filters
+       >>store     5596  blending, packing
      Inside: calls of the renderer
-       >>check     5844  refusals              >>seen      6049  what can be seen, chunks
-       >>drive     6171  shade_draw            >>mesh      6360  shade_draw_mesh
+       >>check     5846  refusals              >>seen      6051  what can be seen, chunks
+       >>drive     6173  shade_draw            >>mesh      6362  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6765  shade_draw_lines      >>camera    6956  where a draw is seen from
-       >>shape     7050  normals, edges        >>chunks    7418  how boxes are made
-       >>rays      7587  shade_pick            >>survey    7775  experiments on a draw
-       >>explain   8237  why nothing is seen   >>replay    9407  of lines, pipelines
-       >>image     9733  makes mipmaps, PPM    >>presets  10065  classic materials
+       >>lines     6767  shade_draw_lines      >>camera    6958  where a draw is seen from
+       >>shape     7052  normals, edges        >>chunks    7420  how boxes are made
+       >>rays      7589  shade_pick            >>survey    7777  experiments on a draw
+       >>explain   8239  why nothing is seen   >>replay    9409  of lines, pipelines
+       >>image     9735  makes mipmaps, PPM    >>presets  10067  classic materials
      Sources
-       >>refs     10150                        >>history  10180
-       >>license  10186
+       >>refs     10152                        >>history  10182
+       >>license  10188
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -131,11 +132,11 @@
                               compiler leaves out what is not called
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
-     SHADE_LANES              vertices or fragments that a shader is given at once, a packet: a
+     SHADE_LANES              vertices or fragments of a packet, which a shader takes at once: a
                               power of two from 8 to 256; default 128; 16 suits small stacks
      SHADE_MAX_VARYINGS       floats that a vertex can hand to fragments, 1 .. 64; default 16.
-                              Meshes lit per fragment need 6, with colours 9, with a map 8 or 11,
-                              with a fragment shader of their own 11
+                              Meshes lit per fragment need 6, with colours 9, with a map 8, with
+                              both 11; with a fragment shader of their own 11
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
@@ -632,8 +633,8 @@ typedef struct shade_mesh {
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
    with chunks is drawn and picked chunk after chunk.  A chunk is skipped whole if its box cannot be
    seen, or if the ray misses it.  A triangle in two chunks is drawn twice, one in none is not
-   drawn, and with chunk_count 0 nothing is.  The library trusts the box: one that is too small
-   hides triangles, and does no other harm; one with NaN or low > high is never skipped. */
+   drawn, and with chunk_count 0 nothing is drawn.  The library trusts the box: one that is too
+   small hides triangles, and does no other harm; one with NaN or low > high is never skipped. */
 typedef struct shade_chunk {
     shade_vec3 low, high;
     int first, count;
@@ -705,9 +706,9 @@ SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
-/* Cuts a mesh into chunks of as many triangles as given (0: 128) and computes their boxes.  Chunks
-   that the mesh already has are ignored; a corner that is NaN or infinite does not count for its
-   box.
+/* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
+   Chunks that the mesh already has are ignored; a corner that is NaN or infinite does not count for
+   its box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
    where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
@@ -765,7 +766,8 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
    vertex_count: the mean, as above, over the faces around the corner's position that turn by at
    most the crease angle, n . n_face >= cos_crease, from the corner's own face.  Vertices of equal
    position count as one.  Time grows with the square of the number of faces around a position.
-   memory must be aligned to 4 and have the bytes of the first call, which are 0 for a bad mesh. */
+   memory must be aligned to 4 and have the bytes that shade_mesh_corner_normals_bytes tells, which
+   are 0 for a bad mesh. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
@@ -786,8 +788,8 @@ SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
    draws.  Only the product of projection and view counts, not which of the two holds the camera.
      The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
    grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
-   by less than 3e-5 of itself from near to far, it starts where clip z = -w (on the near plane or,
-   where z is from 0 to w, by far - near nearer to the viewer) and points to where depth grows, so
+   by less than 3e-5 of itself from near to far, it starts where clip z = -w: on the near plane or,
+   where z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows, so
    that it meets first what SHADE_COMPARE_LESS draws.
      Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
    camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
@@ -6360,8 +6362,8 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 /*------------------------------------------------------------------------------------------- >>mesh
    A mesh is drawn by a vertex shader and a fragment shader, as in any pipeline.
      in      arrays in object space    out  varyings in world space: P, N, albedo; or one lit colour
-     way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: draw_chunks, if there
-             are any, and run_draw, which calls the shaders.  mesh_vertex: fetch_vertices,
+     way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: run_draw, or
+             draw_chunks, which calls it; it calls the shaders.  mesh_vertex: fetch_vertices,
              fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map; mesh_alpha.  Which
              rows of the varyings they use: shade__mesh_rows in >>check
      holds   Where faces have values of their own (normals or light), every corner of a triangle is
