@@ -126,10 +126,7 @@ static void stage_random_mesh(stage *s)
     s->state.lighting.light_count = rnd_int(1, 2);
     if (rnd_one_in(2)) s->mesh.normals = NULL;
     if (rnd_one_in(2)) s->mesh.colors = &s->color[0].x;
-    if (rnd_one_in(2)) {
-        s->mesh.texcoords = &s->texcoord[0].x;
-        s->state.diffuse_map = &s->map;
-    }
+    if (rnd_one_in(2)) stage_map(s);
     if (rnd_one_in(3)) {
         s->mesh.chunks = &s->chunk;
         s->mesh.chunk_count = 1;
@@ -403,13 +400,7 @@ UNUSUAL(view_that_scales_alone)
     s->lamps[0].position = shade_v4(0, 0, -6, 1);    /* on the side that LESS shows */
     s->state.lighting.light_count = 1;
 }
-UNUSUAL(box_always_looked_into)
-{
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(1, 1, 1);
-    s->chunk.high = shade_v3(-1, -1, -1);
-}
+UNUSUAL(box_always_looked_into) { stage_chunk(s, shade_v3(1, 1, 1), shade_v3(-1, -1, -1)); }
 /* w = 1 - z/3: the eye stands at (0, 0, 3), and matrices of the projection are identity else */
 UNUSUAL(one_point_projection)
 {
@@ -429,22 +420,17 @@ UNUSUAL(reversed_camera_along_x)
 {
     const shade_mat4 turn = shade_mat4_rotation(1.57079633f, shade_v3(0, 1, 0));
     s->state.view = shade_mat4_mul(shade_mat4_inverse(turn), s->state.view);
-    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 0.1f);
+    stage_reverse(s, 0.1f);
     s->state.projection = shade_mat4_mul(s->state.projection, turn);
     s->state.projection.col[0].x = s->state.projection.col[0].y = s->state.projection.col[0].z = 0;
-    s->state.raster.depth_zero_to_one = 1;
-    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
-    s->clear = 0;
 }
 /* A floor at so flat an angle that it covers a row or two. */
 UNUSUAL(floor_at_a_flat_angle)
 {
     static const shade_vec3 ground[4] = { { -9, 0, 9 }, { 9, 0, 9 }, { 9, 0, -9 }, { -9, 0, -9 } };
-    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
+    stage_quad(s);
     memcpy(s->position, ground, sizeof ground);
-    memcpy(s->index, corners, sizeof corners);
     s->mesh.normals = NULL;
-    s->mesh.index_count = 6;
     s->state.view = shade_mat4_look_at(shade_v3(0, 0.06f, 12), shade_v3(0, 0, 0),
                                        shade_v3(0, 1, 0));
 }
@@ -464,8 +450,7 @@ UNUSUAL(overlay_of_dim_ambient)
 UNUSUAL(stored_where_alpha_is_zero) { s->state.transparency = 1; }
 UNUSUAL(part_of_an_atlas)
 {
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     s->map.width = s->map.height = 1;
     s->map.stride = 2;
     s->map.filter = SHADE_FILTER_TRILINEAR;    /* one texel has no mipmaps */
@@ -500,8 +485,8 @@ UNUSUAL(added_without_depth)
 }
 UNUSUAL(quad_from_behind_without_depth)
 {
-    mistake_wound_clockwise_quad(s);
-    s->state.raster.cull = SHADE_CULL_NONE;
+    stage_quad(s);
+    stage_turn(s, 0);
     s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
     s->mesh.normals = NULL;
     s->target.depth = NULL;
@@ -553,13 +538,7 @@ UNUSUAL(trilinear_with_mipmaps)
     s->map.mipmap_count = 1;
 }
 /* Its last column, (0, 0, 1, 0), is also that of a transposed matrix. */
-UNUSUAL(reversed_with_near_one)
-{
-    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 1);
-    s->state.raster.depth_zero_to_one = 1;
-    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
-    s->clear = 0;
-}
+UNUSUAL(reversed_with_near_one) { stage_reverse(s, 1); }
 /* Each triangle lies there twice, the back of it first. */
 UNUSUAL(faces_of_both_sides)
 {
@@ -750,10 +729,7 @@ TEST(explain, hostile_input_is_defined)
         if (rnd_one_in(4)) nasty_floats(&s->state.view, sizeof s->state.view);
         if (rnd_one_in(4)) nasty_floats(&s->state.projection, sizeof s->state.projection);
         if (rnd_one_in(3)) nasty_floats(s->texcoord, sizeof s->texcoord);
-        if (rnd_one_in(2)) {
-            s->mesh.texcoords = &s->texcoord[0].x;
-            s->state.diffuse_map = &s->map;
-        }
+        if (rnd_one_in(2)) stage_map(s);
         if (rnd_one_in(8)) s->index[rnd_int(0, STAGE_INDICES - 1)] = (uint32_t)rnd_bits();
         if (rnd_one_in(8)) s->mesh.index_count = nasty_count(STAGE_INDICES);
         if (rnd_one_in(8)) {

@@ -72,10 +72,7 @@ NEAR(beyond_far, 1, "beyond the far plane")
     if (miss) {    /* a view that moves all corners to the eye */
         memset(&s->state.view, 0, sizeof s->state.view);
         s->state.view.col[3].w = 1;
-        s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, s->z_near);
-        s->state.raster.depth_zero_to_one = 1;
-        s->state.raster.depth_test = SHADE_COMPARE_GREATER;
-        s->clear = 0;
+        stage_reverse(s, s->z_near);
     }
 }
 /* A triangle twice in the same place, which covers most of the picture. */
@@ -431,10 +428,7 @@ NEAR(clip, 1, "lies beyond the picture")
 }
 NEAR(box, 2, "does not hold its triangles")
 {
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(-1, -1, -1);
-    s->chunk.high = shade_v3(1, miss ? 1 : 0.999f, 1);
+    stage_chunk(s, shade_v3(-1, -1, -1), shade_v3(1, miss ? 1 : 0.999f, 1));
     if (miss == 2) {    /* a part without triangles has a box, and no need of one */
         s->mesh.chunks = s->chunks;
         s->mesh.chunk_count = 2;
