@@ -65,23 +65,23 @@
        >>lamps     2434  attenuation, cones    >>terms     2686  one term at one point
        >>surface   2761  material and lights   >>lit       2878  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3266  who owns what         >>vertices  3473  shading, projection
-       >>triangles 3682  dropped, cut, edges   >>clip      4041  near, far, behind the eye
-       >>tiles     4233  pixels, depth test    >>cover     4596  what is hidden, tile by tile
-       >>fragments 4866  interpolation, lod    >>texture   5150  texels, filters
-       >>store     5596  blending, packing
+       >>state     3267  who owns what         >>vertices  3476  shading, projection
+       >>triangles 3685  dropped, cut, edges   >>clip      4044  near, far, behind the eye
+       >>tiles     4236  pixels, depth test    >>cover     4599  what is hidden, tile by tile
+       >>fragments 4869  interpolation, lod    >>texture   5153  texels, filters
+       >>store     5601  blending, packing
      Inside: calls of the renderer
-       >>check     5846  refusals              >>seen      6051  what can be seen, chunks
-       >>drive     6173  shade_draw            >>mesh      6362  shade_draw_mesh
+       >>check     5851  refusals              >>seen      6056  what can be seen, chunks
+       >>drive     6178  shade_draw            >>mesh      6367  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6767  shade_draw_lines      >>camera    6958  where a draw is seen from
-       >>shape     7052  normals, edges        >>chunks    7420  how boxes are made
-       >>rays      7589  shade_pick            >>survey    7777  experiments on a draw
-       >>explain   8239  why nothing is seen   >>replay    9409  of lines, pipelines
-       >>image     9735  makes mipmaps, PPM    >>presets  10067  classic materials
+       >>lines     6772  shade_draw_lines      >>camera    6963  where a draw is seen from
+       >>shape     7057  normals, edges        >>chunks    7425  how boxes are made
+       >>rays      7594  shade_pick            >>survey    7782  experiments on a draw
+       >>explain   8244  why nothing is seen   >>replay    9414  of lines, pipelines
+       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
      Sources
-       >>refs     10152                        >>history  10182
-       >>license  10188
+       >>refs     10157                        >>history  10187
+       >>license  10193
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1413,7 +1413,7 @@ enum {
 #elif !defined(SHADE__SPECIALIZE)
 #define SHADE__SPECIALIZE 255
 #endif
-#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)
+#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)    /* 0: this copy is not compiled */
 
 /* gcc would turn loops that fill rows into memset or rep stos, which costs 9 % of a flat fill.  -O2
    makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, to count branches. */
@@ -3047,6 +3047,7 @@ SHADE__INLINE void shade__hide(shade__in visibility, const int n, shade__out amo
     }
 }
 
+/* A packet of vectors 1, 1, 1, which stands for the rows of factors that a call leaves out. */
 #define SHADE__ONES_8 1, 1, 1, 1, 1, 1, 1, 1
 #define SHADE__ONES_16 SHADE__ONES_8, SHADE__ONES_8
 #define SHADE__ONES_32 SHADE__ONES_16, SHADE__ONES_16
@@ -3287,10 +3288,12 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
                   set_up -> cover -> tiles: edges, depth test      32 x 8 pixels at a time
                                      |      runs of pixels in rows
                                      v
-                  push: values into lanes of the queue             until SHADE_LANES are full
+                  push: values over w, and squared steps of lod,   until SHADE_LANES are full
+                        into lanes of the queue
                                      |
                                      v
-                  flush: fragment shader -> store                  SHADE_LANES pixels
+                  flush: values times w, lod -> fragment shader    SHADE_LANES pixels
+                         -> store
                                                                                        >>vertices */
 
 typedef struct shade__draw shade__draw;
@@ -3417,7 +3420,7 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* until it is shaded: varyings are over w in perspective,
+    shade_fragments f;                /* up to shade__flush varyings are over w in perspective,
                                          and lod is the squared step in texels */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
@@ -5185,6 +5188,8 @@ enum {
 /* The blocks that hold n lanes. */
 SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHADE__BLOCK; }
 
+/* SHADE__EACH_BLOCK(i, blocks) { ... } runs the code for the lanes i of the first blocks.  The
+   inner loop, over one block, has a constant length: it becomes vector code without a remainder. */
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
