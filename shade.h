@@ -6,8 +6,8 @@
    matrix maths that this needs, and a small, fast triangle rasterizer with programmable vertex and
    fragment shaders to see it with.  It allocates nothing, keeps no global state, starts no threads
    and draws into memory that you own.  Every compiler and processor produces the same pixels, to
-   the bit, because all arithmetic is IEEE single and double precision and is never contracted;
-   shaders of yours need -ffp-contract=off for that (>>plumbing, "Fast math").
+   the bit, because all arithmetic is IEEE single and double precision and is never contracted.
+   Compile your own shaders with -ffp-contract=off (>>plumbing, "Fast math").
 
    To use it, write in exactly one C or C++ file
 
@@ -47,38 +47,41 @@
    >>contents
      The number is the line in which a section's banner begins.  The tag that ends a banner names
      the next section; in and out are what a section takes and gives, holds is what must stay true.
+     A way is the order of calls, in names without shade__: "a: b, c; d" is a, which calls b and
+     then c, followed by d.  A function stands below those that it calls: read a section from its
+     end up, along its way.
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     124  options               >>types      250  materials, lamps, targets, states
-       >>light      427  the equation, colour  >>draw       534  shaders, meshes, pixels
-       >>tools      678  why, lines, rays, ... >>plumbing   857  compilers, flags and bits
-       >>math       994  vectors and matrices
+       >>config     127  options               >>types      254  materials, lamps, targets, states
+       >>light      431  the equation, colour  >>draw       538  shaders, meshes, pixels
+       >>tools      682  why, lines, rays, ... >>plumbing   862  compilers, flags and bits
+       >>math      1000  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1354  processors            >>base      1579  bits, masks, rows of vectors
-       >>matrix    1777  cameras, inverses     >>power     2054  x^n
-       >>pixels    2120  formats, sRGB
+       >>machine   1360  processors            >>base      1585  bits, masks, rows of vectors
+       >>matrix    1783  cameras, inverses     >>power     2060  x^n
+       >>pixels    2126  formats, sRGB
      Inside: light
-       >>lamps     2427  attenuation, cones    >>terms     2679  one term at one point
-       >>surface   2754  material and lights   >>lit       2869  the whole sum, at many points
+       >>lamps     2434  attenuation, cones    >>terms     2686  one term at one point
+       >>surface   2761  material and lights   >>lit       2878  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3257  who owns what         >>vertices  3463  shading, projection
-       >>triangles 3672  dropped, cut, edges   >>clip      4031  near, far, behind the eye
-       >>tiles     4222  pixels, depth test    >>cover     4583  what is hidden, tile by tile
-       >>fragments 4852  interpolation, lod    >>texture   5136  texels, filters
-       >>store     5580  blending, packing
+       >>state     3267  who owns what         >>vertices  3476  shading, projection
+       >>triangles 3685  dropped, cut, edges   >>clip      4044  near, far, behind the eye
+       >>tiles     4236  pixels, depth test    >>cover     4599  what is hidden, tile by tile
+       >>fragments 4869  interpolation, lod    >>texture   5153  texels, filters
+       >>store     5601  blending, packing
      Inside: calls of the renderer
-       >>check     5830  refusals              >>seen      6032  what can be seen, chunks
-       >>drive     6154  shade_draw            >>mesh      6342  shade_draw_mesh
+       >>check     5851  refusals              >>seen      6056  what can be seen, chunks
+       >>drive     6178  shade_draw            >>mesh      6367  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6742  shade_draw_lines      >>camera    6931  where a draw is seen from
-       >>shape     7025  normals, edges        >>chunks    7390  how boxes are made
-       >>rays      7558  shade_pick            >>survey    7745  experiments on a draw
-       >>explain   8207  why nothing is seen   >>replay    9375  of lines, pipelines
-       >>image     9702  makes mipmaps, PPM    >>presets  10026  classic materials
+       >>lines     6772  shade_draw_lines      >>camera    6963  where a draw is seen from
+       >>shape     7057  normals, edges        >>chunks    7425  how boxes are made
+       >>rays      7594  shade_pick            >>survey    7782  experiments on a draw
+       >>explain   8244  why nothing is seen   >>replay    9414  of lines, pipelines
+       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
      Sources
-       >>refs     10111                        >>history  10141
-       >>license  10147
+       >>refs     10157                        >>history  10187
+       >>license  10193
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -129,11 +132,11 @@
                               compiler leaves out what is not called
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
-     SHADE_LANES              vertices or fragments that a shader is given at once, a packet: a
+     SHADE_LANES              vertices or fragments of a packet, which a shader takes at once: a
                               power of two from 8 to 256; default 128; 16 suits small stacks
      SHADE_MAX_VARYINGS       floats that a vertex can hand to fragments, 1 .. 64; default 16.
-                              Meshes lit per fragment need 6, with colours 9, with a map 8 or 11,
-                              with a fragment shader of their own 11
+                              Meshes lit per fragment need 6, with colours 9, with a map 8, with
+                              both 11; with a fragment shader of their own 11
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
@@ -150,7 +153,8 @@
    also e, g, i, j, o and q.
                                                                                           >>types */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
-/* The one error inside a namespace, where these headers would declare their types. */
+/* Within a namespace the three headers below would declare their types there: hundreds of errors.
+   This makes one of them, and its name tells what to do. */
 struct shade__before_the_namespace_include_float_h_stddef_h_stdint_h;
 typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__global;
 #endif
@@ -369,8 +373,8 @@ typedef struct shade_target {
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* draws and clears change nothing outside this rectangle, */
-    int   clip_width, clip_height;    /* nothing at all if it is empty; four zeros: none is set */
+    int   clip_x, clip_y;        /* draws and clears change pixels of this rectangle alone, */
+    int   clip_width, clip_height;    /* and none if it is empty; four zeros: the whole picture */
     int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
                                  /* row_count rows; count 0: all rows of the picture */
 } shade_target;
@@ -500,8 +504,8 @@ SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light);
 SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
                                     float exponent);
 /* B max(0, N.H)^n with H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12. [Blinn77] */
-SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light,
-                                          shade_vec3 to_eye, float exponent);
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                          float exponent);
 /* 1 / (a + b r + c r^2), at most 1e20.  It is 1 where a = b = c = 0; where only a is 0, r counts as
    max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
@@ -605,9 +609,9 @@ typedef struct shade_pipeline {
    nearby triangles are usually shaded once.  Each triangle is front or back facing as a whole, by
    its corners on the screen.  stats may be NULL.  Without a colour buffer the fragment shader runs
    only where may_discard is set.
-     A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses:
-   the diagonal of a picture of 16384 rows, of any width, takes less than 1 ms in depth that was
-   just cleared, or 2 ms where its memory has pages of 4 kB, one for each row (make bench).
+     The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
+   it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
+   1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
      Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
    the same as from one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -629,8 +633,8 @@ typedef struct shade_mesh {
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
    with chunks is drawn and picked chunk after chunk.  A chunk is skipped whole if its box cannot be
    seen, or if the ray misses it.  A triangle in two chunks is drawn twice, one in none is not
-   drawn, and with chunk_count 0 nothing is.  The library trusts the box: one that is too small
-   hides triangles, and does no other harm; one with NaN or low > high is never skipped. */
+   drawn, and with chunk_count 0 nothing is drawn.  The library trusts the box: one that is too
+   small hides triangles, and does no other harm; one with NaN or low > high is never skipped. */
 typedef struct shade_chunk {
     shade_vec3 low, high;
     int first, count;
@@ -682,8 +686,9 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 /* Says in one sentence why a draw gives no picture, or a wrong one, and which field to change; ""
    where nothing is suspicious; never NULL.  Call it after shade_draw_mesh, with the same arguments
    and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
-   recognises every refusal by its field, matrices that are transposed, swapped or in degrees,
-   meshes out of view, culling, depth that was not cleared, and light that does not arrive or clips.
+   names the field of every refusal, and recognises matrices that are transposed, swapped or made
+   from degrees, meshes out of view, culling, depth that was not cleared, and light that does not
+   arrive or clips.
    It writes nothing: it draws the mesh again and again, with one thing changed after the other, and
    counts pixels.  When it says that something is missing, no pixel shows it.  It takes the time of
    many frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
@@ -695,15 +700,15 @@ SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh 
    give: positions that are NaN or out of view, discarded, black or transparent pixels, what
    raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                        const uint32_t *indices, int index_count,
-                                        int vertex_count, const shade_stats *stats);
+                                        const uint32_t *indices, int index_count, int vertex_count,
+                                        const shade_stats *stats);
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
-/* Cuts a mesh into chunks of as many triangles as given (0: 128) and computes their boxes.  Chunks
-   that the mesh already has are ignored; a corner that is NaN or infinite does not count for its
-   box.
+/* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
+   Chunks that the mesh already has are ignored; a corner that is NaN or infinite does not count for
+   its box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
    where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
@@ -742,8 +747,7 @@ SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
-SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
-                                        shade_vec3 *high);
+SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low, shade_vec3 *high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
@@ -762,7 +766,8 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
    vertex_count: the mean, as above, over the faces around the corner's position that turn by at
    most the crease angle, n . n_face >= cos_crease, from the corner's own face.  Vertices of equal
    position count as one.  Time grows with the square of the number of faces around a position.
-   memory must be aligned to 4 and have the bytes of the first call, which are 0 for a bad mesh. */
+   memory must be aligned to 4 and have the bytes that shade_mesh_corner_normals_bytes tells, which
+   are 0 for a bad mesh. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
@@ -783,8 +788,8 @@ SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
    draws.  Only the product of projection and view counts, not which of the two holds the camera.
      The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
    grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
-   by less than 3e-5 of itself from near to far, it starts where clip z = -w (on the near plane or,
-   where z is from 0 to w, by far - near nearer to the viewer) and points to where depth grows, so
+   by less than 3e-5 of itself from near to far, it starts where clip z = -w: on the near plane or,
+   where z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows, so
    that it meets first what SHADE_COMPARE_LESS draws.
      Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
    camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
@@ -857,11 +862,12 @@ SHADE__CLOSE
 /*--------------------------------------------------------------------------------------- >>plumbing
    What inline functions and loops over lanes need of compilers, and what flags do to bits.
 
-   Fast math.  From gcc the implementation has the same bits with -ffast-math, -Ofast and their
-   parts.  clang cannot be told to keep them: the implementation refuses -ffast-math and
-   -ffinite-math-only.  clang does not report the other parts, nor -ffp-contract=fast, which
-   overrides the pragmas of >>plumbing: do not use them.  A program linked with -ffast-math flushes
-   denormal numbers to zero; only SHADE_FORMAT_RGBA32F and exponents far below 1 show it.
+   Fast math.  Compiled by gcc, the implementation has the same bits with -ffast-math, -Ofast and
+   their parts.  clang has no pragma that keeps the bits there, so the implementation refuses
+   -ffast-math and -ffinite-math-only.  It cannot see the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
+   -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
+   below 1 show.
      Inline functions are compiled into your files.  They have the same bits under all flags but
    -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
    Attributes and pragmas that turn fused instructions on for a part of a file may change them.
@@ -1407,7 +1413,7 @@ enum {
 #elif !defined(SHADE__SPECIALIZE)
 #define SHADE__SPECIALIZE 255
 #endif
-#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)
+#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)    /* 0: this copy is not compiled */
 
 /* gcc would turn loops that fill rows into memset or rep stos, which costs 9 % of a flat fill.  -O2
    makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, to count branches. */
@@ -2159,13 +2165,14 @@ static SHADE__NOINLINE float shade__decode(float c)
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
-/* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table.  Half of the bits of c make a
-   crude root of it, by which floats fall into cells: a root of k / 372 or more, but less than (k +
-   1) / 372, is in cell k, which is 4 to 372.  The byte changes at most once in a cell.  The entry
-   is the byte after the change, above the low 24 bits of the first float with that byte.  c comes
-   before this float if bit 23 of the difference is set.  A cell without a change has the entry of
-   another byte, which begins fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of
-   the time with AVX-512, and .81 with AVX2 and SSE2. */
+/* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.  The
+   bit pattern of c, halved, is that of a crude square root.  Cell k holds all c with a root from
+   k / 372 up to (k + 1) / 372; the first entry is for cell 4, the last for cell 372.  Within a cell
+   the byte changes at most once.  An entry is the byte after the change, in the high 8 bits, and
+   the low 24 bits of the first float that has it.  If bit 23 of c minus the entry is set, c lies
+   before that float, and its byte is one less.  A cell without a change has the entry of another
+   one, whose change is fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of the
+   time with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2381,8 +2388,8 @@ SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes, con
 }
 
 /* Loads a pixel in packed form, or its four floats into rows that are SHADE_LANES apart. */
-SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p,
-                                     uint32_t *packed, float *rgba)
+SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p, uint32_t *packed,
+                                     float *rgba)
 {
     if (l->bytes < 16) *packed = shade__load_packed(p, l->bytes, l->swapped);
     else
@@ -2390,8 +2397,8 @@ SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p,
 }
 
 /* Stores a pixel from its packed form, or from four rows of floats that are SHADE_LANES apart. */
-SHADE__INLINE void shade__store_pixel(const shade__layout *l, uint8_t *p,
-                                      uint32_t packed, const float *rgba)
+SHADE__INLINE void shade__store_pixel(const shade__layout *l, uint8_t *p, uint32_t packed,
+                                      const float *rgba)
 {
     const uint16_t half = (uint16_t)(l->swapped ? shade__swap16(packed) : packed);
     if (l->bytes == 4) SHADE_MEMCPY(p, &packed, 4);
@@ -2639,8 +2646,8 @@ SHADE__DISPATCH(shade__arrive,
                 (lamp, point, n, a),
                 shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
 
-SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
-                                   float *to_light, float *amount)
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
+                                   float *amount)
 {
     shade__arrival a;
     shade__lamp lamp;
@@ -2658,8 +2665,8 @@ static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
     for (int i = 0; i < SHADE__POINT; i++) shade__put(rows, i, v);
 }
 
-SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
-                              shade_vec3 *to_light, float *distance)
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
+                              float *distance)
 {
     shade__arrival a;
     shade__v3 block;
@@ -2707,8 +2714,8 @@ static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 normal, shad
     return shade__is_zero(half) ? 0 : shade_power(shade_dot(normal, half), exponent);
 }
 
-SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light,
-                                    shade_vec3 to_eye, float exponent)
+SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                    float exponent)
 {
     return shade_dot(normal, to_light) > 0
         ? shade__highlight(1, normal, to_light, to_eye, exponent) : 0;
@@ -2743,8 +2750,8 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
     return model == SHADE_MODEL_LAMBERT ? m.diffuse : shade_v3(0, 0, 0);
 }
 
-SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light,
-                                       shade_vec3 cool, shade_vec3 warm)
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, shade_vec3 cool,
+                                       shade_vec3 warm)
 {
     return shade_lerp(cool, warm, 0.5f + 0.5f * shade_dot(normal, to_light));
 }
@@ -2754,7 +2761,9 @@ SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exp
 /*---------------------------------------------------------------------------------------- >>surface
    What the points of a call are lit by: defaults are filled in, materials and lights multiplied,
    terms that are off made zero.
-     in      a shade_lighting, a material, the eye      out  shade__surface              >>lit */
+     in      a shade_lighting, a material, the eye      out  shade__surface
+     way     begin_surface: terms_of, ambient; then begin_tone, or reflect_lamp of the first lamps
+                                                                                            >>lit */
 
 /* The first SHADE__LAMPS lights are prepared once a draw, the others anew for each packet. */
 enum { SHADE__LAMPS = SHADE_LANES < 64 ? 1 : 4 };
@@ -2793,8 +2802,8 @@ SHADE__INLINE shade_vec3 shade__product(unsigned on, shade_vec3 k, shade_vec3 li
     return on ? shade_mul(k, light) : shade_v3(0, 0, 0);
 }
 
-static void shade__reflect_lamp(const shade__surface *s,
-                                const shade_light *light, shade__lamp *lamp)
+static void shade__reflect_lamp(const shade__surface *s, const shade_light *light,
+                                shade__lamp *lamp)
 {
     const shade_material *m = &s->material;
     const unsigned flags = s->lighting->flags, terms = s->terms;
@@ -2904,8 +2913,8 @@ SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 point)
 }
 
 /* Flips the sign of rn where N points away from the viewer. */
-SHADE__INLINE void shade__two_sides(shade__in_v3 point, shade__in_v3 normal,
-                                    shade_vec4 eye, const int n, shade__out rn)
+SHADE__INLINE void shade__two_sides(shade__in_v3 point, shade__in_v3 normal, shade_vec4 eye,
+                                    const int n, shade__out rn)
 {
     SHADE__FOR(i, n) {
         shade_vec3 to_eye = shade__view(eye, shade__at(point, i));
@@ -3038,6 +3047,7 @@ SHADE__INLINE void shade__hide(shade__in visibility, const int n, shade__out amo
     }
 }
 
+/* A packet of vectors 1, 1, 1, which stands for the rows of factors that a call leaves out. */
 #define SHADE__ONES_8 1, 1, 1, 1, 1, 1, 1, 1
 #define SHADE__ONES_16 SHADE__ONES_8, SHADE__ONES_8
 #define SHADE__ONES_32 SHADE__ONES_16, SHADE__ONES_16
@@ -3102,9 +3112,9 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r, shade_
 /* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight).  surface->sign turns N.L
    into |N.L| for TWO_SIDED_ABS.  Lanes out of the lamp's reach add exactly 0: N.L may be infinite
    there.  plain: albedo and tint are 1. */
-SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
-                                  shade__in_v3 albedo, shade__in_v3 tint, const int plain,
-                                  const int n, shade__out_v3 rgb)
+SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r, shade__in_v3 albedo,
+                                  shade__in_v3 tint, const int plain, const int n,
+                                  shade__out_v3 rgb)
 {
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
     const uint32_t sign = r->surface->sign, open = r->surface->open;
@@ -3129,8 +3139,8 @@ SHADE__INLINE void shade__raise(shade__in base, float exponent, const int n, sha
     SHADE__FOR(i, n) { power[i] = shade__exp2_neg(power[i]); }
 }
 
-SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
-                                const int n, shade__lit *r)
+SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal, const int n,
+                                shade__lit *r)
 {
     const shade__surface *s = r->surface;
     if (shade__is_zero(r->lamp->specular)) {
@@ -3158,10 +3168,10 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
     const shade__v3 *normal = shade__rows_of(r->rows->normal);
     const shade__v3 *albedo = shade__factors(r->rows->albedo);
     const float *visibility = r->rows->visibility;
-    shade__lamp own;
+    shade__lamp fresh;
     uint32_t any;
-    if (k >= SHADE__LAMPS) shade__reflect_lamp(s, &s->lighting->lights[k], &own);
-    r->lamp = k < SHADE__LAMPS ? &s->lamp[k] : &own;
+    if (k >= SHADE__LAMPS) shade__reflect_lamp(s, &s->lighting->lights[k], &fresh);
+    r->lamp = k < SHADE__LAMPS ? &s->lamp[k] : &fresh;
     if (!s->tone && !r->lamp->on) return;
     shade__arrive_at(point, n, r);
     if (!r->a.any) return;
@@ -3278,16 +3288,18 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
                   set_up -> cover -> tiles: edges, depth test      32 x 8 pixels at a time
                                      |      runs of pixels in rows
                                      v
-                  push: values into lanes of the queue             until SHADE_LANES are full
+                  push: values over w, and squared steps of lod,   until SHADE_LANES are full
+                        into lanes of the queue
                                      |
                                      v
-                  flush: fragment shader -> store                  SHADE_LANES pixels
+                  flush: values times w, lod -> fragment shader    SHADE_LANES pixels
+                         -> store
                                                                                        >>vertices */
 
 typedef struct shade__draw shade__draw;
 
-/* Pixels x .. x + n - 1 of row y, inside the triangle of a lane of the setup. */
-typedef struct shade__run { int32_t x, y, n, lane; } shade__run;
+/* Pixels x .. x + n - 1 of row y, inside a triangle of the setup. */
+typedef struct shade__run { int32_t x, y, n, triangle; } shade__run;
 
 /* The depth test as masks: the comparisons that pass, and whether depth is written. */
 typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
@@ -3296,6 +3308,7 @@ typedef struct shade__compare { uint32_t less, equal, greater, always, write; } 
    perspective, u and v follow once more, divided by w. */
 enum {
     SHADE__FIRST = 2,                 /* z and 1/w stand before the varyings */
+    SHADE__SIDE_MAX = 16384,          /* pixels or texels of a side of a picture */
     SHADE__VALUES_MAX = (SHADE_MAX_VARYINGS + SHADE__FIRST + 2 + 7) / 8 * 8,
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
@@ -3335,7 +3348,7 @@ typedef struct shade__plan {
     int      inputs_unread;           /* x, y, z, primitive, front and presets are not read */
     shade_vec3 eye;                   /* for the fragment shader; 0 without a draw state */
     shade__compare compare;           /* the test of the draw */
-    shade__compare tile_test;        /* the test of >>tiles: it lets all pass unless early */
+    shade__compare tile_test;         /* the test of >>tiles: it lets all pass unless early */
     float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
     double   half_width, half_height; /* of the picture, in 1/256 pixels */
 } shade__plan;
@@ -3407,7 +3420,7 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* until it is shaded: varyings are over w in perspective,
+    shade_fragments f;                /* up to shade__flush varyings are over w in perspective,
                                          and lod is the squared step in texels */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
@@ -3442,7 +3455,7 @@ struct shade__draw {
     shade__bounds  bounds;
     shade__batch   batch;
     shade__setup   setup;
-    union { shade__incoming in; shade__queue queue; } u;    /* first one, then the other */
+    union { shade__incoming in; shade__queue queue; } u;    /* in until a batch has its places */
 };
 
 /* vertices: takes the next triangles and their vertices, up to SHADE_LANES; then shades these */
@@ -3754,8 +3767,8 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stri
 
 /* area: twice the signed area.  inverse: 256 / |area|, or 256 for an area of 0: programs may trap
    divisions by zero. */
-SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
-                                shade__out area, double *SHADE_RESTRICT inverse)
+SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c, shade__out area,
+                                double *SHADE_RESTRICT inverse)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         double x1 = c->x[1][i] - c->x[0][i], y1 = c->y[1][i] - c->y[0][i];
@@ -3821,8 +3834,8 @@ SHADE__INLINE int64_t shade__whole(double x)
    integer v = 256 e + rest, e = floor(v / 256) is v / 256 - 127.5/256 rounded to the nearest.
    Left edges have dy < 0, top edges dy = 0 and dx > 0: their bias is 0, the others' -1.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
-SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
-                               int k, shade__setup *SHADE_RESTRICT s)
+SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k,
+                               shade__setup *SHADE_RESTRICT s)
 {
     const int next = k < 2 ? k + 1 : 0;
 
@@ -4034,9 +4047,10 @@ static void shade__triangles(shade__draw *d)
      in      three vertices of the batch     out  a polygon
      way     clip: polygon_of, clip_plane: new_vertex, place_polygon, apex
      method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds one at most, 2
-             while a plane cuts, and vertex 0, kept for CONSTANT.  If rounding made the polygon
-             concave it may need more vertices; it is dropped.  Whole triangles are lost there, in
-             shade__sort_out (all corners outside) and in shade__draw_fan (culled, no area).
+             while a plane cuts, and vertex 0, kept for CONSTANT.  A polygon that rounding made
+             concave may need more vertices, and is dropped.  Other triangles are dropped in
+             >>triangles: by shade__sort_out, if all corners lie outside of one plane, and by
+             shade__draw_fan, if what clipping leaves is culled or has no area.
 
                3w  +-----------------------+
                    |      guard band       |      A corner between the picture and the guard band
@@ -4079,8 +4093,8 @@ static float shade__between(float from, float to, double t)
    that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  As d_out is negative, the sum
    has positive terms and loses no digits, however different the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
-static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
-                                 int in, int out, double d_in, double d_out)
+static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int in, int out,
+                                 double d_in, double d_out)
 {
     double t = d_in / (d_in - d_out), s = t;
     const int v = SHADE__LOWEST_BIT(~p->taken), stride = plan->value_stride;
@@ -4236,7 +4250,7 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
                        |     |     |   |
                        run 0       run 1              runs of row 0: x, y, n of pixels in a row
 
-             The only run of a row is open: the next tile to the right may extend it.
+             Where a row has one run, it stays open: the next tile to the right may extend it.
      holds   Stores stay in the clip rectangle, that is, in the pixels of this thread.  A value at
              a pixel has the same bits whichever tile it is in: the base of its row plus
              its step in x times the exact distance.                                      >>cover */
@@ -4253,7 +4267,7 @@ typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edg
 /* A triangle while its pixels are found. */
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels with a centre that may be inside; ends included */
-    int      lane;                    /* of the setup */
+    int      index;                   /* in the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     shade__edges edges;               /* the steps; and e, set by shade__cover_columns */
     float    x_ref, y_ref;
@@ -4268,14 +4282,14 @@ typedef struct shade__tile {
     int      stride;
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
-    uint32_t any;                     /* is 0 where all sets are empty */
+    uint32_t any;                     /* 0: all sets are empty */
 } shade__tile;
 
 /* Runs of pixels on their way to the queue, sent when the array is nearly full. */
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
-    int next;                         /* lane of the next triangle */
+    int next;                         /* triangle of the setup */
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
@@ -4285,7 +4299,7 @@ SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i, shade__trian
     t->y0 = t->edges.y = s->y0[i];
     t->x1 = s->x1[i];
     t->y1 = s->y1[i];
-    t->lane = i;
+    t->index = i;
     for (int k = 0; k < 3; k++) {
         t->e[k] = s->e[k][i];
         t->edges.ex[k] = s->ex[k][i];
@@ -4321,19 +4335,19 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
     return e;
 }
 
-/* Moves *first and *last inward, to the columns where each edge has pixels inside in one of the
-   rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
+/* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in any of
+   the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
-   16384 pixels of t->x0 */
-static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
-                                               int rows, int *first, int *last)
+   SHADE__SIDE_MAX pixels of t->x0 */
+static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
+                                               int *first, int *last)
 {
     for (int k = 0; k < 3; k++) {
         const int32_t ex = t->edges.ex[k];
         const int64_t ey = t->edges.ey[k];
         const int64_t e = t->e[k] + (y - t->y0 + (ey > 0 ? rows - 1 : 0)) * ey;
         const float x = -(float)e / (float)(ex ? ex : 1);    /* where e is 0 */
-        const float near_x = shade__minf(shade__maxf(x, -2), 16384);
+        const float near_x = shade__minf(shade__maxf(x, -2), SHADE__SIDE_MAX);
         if (ex > 0) *first = shade__max(*first, t->x0 + (int)(near_x + 0.984f));
         if (ex < 0) *last = shade__min(*last, t->x0 + (int)(near_x + 0.016f));
     }
@@ -4342,8 +4356,8 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
 /* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns whether
    all three are.   pre: the tile is not outside an edge by more than a column
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
-SHADE__INLINE int shade__tile_edges(const shade__triangle *t,
-                                    const shade__tile *tile, shade__edges *edges)
+SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile *tile,
+                                    shade__edges *edges)
 {
     int inside = 1;
 
@@ -4375,24 +4389,24 @@ static SHADE__NOINLINE void shade__send(shade__draw *d, shade__runs *r)
     shade__close_runs(r);
 }
 
-SHADE__INLINE void shade__set_run(shade__run *run, int lane, int x, int y, int n)
+SHADE__INLINE void shade__set_run(shade__run *run, int triangle, int x, int y, int n)
 {
     run->x = x;
     run->y = y;
     run->n = n;
-    run->lane = lane;
+    run->triangle = triangle;
 }
 
 /* The runs of a set; bit i stands for pixel x + i of row y.   post: r has room for a run in each
    row of a tile */
-static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
-                                           int lane, int x, int y, uint32_t set)
+static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int triangle, int x,
+                                           int y, uint32_t set)
 {
     while (set) {
         const int first = SHADE__LOWEST_BIT(set);
         const int n = SHADE__LOWEST_BIT(~(set >> first));    /* ~ is not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
-        shade__set_run(&r->run[r->count++], lane, x + first, y, n);
+        shade__set_run(&r->run[r->count++], triangle, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
     }
     if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
@@ -4405,9 +4419,10 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* Adds the runs of a tile; returns the number of their pixels.  joined: a run of the tile to the
-   left that ends where a run of this tile begins is extended instead. */
-SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
+/* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
+   open run of its row ends extends that one.  Nearly every set is one run or empty, so that a loop
+   round writes its run without a branch, and counts it only if it is new. */
+SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
                                   const shade__tile *tile, const int joined)
 {
     int pixels = 0, count;
@@ -4415,7 +4430,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
     if (!tile->any) return 0;
     if (SHADE__UNLIKELY(r->count > SHADE__RUNS_AHEAD)) shade__send(d, r);
     count = r->count;
-    for (int k = 0; k < tile->rows; k++) {    /* nearly every set is one run or empty */
+    for (int k = 0; k < tile->rows; k++) {
         const uint32_t set = tile->set[k], lowest = set & (0u - set);
         const int n = shade__count_bits(set);
         shade__run *run = &r->run[count];
@@ -4423,16 +4438,17 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
         int goes_on;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
-            r->count = count;
-            shade__add_set(d, r, lane, tile->x, tile->y + k, set);
+            r->count = count;    /* the set is several runs */
+            shade__add_set(d, r, triangle, tile->x, tile->y + k, set);
             count = r->count;
             continue;
         }
-        shade__set_run(run, lane, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u), tile->y + k, n);
+        shade__set_run(run, triangle, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u),
+                       tile->y + k, n);
         goes_on = joined && open->x + open->n == run->x;
         if (joined) {
             open->n += goes_on ? n : 0;
-            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;
+            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;    /* or the sentinel */
         }
         count += n && !goes_on;
     }
@@ -4540,8 +4556,8 @@ SHADE__DISPATCH(shade__test_large,
 
 /* The columns of a tile for n pixels from x on: 8, or whole vectors.  A tile that would leave the
    clip rectangle is moved to the left, and skips the columns before x. */
-SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n,
-                                       const int width, shade__tile *tile)
+SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n, const int width,
+                                       shade__tile *tile)
 {
     tile->columns = width > 8 && n <= 8 ? 8 : (n + width - 1) & -width;
     tile->x = shade__max(shade__min(x, plan->x1 - tile->columns), plan->x0);
@@ -4643,7 +4659,7 @@ SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t leas
 
 /* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Moves s->x to
    the first column that is not hidden, or beyond s->end if all are, and s->last to the last column
-   before one that is hidden or differs in s->inside.  Brings the bounds nearer that the triangle
+   before one that is hidden or differs in s->inside.  Brings nearer the bounds that the triangle
    fills. */
 static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__bounds *b,
                                                 const shade__triangle *t, shade__stretch *s)
@@ -4708,7 +4724,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
             if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
             else shade__test_large(plan, t, &edges, &tile,
                                    inside && tile.columns - tile.skip == SHADE__TILE);
-            pixels += shade__add_tile(d, runs, t->lane, &tile, 1);
+            pixels += shade__add_tile(d, runs, t->index, &tile, 1);
         }
     }
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
@@ -4740,8 +4756,8 @@ SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__ti
 
 /* Draws a small triangle, tile below tile, each tested by all three edges.  narrow: it has one
    column of tiles.  Returns the number of pixels that passed. */
-SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
-                                       shade__runs *runs, const int width, const int narrow)
+SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade__runs *runs,
+                                       const int width, const int narrow)
 {
     const shade__plan *plan = &d->plan;
     shade__tile tile;
@@ -4757,7 +4773,7 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
             shade__tile_depth(plan, &tile);
             if (narrow) shade__test_tile(plan, t, &t->edges, &tile, width, 0);
             else shade__test_large(plan, t, &t->edges, &tile, 0);
-            pixels += shade__add_tile(d, runs, t->lane, &tile, 0);
+            pixels += shade__add_tile(d, runs, t->index, &tile, 0);
         }
     }
     return pixels;
@@ -4765,23 +4781,23 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
 
 /* Draws a small triangle of up to four columns of tiles, or returns 0 if it is none.  Once bounds
    have begun shade__cover_large draws all of them, because it skips what bounds hide. */
-static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int lane)
+static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
     shade__triangle t;
     int pixels;
 
     if (d->bounds.across || plan->x1 - plan->x0 < SHADE__TILE ||
-        !shade__is_small(&d->setup, lane, 4 * SHADE__TILE))
+        !shade__is_small(&d->setup, index, 4 * SHADE__TILE))
         return 0;
-    shade__triangle_of(&d->setup, lane, &t);
+    shade__triangle_of(&d->setup, index, &t);
     pixels = shade__cover_columns(d, &t, runs, SHADE__TILE / 2, 0);
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
     return 1;
 }
 
 /* Draws the parts of a triangle that bounds do not hide. */
-static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int lane)
+static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
     shade__bounds *b = &d->bounds;
@@ -4789,13 +4805,14 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     shade__stretch s;
     int bounded;
 
-    shade__triangle_of(&d->setup, lane, &t);
+    shade__triangle_of(&d->setup, index, &t);
     bounded = SHADE__HAS(SHADE__BOUNDED) && t.x1 - t.x0 >= SHADE__TILE - 1 &&
               t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->away != 0;
     if (bounded && !b->across) shade__begin_bounds(plan, b);
     for (s.y = t.y0; s.y <= t.y1; s.y = s.bottom + 1) {
         /* a row of bounds, or all rows at once */
-        const int below = bounded ? (s.y - plan->y0) | ((1 << b->log_height) - 1) : 16384;
+        const int below = bounded ? (s.y - plan->y0) | ((1 << b->log_height) - 1)
+                                  : SHADE__SIDE_MAX;
         s.bottom = shade__min(t.y1, plan->y0 + below);
         s.x = t.x0;
         s.end = t.x1;
@@ -4946,8 +4963,8 @@ SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
 }
 
 /* Interpolates one value at width pixels of a row, into lanes of the queue. */
-SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
-                                       int back, shade__out to, const int width)
+SHADE__INLINE void shade__append_plane(float value, float step, shade__in px, int back,
+                                       shade__out to, const int width)
 {
     SHADE__FOR(i, width) {
         to[i] = shade__select(value + step * px[i], to[i], shade__mask(i < back));
@@ -4975,8 +4992,8 @@ SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, fl
 
 /* Writes width lanes of the queue.  For a constant p.back of 0 the compiler drops the selects. */
 SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
-                                 const shade__planes *SHADE_RESTRICT t,
-                                 shade__in value, shade__piece p, const int width)
+                                 const shade__planes *SHADE_RESTRICT t, shade__in value,
+                                 shade__piece p, const int width)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *SHADE_RESTRICT q = &d->u.queue;
@@ -5001,8 +5018,8 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
 }
 
 /* Values of the planes in row y, at the x of corner 0. */
-SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count,
-                                     int y, shade__out value)
+SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count, int y,
+                                     shade__out value)
 {
     const float py = (float)y + t->y_ref;
 
@@ -5012,8 +5029,8 @@ SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int 
 }
 
 /* Appends one run; shades the queue each time it is full.   post: it is not full */
-SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
-                                   const float *value, const shade__run *run)
+SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const float *value,
+                                   const shade__run *run)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
@@ -5058,8 +5075,8 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
     SHADE_ALIGNED float value[SHADE__VALUES_MAX];
 
     for (int k = 0; k < runs; k++) {
-        if (!k || run[k].lane != run[k - 1].lane)
-            shade__make_planes(&d->plan, &d->setup, run[k].lane, &t);
+        if (!k || run[k].triangle != run[k - 1].triangle)
+            shade__make_planes(&d->plan, &d->setup, run[k].triangle, &t);
         shade__row_values(&t, d->plan.value_stride, run[k].y, value);
         shade__push_run(d, &t, value, &run[k]);
     }
@@ -5147,7 +5164,7 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
     if (!t->pixels) return "The texture's pixels are NULL; point them at its texels.";
-    if (t->width < 1 || t->height < 1 || t->width > 16384 || t->height > 16384)
+    if (t->width < 1 || t->width > SHADE__SIDE_MAX || t->height < 1 || t->height > SHADE__SIDE_MAX)
         return "The texture's width and height must be from 1 to 16384 texels.";
     if (t->stride && t->stride < t->width)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
@@ -5171,6 +5188,8 @@ enum {
 /* The blocks that hold n lanes. */
 SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHADE__BLOCK; }
 
+/* SHADE__EACH_BLOCK(i, blocks) { ... } runs the code for the lanes i of the first blocks.  The
+   inner loop, over one block, has a constant length: it becomes vector code without a remainder. */
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
@@ -5188,7 +5207,7 @@ typedef struct shade__axis {
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* what y.i counts, in bytes; x.i counts bytes */
+    size_t y_bytes;              /* bytes for each unit of y.i: 1, or a row; x.i counts bytes */
     int nearest, blocks;
     uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
     shade__axis x, y;
@@ -5263,8 +5282,10 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, con
     r->y.unit = wide ? 1 : (uint32_t)pitch;
     shade__address(u, blocks, r->nearest, &r->x);
     shade__address(v, blocks, r->nearest, &r->y);
-    if (r->nearest) SHADE__ZERO(r->x.f);
-    if (r->nearest) SHADE__ZERO(r->y.f);
+    if (r->nearest) {
+        SHADE__ZERO(r->x.f);
+        SHADE__ZERO(r->y.f);
+    }
     for (int b = 0; b < blocks; b++) {
         uint32_t apart = (uint32_t)(bytes != 4 || wide);
         SHADE__FOR(k, SHADE__BLOCK) {
@@ -5482,8 +5503,8 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
 }
 
 /* Filters the texels found: sets four rows, or adds the level to them with its weights. */
-SHADE__INLINE void shade__filter(const shade__reader *r, int encoded,
-                                 const float *weight, float *out)
+SHADE__INLINE void shade__filter(const shade__reader *r, int encoded, const float *weight,
+                                 float *out)
 {
     SHADE_ALIGNED float level[4 * SHADE_LANES];
     float *to = weight ? level : out;
@@ -5553,8 +5574,8 @@ static void shade__sample(const shade_texture *t, const float *u, const float *v
     else shade__level(t, u, v, NULL, blocks, out);
 }
 
-SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u,
-                                 const float *v, const float *lod, float *rgba)
+SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
+                                 const float *lod, float *rgba)
 {
     if (!u || !v || !rgba) return;
     if (!shade__texture_good(texture)) {
@@ -5831,14 +5852,17 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
    Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
    a call uses only a shade_result, the functions are inlined, and their sentences vanish.
      in      targets, meshes, states, indices
-     out     NULL, or the fault; a shade_result                                            >>seen */
+     out     NULL, or the fault; a shade_result
+     way     draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
+             ladders of the calls.  shade__mesh_rows is laid out here, because a draw that needs
+             more than SHADE_MAX_VARYINGS rows is refused                                  >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
     const uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
     if (!t->color && !t->depth)
         return "target.color and target.depth are both NULL; point one of them at your memory.";
-    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
+    if (t->width < 1 || t->width > SHADE__SIDE_MAX || t->height < 1 || t->height > SHADE__SIDE_MAX)
         return "target.width and target.height must be from 1 to 16384 pixels.";
     if (t->stride && t->stride < t->width)
         return "target.stride is less than target.width; it counts pixels, and 0 means the width.";
@@ -6061,8 +6085,8 @@ struct shade__frustum {
 
 /* Plane i of the frustum: sign (c - limit w) >= 0 in clip space, where c is x, y or z for row 0, 1
    or 2. */
-static void shade__frustum_plane(const shade_mat4 *m, int row, double sign,
-                                 double limit, int i, shade__frustum *f)
+static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, double limit, int i,
+                                 shade__frustum *f)
 {
     for (int k = 0; k < 4; k++) {
         const double a = (double)shade__entries(m)[4 * k + row], w = (double)m->col[k].w;
@@ -6140,8 +6164,8 @@ static int shade__next_chunk(shade__draw *d)
 
 /* Supplies the chunks of a mesh that can be visible, in place of all its triangles. */
 static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from_object,
-                              int zero_to_one, const shade_mesh *mesh,
-                              shade__frustum *frustum, shade__supply *s)
+                              int zero_to_one, const shade_mesh *mesh, shade__frustum *frustum,
+                              shade__supply *s)
 {
     shade__frustum_of(t, clip_from_object, zero_to_one, frustum);
     s->end = 0;
@@ -6155,7 +6179,8 @@ static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from
    The public calls: arguments are checked before any pixel changes, then batch follows batch.
      in      the arguments of a call             out  pixels and stats, or a shade_result
      way     shade_draw: draw_refusal, supply_all; run_draw: make_plan, then take_batch,
-             shade_vertices and triangles until no triangle is left
+             shade_vertices and triangles until no triangle is left.  shade_clear: clear_pattern,
+             fill
                                                                                          >>mesh */
 
 static shade__compare shade__compare_of(const shade_raster *r)
@@ -6280,8 +6305,8 @@ SHADE__INLINE shade_result shade__draw_refusal(const shade_target *t, const shad
 }
 
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                 const uint32_t *indices, int index_count,
-                                 int vertex_count, shade_stats *stats)
+                                 const uint32_t *indices, int index_count, int vertex_count,
+                                 shade_stats *stats)
 {
     const shade__indices list = { indices, NULL };
     shade__supply supply;
@@ -6306,8 +6331,8 @@ static void shade__fill(uint8_t *SHADE_RESTRICT p, shade__in pattern, size_t n)
 
 /* The 256 bytes of a colour from (x, y) on: 8 packed pixels, twice the period of the dither,
    repeated. */
-static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
-                                 int y, uint8_t *pattern)
+static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
+                                 uint8_t *pattern)
 {
     const size_t period = 8 * shade__pixel_bytes(t->format);
     float rgba[4 * SHADE_LANES];
@@ -6342,6 +6367,10 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 /*------------------------------------------------------------------------------------------- >>mesh
    A mesh is drawn by a vertex shader and a fragment shader, as in any pipeline.
      in      arrays in object space    out  varyings in world space: P, N, albedo; or one lit colour
+     way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: run_draw, or
+             draw_chunks, which calls it; it calls the shaders.  mesh_vertex: fetch_vertices,
+             fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map; mesh_alpha.  Which
+             rows of the varyings they use: shade__mesh_rows in >>check
      holds   Where faces have values of their own (normals or light), every corner of a triangle is
              a vertex: its index is 3 times the triangle's plus the corner's number.  Where no
              shader reads P and N, they are not computed: textured floors without lamps are drawn
@@ -6501,22 +6530,23 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     }
 }
 
-/* The rows of a varying; of one that the draw does not have, others. */
-SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *others)
+/* The rows of a varying, or spare ones where the draw does not have it. */
+SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *spare)
 {
-    return row < 0 ? others : shade__three_rows(out->varying[row]);
+    return row < 0 ? spare : shade__three_rows(out->varying[row]);
 }
 
-/* Attributes are fetched into the rows of their varyings, other values into own. */
+/* Attributes are fetched into the rows of their varyings, or into spare rows where the draw needs
+   them but hands them to no fragment. */
 static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
-    shade__v3 own[3];
-    shade__v3 *point = shade__rows_at(out, s->row.point, &own[0]);
-    shade__v3 *normal = shade__rows_at(out, s->row.normal, &own[1]);
-    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &own[2]);
+    shade__v3 spare[3];
+    shade__v3 *point = shade__rows_at(out, s->row.point, &spare[0]);
+    shade__v3 *normal = shade__rows_at(out, s->row.normal, &spare[1]);
+    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &spare[2]);
 
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
@@ -6555,8 +6585,8 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
 
 /* Light where the colours of the map, which come in rgb, are the albedo.  It is kept out of line,
    so that only maps take its stack. */
-static SHADE__NOINLINE void shade__lit_map(const shade__scene *s,
-                                           const shade_rows *rows, float *rgb)
+static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
+                                           float *rgb)
 {
     float albedo[3 * SHADE_LANES];
     shade_rows mapped = *rows;
@@ -6670,8 +6700,8 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
 
 /* Draws a checked scene, with the vertex shader of meshes and this fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
-                                      shade_fragment_shader *fragment,
-                                      int may_discard, shade_stats *stats)
+                                      shade_fragment_shader *fragment, int may_discard,
+                                      shade_stats *stats)
 {
     const shade_mesh *mesh = scene->mesh;
     const shade_draw_state *state = scene->state;
@@ -6743,6 +6773,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    A line is a rectangle on the screen, drawn as two triangles by the pipeline above.
      in      pairs of points
      out     pixels with the coverage, depth test and blending of triangles
+     way     shade_draw_lines: lines_refusal, stroke_of; run_draw, which calls the shaders.
+             stroke_vertex: stroke_corner: stroke_end, stroke_part: trim.  stroke_color
      holds   A segment is cut at the near and far planes first, so that both ends have a place on
              the screen.  One that lies outside becomes a triangle that lies outside, and counts as
              clipped.                                                                    >>camera */
@@ -6766,8 +6798,8 @@ static void shade__trim(double a, double b, double *t)
 
 /* Sets p to the point t of the way along a segment, and at[] to its place relative to the middle of
    the picture, in pixels, y up. */
-static void shade__stroke_point(const shade__stroke *s, double end[2][4],
-                                double t, double *p, double *at)
+static void shade__stroke_point(const shade__stroke *s, double end[2][4], double t, double *p,
+                                double *at)
 {
     for (int i = 0; i < 4; i++) p[i] = end[0][i] + t * (end[1][i] - end[0][i]);
     for (int i = 0; i < 2; i++) at[i] = p[i] / p[3] * s->half[i];
@@ -7026,6 +7058,9 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
    What a mesh knows of its shape: normals of vertices and corners, edges, its box, and the view
    that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
+     way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
+             sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
+             mat4_fit: camera_of, frame_of, step_back
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
 
@@ -7180,8 +7215,8 @@ SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t 
 
 /* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.
    Corners of equal keys ascend.  other has room for count more. */
-static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count,
-                                uint32_t *order, uint32_t *other)
+static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, uint32_t *order,
+                                uint32_t *other)
 {
     for (uint32_t i = 0; i < count; i++) order[i] = i;
     for (int k = 0; k < (edges ? 8 : 12); k++) {    /* an even number of steps ends in order */
@@ -7390,6 +7425,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 /*----------------------------------------------------------------------------------------- >>chunks
    The triangles of a mesh sorted in space and cut into chunks with boxes; whether a box is seen.
      in      meshes                              out  the caller's chunks and indices
+     way     mesh_chunks: sort_triangles: split: longest_axis, partition; then box_chunk
      method  The list is split across its longest axis, at the border of a chunk nearest to the
              middle, and the two parts are split again.
      holds   The order depends on nothing but the mesh and the size of chunks: it is the same on
@@ -7426,8 +7462,8 @@ static uint32_t shade__centroid_key(const shade_mesh *m, const uint32_t *triangl
 static uint32_t *shade__three(uint32_t *list, int i) { return list + 3 * (size_t)i; }
 
 /* The axis along which triangles lie furthest apart, with the least and greatest key there. */
-static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
-                               int count, uint32_t *low, uint32_t *high)
+static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles, int count, uint32_t *low,
+                               uint32_t *high)
 {
     uint32_t least[3] = { UINT32_MAX, UINT32_MAX, UINT32_MAX }, most[3] = { 0, 0, 0 };
     int longest = 0;
@@ -7448,8 +7484,8 @@ static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
 }
 
 /* Moves the triangles with a key of at most pivot to the front; returns their number. */
-static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
-                            int axis, uint32_t pivot)
+static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count, int axis,
+                            uint32_t pivot)
 {
     int front = 0;
     for (int i = 0; i < count; i++) {
@@ -7558,6 +7594,7 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
 /*------------------------------------------------------------------------------------------- >>rays
    Rays through pixels, and the triangles of meshes that they meet.
      in      rays in world space, meshes         out  the nearest triangle
+     way     pick: object_ray_of, meets_box; pick_triangle: meets_box, shade_intersect
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
@@ -7575,8 +7612,8 @@ static int shade__is_affine(const shade_mat4 *m)
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
 }
 
-SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
-                                   int width, int height, float x, float y)
+SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
+                                   float x, float y)
 {
     shade__camera c;
     shade_ray ray;
@@ -7592,8 +7629,8 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
 
 /* With s = origin - a, q = d x s and det = d.n, Cramer's rule gives t = -s.n / det, u = f.q / det
    and v = -e.q / det. */
-SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
-                             shade_vec3 c, float *t, shade_vec3 *barycentric)
+SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
+                             shade_vec3 *barycentric)
 {
     const shade_vec3 p[3] = { a, b, c };
     double d[3], e[3], f[3], s[3], n[3], q[3], det, u, v, at;
@@ -7654,8 +7691,8 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
 /* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
    allowance for rounding.  Returns 0 if it does not meet the box there.  A larger box never has a
    smaller range: a ray that meets the box of a triangle meets the box of its chunk. */
-static int shade__meets_box(const shade__object_ray *s, shade_vec3 low,
-                            shade_vec3 high, float limit, double *range)
+static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_vec3 high,
+                            float limit, double *range)
 {
     double from[3], to[3], size = s->reach;
     range[0] = 0;
@@ -7710,8 +7747,8 @@ static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model
     hit->barycentric = where;
 }
 
-SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
-                        float *t, shade_vec3 *barycentric)
+SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
+                        shade_vec3 *barycentric)
 {
     shade__object_ray local;
     shade__hit hit;
@@ -7745,10 +7782,10 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
      in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
-     holds   A survey is a draw.  An experiment changes a copy of it and draws the copy.  The
+     holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read, and the caller's fragment shader is not called.
-     way     shade__open_survey; of a copy: a change, then shade__count or shade__take_probes.
-                                                                                        >>explain */
+     way     open_survey; of a copy: a change, then count or take_probes: draw_trial: draw_scene of
+             >>mesh, with judge as its fragment shader                                  >>explain */
 
 enum {
     SHADE__SUSPECTS = 16,                /* more lamps than these are left out of experiments */
@@ -7801,7 +7838,7 @@ typedef struct shade__trial {
 /* Notes the depth of lane i, if its pixel is among those sampled. */
 static void shade__take_probe(const shade__trial *trial, const shade_fragments *in, int i)
 {
-    const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * 16384 + 1;
+    const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * SHADE__SIDE_MAX + 1;
     const uint32_t hash = place * 2654435769u >> 8;
     shade__probe *at = trial->probes + hash / trial->every % SHADE__PROBES;
     const float z = in->z[i];
@@ -7904,7 +7941,7 @@ static int shade__shows(shade__survey *s)
     return shade__count(&wide, s->dim) > 0;
 }
 
-/* Do two surveys differ in the number of pixels, or of those beyond some brightness? */
+/* Do two surveys differ in the number of pixels, of all or of bright ones? */
 static int shade__differ(const shade__survey *a, const shade__survey *b)
 {
     if (shade__covered(a) != shade__covered(b)) return 1;
@@ -7913,7 +7950,7 @@ static int shade__differ(const shade__survey *a, const shade__survey *b)
     return 0;
 }
 
-/* Is there light that a surface of its square root would still show? */
+/* Is there a pixel of sqrt(dim) or more?  Even a surface that reflects only sqrt(dim) shows it. */
 static int shade__bright(const shade__survey *s)
 {
     return shade__count(s, shade__sqrt(s->dim)) > 0;
@@ -7933,7 +7970,7 @@ static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE
     shade__draw_trial(&q, &trial);
 }
 
-/* Has a pixel a last fragment that is not its nearest, or a farthest one? */
+/* Is there a pixel whose last fragment is not its nearest?  With last 0: whose farthest is not? */
 static int shade__hides_nearest(const shade__survey *s, int last)
 {
     shade__probe probes[SHADE__PROBES];
@@ -7978,10 +8015,10 @@ static int shade__coincides(const shade__survey *s)
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
-/* What the picture shows: after a draw these are the fragments of stored depth.  A band shows too
-   little, blending shows more, a bias makes depths equal at the end of their range, and depth may
-   have changed since: all fragments are drawn then, so that what they lack is not there.  Where
-   depth is not written, fragments that passed hide others. */
+/* What the picture shows: after a whole, opaque draw the fragments that have the stored depth.  In
+   other cases it does not tell: a band shows too little, blending shows more, a bias clamps depths,
+   and depth may have changed since.  All fragments are drawn then: what none of them has, the
+   picture lacks.  Where depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -7995,14 +8032,14 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
-/* Is n a tenth of all or less?  None, where some of them may be hidden. */
+/* Is n at most a tenth of all?  Where some of them may be hidden, is it 0? */
 static int shade__few(const shade__survey *s, long long n, long long all)
 {
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Does the picture show a pixel from `least` to `most`?  Where fragments hide others, and stored
-   depth does not tell which, all of them must be. */
+/* Does the picture show a pixel with a brightness from least to most?  Where fragments hide others,
+   and stored depth does not tell which, all fragments must have one. */
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
@@ -8211,9 +8248,11 @@ static int shade__faces_ahead(const shade__camera *c)
              changes and sentences, tried from top to bottom.
      holds   A sentence is true of the pixels that are shown: of all, or of the share that its rung
              asks for.  Black: none is brighter than 8 of 255.  A band or a strip is never blamed
-             for what another may show.
-     way     shade__mesh_refusal; shade__why: shade__bad_number; the ladders of no picture, of no
-             pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
+             for what another may show.  A function or ladder that returns NULL has found nothing,
+             and the next is tried; "" ends the search without a sentence.
+     way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
+             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
+             why_black, wrong_light, flat; helps; doubt                                 >>replay */
 
 /* Is the mesh empty, or do its positions overlap? */
 static const char *shade__no_mesh(const shade_mesh *m)
@@ -8517,8 +8556,8 @@ static const shade__rung shade__nothing[] = {
       "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
       "where state.view looks." },
     { shade__always,
-      "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen edge-on, "
-      "or lies beside the picture; check state.model and state.view." },
+      "The mesh covers no pixel centre: it is too small on the screen, seen edge-on, or lies "
+      "beside the picture; check state.model and state.view." },
 };
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
@@ -8652,18 +8691,18 @@ static const shade__rung shade__unseen[] = {
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
       "0 for a reversed projection." },
     { shade__depth_is_far,
-      "Depth is that of the far plane all over the mesh, so that nothing passes raster.depth_test: "
-      "near of state.projection is too small beside far for floats; raise near." },
+      "Every depth of the mesh is the far plane's, so that nothing passes raster.depth_test: near "
+      "of state.projection is too small beside far for floats; raise near." },
     { shade__depth_hides,
-      "What target.depth holds hides the mesh: other meshes, the frame before without a "
-      "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
-      "raster.depth_bias pushes it behind them." },
+      "The mesh is hidden by depth that target.depth already holds: of other meshes, of the frame "
+      "before without a shade_clear, or of the mesh itself, which then needs "
+      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh behind." },
     { NULL, NULL }
 };
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Are nine tenths of the pixels with fronts pixels with a nearer back? */
+/* Of the pixels with a front face, do nine tenths have a back face before it? */
 static int shade__is_inside_out(const shade__survey *s)
 {
     shade__probe probes[SHADE__PROBES];
@@ -8731,8 +8770,8 @@ static const shade__rung shade__picture[] = {
 
 /* ---- the mesh is drawn, but black: the surface */
 
-/* Does the mesh show only if alpha is 1, or does not even a glowing surface show?  The blending is
-   left out from here on. */
+/* Does blending hide the mesh: does it show without, or would not even a glowing surface show with
+   it?  From here on blending is left out. */
 static int shade__alpha_is_zero(shade__survey *q)
 {
     shade__survey glow = *q;
@@ -9357,8 +9396,8 @@ static const char *shade__clip_fault(const shade_target *t)
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
-                                   const shade_draw_state *state,
-                                   const shade_stats *stats)
+                                               const shade_draw_state *state,
+                                               const shade_stats *stats)
 {
     shade__survey s;
     const char *why;
@@ -9379,8 +9418,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
      method  The draw is run again without a picture.  Shaders of this section call the given ones
              and count what they give.
      holds   The caller's memory is only read, unless the caller's own shaders write.
-     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere;
-             shade__why_kept_out; shade__why_faint.
+     way     explain_replay: run_again; why_matrix of lines; why_nowhere; why_kept_out; why_faint
                                                                                           >>image */
 
 /* What the shaders gave in one run. */
@@ -9459,7 +9497,7 @@ static shade__tally shade__run_again(const shade__replay *r)
     p.uniforms = &run;
     p.may_discard = p.raster.depth_read_only = 1;
     shade__supply_all(r->indices, r->corners, &supply);
-    shade__run_draw(&r->picture, &p, 1, shade_v3(0, 0, 0), &supply, &tally.stats);
+    shade__run_draw(&r->picture, &p, 0, shade_v3(0, 0, 0), &supply, &tally.stats);
     return tally;
 }
 
@@ -9586,8 +9624,8 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
     if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
         return NULL;    /* one of many things in a scene may well be hidden */
-    return "What target.depth holds hides everything: other draws, the frame before without a "
-           "shade_clear, or raster.depth_bias, which pushes it back.";
+    return "Everything is hidden by depth that target.depth already holds: of other draws, or of "
+           "the frame before without a shade_clear; or raster.depth_bias pushes it back.";
 }
 
 /* ---- pixels are drawn, but wrongly */
@@ -9703,6 +9741,8 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
    Pictures made of pictures: smaller ones, mipmaps, files.
      in      a picture of any format
      out     means in linear light, or a file
+     way     resolve, build_mipmaps and encode_ppm: open_decoder; convert: reduce: means, halve or
+             shrink; store_run of >>store
      method  The values of a channel are few: each is decoded once a call.              >>presets */
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
@@ -9717,8 +9757,21 @@ static shade_result shade__check_picture(const shade_target *t)
     return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
 
+/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
+   2 i + 2 of the level above, and of each a share. */
+typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
+
+/* What a level of mipmaps is made with. */
+enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
+typedef struct shade__halving {
+    double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
+    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
+} shade__halving;
+
 /* The linear light of packed pixels: of[k] is indexed by the value of channel k. */
 typedef struct shade__decoder {
+    const shade_target *from;
+    shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *of[4];
     float value[512];    /* of colours, then of alpha; channels of one size share theirs */
@@ -9729,6 +9782,8 @@ static void shade__open_decoder(const shade_target *t, shade__decoder *d)
     const shade__layout l = d->layout = shade__layouts[t->format];
     const int encoded = shade__is_encoded(t->srgb, &l);
     float *at = d->value;
+    d->from = t;
+    d->halving = NULL;
     for (int k = 0; k < 4; k++) {
         d->of[k] = at;
         if ((k == 1 || k == 2) && l.full[k] == l.full[0]) {
@@ -9772,23 +9827,12 @@ SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_
     }
 }
 
-/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
-   2 i + 2 of the level above, and of each a share. */
-typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
-
-/* What a level of mipmaps is made with. */
-enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
-typedef struct shade__halving {
-    double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
-    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
-} shade__halving;
-
 /* The light of channel k of the pixel of 4 bytes at p, for sums in double. */
-SHADE__INLINE double shade__light_4(const shade__decoder *d, const shade__halving *h,
-                                    const shade__layout *l, const uint8_t *p, int k)
+SHADE__INLINE double shade__light_4(const shade__decoder *d, const shade__layout *l,
+                                    const uint8_t *p, int k)
 {
     if (SHADE__DOUBLES == 1) return (double)shade__light_of(d, l, p, k, 4);
-    return h->light[(k == 3 ? 256 : 0) + p[l->shift[k] / 8]];
+    return d->halving->light[(k == 3 ? 256 : 0) + p[l->shift[k] / 8]];
 }
 
 static shade__cut shade__cut_of(int size, int smaller, int i)
@@ -9803,28 +9847,28 @@ static shade__cut shade__cut_of(int size, int smaller, int i)
 }
 
 /* The means of 2 x 2 pixels of 4 bytes.  Their sums are exact in double. */
-SHADE__INLINE void shade__halve(const shade__decoder *d, const shade__halving *h, const uint8_t *p,
-                                size_t pitch, int n, float *mean)
+SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, size_t pitch, int n,
+                                float *mean)
 {
     const shade__layout l = d->layout;
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < n; i++) {
             const uint8_t *a = p + 8 * i, *b = a + pitch;
-            double sum = shade__light_4(d, h, &l, a, k) + shade__light_4(d, h, &l, a + 4, k);
-            sum += shade__light_4(d, h, &l, b, k) + shade__light_4(d, h, &l, b + 4, k);
+            double sum = shade__light_4(d, &l, a, k) + shade__light_4(d, &l, a + 4, k);
+            sum += shade__light_4(d, &l, b, k) + shade__light_4(d, &l, b + 4, k);
             mean[k * SHADE_LANES + i] = (float)(sum * 0.25);
         }
 }
 
 /* The same for any format and size. */
-SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *h,
-                                 const shade__cut *rows, const uint8_t *p, size_t pitch, int n,
-                                 const int bytes, float *mean)
+SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows, const uint8_t *p,
+                                 size_t pitch, int n, const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
-    const int columns = h->column[0].pixels, lines = rows->pixels;
+    const shade__cut *column = d->halving->column;
+    const int columns = column->pixels, lines = rows->pixels;
     for (int i = 0; i < n; i++, p += 2 * bytes) {
-        const shade__cut *c = &h->column[i];
+        const shade__cut *c = &column[i];
         const uint8_t *at = p;
         double sum[4] = { 0, 0, 0, 0 }, all = 0;
         for (int j = 0; j < lines; j++, at += pitch)
@@ -9832,7 +9876,7 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *
                 const double share = c->share[s] * rows->share[j];
                 const uint8_t *q = at + s * bytes;
                 SHADE__FOR_4(k) {
-                    const double light = bytes == 4 ? shade__light_4(d, h, &l, q, k)
+                    const double light = bytes == 4 ? shade__light_4(d, &l, q, k)
                                                     : (double)shade__light_of(d, &l, q, k, bytes);
                     sum[k] += light * share;
                 }
@@ -9844,31 +9888,31 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *
 
 /* The light of pixels x .. x + n - 1 of row y of a picture that is made of another one: means of
    factor x factor pixels, or of what the texels of a mipmap cover. */
-static void shade__reduce(const shade__decoder *d, const shade__halving *h,
-                          const shade_target *from, const shade_target *to, int factor, int x,
-                          int y, int n, float *mean)
+static void shade__reduce(const shade__decoder *d, const shade_target *to, int factor, int x, int y,
+                          int n, float *mean)
 {
+    const shade_target *from = d->from;
     const int bytes = d->layout.bytes;
     const size_t pitch = (size_t)shade__stride_of(from) * (size_t)bytes;
     const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
-    if (h) {
+    if (d->halving) {
         const shade__cut rows = shade__cut_of(from->height, to->height, y);
-        const int even = rows.pixels == 2 && h->column[0].pixels == 2;
-        if (bytes == 4 && even) shade__halve(d, h, p, pitch, n, mean);
-        else if (bytes == 4) shade__shrink(d, h, &rows, p, pitch, n, 4, mean);
-        else shade__shrink(d, h, &rows, p, pitch, n, bytes, mean);
+        const int even = rows.pixels == 2 && d->halving->column[0].pixels == 2;
+        if (bytes == 4 && even) shade__halve(d, p, pitch, n, mean);
+        else if (bytes == 4) shade__shrink(d, &rows, p, pitch, n, 4, mean);
+        else shade__shrink(d, &rows, p, pitch, n, bytes, mean);
     } else if (bytes == 4 && factor == 2) shade__means(d, p, pitch, 2, n, 4, mean);
     else if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
     else if (bytes == 16) shade__means(d, p, pitch, factor, n, 16, mean);
     else shade__means(d, p, pitch, factor, n, bytes, mean);
 }
 
-/* Makes a picture of another one, in its clip rectangle.  With a sink the picture is one row of
+/* Makes a picture of the decoder's, in its clip rectangle.  With a sink the picture is one row of
    RGBA8 that goes there as R, G, B bytes. */
-static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
-                                   const shade_target *from, const shade_target *to, int factor,
+static shade_result shade__convert(const shade__decoder *d, const shade_target *to, int factor,
                                    shade_write_fn *sink, void *user)
 {
+    shade__halving *h = d->halving;
     float rgba[4 * SHADE_LANES] = { 0 };
     uint8_t pixels[4 * SHADE_LANES], rgb[3 * SHADE_LANES];
     int clip[4];
@@ -9876,9 +9920,10 @@ static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
     for (int x = clip[0]; x < clip[2]; x += SHADE_LANES) {
         const int n = shade__min(SHADE_LANES, clip[2] - x);
         if (h)
-            for (int i = 0; i < n; i++) h->column[i] = shade__cut_of(from->width, to->width, x + i);
+            for (int i = 0; i < n; i++)
+                h->column[i] = shade__cut_of(d->from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
-            shade__reduce(d, h, from, to, factor, x, y, n, rgba);
+            shade__reduce(d, to, factor, x, y, n, rgba);
             shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
             if (!sink) continue;
 
@@ -9903,13 +9948,13 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
         return SHADE_ERROR_ARGUMENT;
 
     shade__open_decoder(in, &decoder);
-    return shade__convert(&decoder, NULL, in, out, factor, NULL, NULL);
+    return shade__convert(&decoder, out, factor, NULL, NULL);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
 {
     int n = 0;
-    if (width < 1 || height < 1 || shade__max(width, height) > 16384) return 0;
+    if (width < 1 || height < 1 || shade__max(width, height) > SHADE__SIDE_MAX) return 0;
     for (int size = shade__max(width, height); size > 1; size /= 2) n++;
     return n;
 }
@@ -9946,6 +9991,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
     shade__open_decoder(&from, &decoder);
+    decoder.halving = &halving;
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     for (int n = 0; n < count; n++, from = to) {
         to = from;
@@ -9953,7 +9999,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        shade__convert(&decoder, &halving, &from, &to, 2, NULL, NULL);
+        shade__convert(&decoder, &to, 2, NULL, NULL);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -9999,7 +10045,7 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const s
     shade__open_decoder(&from, &decoder);
     for (int y = 0; y < shade__rows_held(target) && !result; y++) {
         to.clip_y = to.row_offset + y;
-        result = shade__convert(&decoder, NULL, &from, &to, 1, sink, user);
+        result = shade__convert(&decoder, &to, 1, sink, user);
     }
     return result;
 }

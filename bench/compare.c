@@ -124,11 +124,10 @@ static void measure(const options *o, const scene *s, FILE *tsv)
 {
     static double samples[WAYS][MOST];
     double against[MOST];
-    row r;
     int frames[WAYS], on[WAYS] = { 1 };
     shade_target t = scene_target(s);
     shade_stats stats = scene_draw(s, &t);
-    memset(&r, 0, sizeof r);
+    row r = { 0 };
     write_picture(o, s, &t, "shade.h");
     for (int who = 1; who <= PEERS; who++) {
         if (!peer_of(s, who)) continue;

@@ -112,11 +112,9 @@ static double diagonal(const scene *s, int huge, long long *passed)
 {
     static double samples[MOST_ROUNDS];
     const size_t bytes = (size_t)s->width * (size_t)s->height * sizeof(float);
-    shade_pipeline p;
     shade_stats stats = { 0 };
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    memset(&p, 0, sizeof p);
+    shade_target t = { 0 };
+    shade_pipeline p = { 0 };
     t.width = s->width;
     t.height = s->height;
     t.depth = (float *)mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1,

@@ -92,14 +92,9 @@ static inline void scene_camera(scene *s, shade_vec3 eye, shade_vec3 center, flo
 
 static inline scene scene_new(const char *name, scene_kind kind, int width, int height)
 {
-    scene s;
-    memset(&s, 0, sizeof s);
-    s.name = name;
-    s.kind = kind;
-    s.width = width;
-    s.height = height;
-    s.background = shade_v4(0.05f, 0.06f, 0.08f, 1);
-    s.color = shade_v4(0.7f, 0.45f, 0.2f, 1);
+    scene s = { .name = name, .kind = kind, .width = width, .height = height,
+                .background = shade_v4(0.05f, 0.06f, 0.08f, 1),
+                .color = shade_v4(0.7f, 0.45f, 0.2f, 1) };
     return s;
 }
 
@@ -198,12 +193,8 @@ static inline void scene_tube(scene *s, int along, int around)
 /* Vertex normals from faces; where a seam doubles vertices it shows, and costs nothing. */
 static inline void scene_smooth(scene *s)
 {
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = s->positions;
-    m.vertex_count = s->vertex_count;
-    m.indices = s->indices;
-    m.index_count = s->index_count;
+    shade_mesh m = { .positions = s->positions, .vertex_count = s->vertex_count,
+                     .indices = s->indices, .index_count = s->index_count };
     shade_mesh_normals(&m, (shade_vec3 *)(void *)s->normals);
 }
 
@@ -427,13 +418,9 @@ static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
 
 static inline shade_target scene_target(const scene *s)
 {
-    shade_target t;
     size_t pixels = (size_t)s->width * (size_t)s->height;
-    memset(&t, 0, sizeof t);
-    t.width = s->width;
-    t.height = s->height;
-    t.srgb = s->srgb;
-    t.format = s->format;
+    shade_target t = { .width = s->width, .height = s->height, .srgb = s->srgb,
+                       .format = s->format };
     if (s->kind == SCENE_MIPMAPS) pixels *= 2;    /* the smaller levels follow */
     if (s->kind != SCENE_DEPTH) t.color = scene_memory(pixels, 4);
     if (s->kind < SCENE_MIPMAPS) t.depth = (float *)scene_memory(pixels, sizeof(float));
@@ -442,13 +429,9 @@ static inline shade_target scene_target(const scene *s)
 
 static inline shade_mesh scene_mesh(const scene *s)
 {
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = s->positions;
-    m.normals = s->normals;
-    m.vertex_count = s->vertex_count;
-    m.indices = s->indices;
-    m.index_count = s->index_count;
+    shade_mesh m = { .positions = s->positions, .normals = s->normals,
+                     .vertex_count = s->vertex_count, .indices = s->indices,
+                     .index_count = s->index_count };
     return m;
 }
 
@@ -500,11 +483,8 @@ static inline void scene_map_fragment(const void *uniforms,
                                       shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = s->texels;
-    t.width = t.height = SCENE_TEXELS;
-    t.srgb = s->srgb;
+    shade_texture t = { .pixels = s->texels, .width = SCENE_TEXELS, .height = SCENE_TEXELS,
+                        .srgb = s->srgb };
     shade_sample_lanes(&t, in->varying[0], in->varying[1], NULL, (float *)out->color);
 }
 
@@ -530,20 +510,16 @@ static inline shade_result scene_halve(const scene *s, const shade_target *t)
 /* One whole frame, from the clear on. */
 static inline shade_stats scene_draw(const scene *s, const shade_target *t)
 {
-    shade_stats stats;
     shade_result result;
-    memset(&stats, 0, sizeof stats);
+    shade_stats stats = { 0 };
     if (s->kind >= SCENE_MIPMAPS) result = scene_halve(s, t);
     else result = shade_clear(t, s->background, 1);
     if (result == SHADE_OK && s->kind == SCENE_LIT) {
         shade_mesh m = scene_mesh(s);
         result = shade_draw_mesh(t, &m, &s->state, &stats);
     } else if (result == SHADE_OK && s->kind < SCENE_CLEAR) {
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = scene_vertex;
-        p.uniforms = s;
-        p.fragment = s->kind == SCENE_FLAT ? scene_fragment : NULL;
+        shade_pipeline p = { .vertex = scene_vertex, .uniforms = s,
+                             .fragment = s->kind == SCENE_FLAT ? scene_fragment : NULL };
         if (s->kind == SCENE_MAP) {
             p.vertex = scene_map_vertex;
             p.fragment = scene_map_fragment;

@@ -56,12 +56,8 @@ static shade_result run_resolve(const job *j) { return shade_resolve(&j->half, &
 static shade_result run_mipmaps(const job *j)
 {
     static shade_texture level[16];
-    shade_texture map;
-    memset(&map, 0, sizeof map);
-    map.pixels = j->target.color;
-    map.width = j->half.width;
-    map.height = j->half.height;
-    map.srgb = 1;
+    shade_texture map = { .pixels = j->target.color, .width = j->half.width,
+                          .height = j->half.height, .srgb = 1 };
     return shade_build_mipmaps(&map, level, j->half.color,
                                (size_t)map.width * (size_t)map.height * 4);
 }
@@ -132,7 +128,6 @@ int main(void)
     shade_texture map, level[2];
     scene s = scene_teapot("", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
     long most = 0, least, tools = 0;
-    job j;
     memset(&map, 0, sizeof map);
     map.pixels = texel;
     map.width = map.height = 4;
@@ -142,7 +137,7 @@ int main(void)
 
     printf("| SHADE_LANES %d, SHADE_MAX_VARYINGS %d | bytes of stack |\n|---|---|\n", SHADE_LANES,
            SHADE_MAX_VARYINGS);
-    memset(&j, 0, sizeof j);
+    job j = { 0 };
     least = touched(&j);
     scene_link(&s);
     s.srgb = 1;

@@ -66,8 +66,7 @@ static inline peer_constants peer_constants_of(const scene *s, shade_mat4 clip)
     shade_mat4 world = s->state.model;
     shade_vec3 ambient = s->state.lighting.ambient;
     shade_mat3 normals;
-    peer_constants c;
-    memset(&c, 0, sizeof c);
+    peer_constants c = { 0 };
     if (world.col[3].w == 0) world = shade_mat4_identity();
     if (s->kind == SCENE_LIT || s->kind == SCENE_MAP) {
         shade_mat4 eye = shade_mat4_mul(s->state.view, world);

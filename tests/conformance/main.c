@@ -49,27 +49,19 @@ static void paint_fragment(const void *uniforms, const shade_fragments *SHADE_RE
 
 static shade_result draw_painted(const shade_target *t, const draw *d, shade_stats *stats)
 {
-    shade_pipeline p;
-    memset(&p, 0, sizeof p);
-    p.vertex = paint_vertex;
-    p.fragment = paint_fragment;
-    p.uniforms = d;
-    p.varyings = 3;
-    p.raster.cull = d->state.raster.cull;
-    p.raster.depth_test = d->state.raster.depth_test;
-    p.raster.blend = d->state.raster.blend;
-    p.raster.depth_zero_to_one = d->state.raster.depth_zero_to_one;
-    p.raster.depth_read_only = d->state.raster.depth_read_only;
-    p.raster.depth_bias = d->state.raster.depth_bias;
+    shade_pipeline p = { .vertex = paint_vertex, .fragment = paint_fragment, .uniforms = d,
+                         .varyings = 3, .raster.cull = d->state.raster.cull,
+                         .raster.depth_test = d->state.raster.depth_test,
+                         .raster.blend = d->state.raster.blend,
+                         .raster.depth_zero_to_one = d->state.raster.depth_zero_to_one,
+                         .raster.depth_read_only = d->state.raster.depth_read_only,
+                         .raster.depth_bias = d->state.raster.depth_bias };
     return shade_draw(t, &p, d->mesh.indices, d->mesh.index_count, d->mesh.vertex_count, stats);
 }
 
 static shade_result draw_lit(const shade_target *t, const draw *d, shade_stats *stats)
 {
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = d->mesh.positions;
-    m.normals = d->mesh.normals;
+    shade_mesh m = { .positions = d->mesh.positions, .normals = d->mesh.normals };
     if (d->mesh.has_texcoords) m.texcoords = d->mesh.texcoords;
     if (d->mesh.has_colors) m.colors = d->mesh.colors;
     m.vertex_count = d->mesh.vertex_count;
@@ -118,12 +110,8 @@ static void ball_fragment(const void *uniforms, const shade_fragments *SHADE_RES
 static shade_result draw_behind_ball(const shade_target *t, const scene *s, shade_stats *stats)
 {
     const shape *m = &s->draws[0].mesh;
-    shade_pipeline p;
-    memset(&p, 0, sizeof p);
-    p.vertex = ball_vertex;
-    p.fragment = ball_fragment;
-    p.uniforms = s;
-    p.varyings = 6;
+    shade_pipeline p = { .vertex = ball_vertex, .fragment = ball_fragment, .uniforms = s,
+                         .varyings = 6 };
     return shade_draw(t, &p, m->indices, m->index_count, m->vertex_count, stats);
 }
 

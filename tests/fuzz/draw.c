@@ -243,13 +243,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_input in = { data, data + size };
     picture pic;
-    draw_scene s;
     uint32_t kind = fuzz_byte(&in);
     int bad_index = 0;
     shade_result want, pipeline;
     picture_open(&in, &pic, 40);
-    memset(&s, 0, sizeof s);
-    s.p.vertex = draw_vertex;
+    draw_scene s = { .p.vertex = draw_vertex };
     s.p.uniforms = &s;
     s.pipeline = &s.p;
     s.tame = 1;

@@ -717,15 +717,15 @@ static const claim claims[] = {
     { "lies behind the eye", so_behind_eye, cure_camera, INTO_VIEW },
     { "nearer than the near plane", so_before, cure_camera, INTO_VIEW },
     { "beside the picture, before", NULL, cure_camera, INTO_VIEW },
-    { "covers the centre of a pixel nowhere", NULL, cure_camera, INTO_VIEW },
+    { "covers no pixel centre", NULL, cure_camera, INTO_VIEW },
     /* no pixel passes */
     { "does not fit state.proj", so_far_wins, cure_depth, CHANGES },
     { "beside the clip rectangle", so_clip, cure_clip, SHOWS },
     { "state.fragment discards", so_shader, cure_shader, SHOWS },
     { "is SHADE_COMPARE_EQUAL", so_equal, cure_depth, SHOWS },
     { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
-    { "Depth is that of the far plane", NULL, cure_near, SHOWS },
-    { "What target.depth holds", so_not_equal, cure_clear, SHOWS },
+    { "Every depth of the mesh is the far plane's", NULL, cure_near, SHOWS },
+    { "The mesh is hidden by depth", so_not_equal, cure_clear, SHOWS },
     /* wrong pixels */
     { "inside out", so_inside_out, cure_winding, CHANGES },
     { "Triangles drawn later hide", so_order, cure_depth, CHANGES },

@@ -179,9 +179,8 @@ static inline shade_mat4 fuzz_camera(fuzz_input *in, float most)
 /* zero, the usual cameras, turned and stretched axes, any camera, or sixteen floats */
 static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
 {
-    shade_mat4 m;
     shade_vec3 a, b;
-    memset(&m, 0, sizeof m);
+    shade_mat4 m = { 0 };
     switch (fuzz_byte(in) % 13) {
     case 1: case 2: return shade_mat4_perspective(1, 1.25f, 0.5f, 20);
     case 3: return shade_mat4_look_at(shade_v3(0, 1, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
@@ -198,8 +197,7 @@ static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
         for (int k = 0; k < 4; k++) m.col[k] = fuzz_vec4(in, most);
         break;
     case 11: return shade_mat4_identity();
-    case 12:
-        return fuzz_camera(in, most);
+    case 12: return fuzz_camera(in, most);
     default: break;
     }
     return m;

@@ -259,10 +259,9 @@ static void light_scene(fuzz_input *in, int tame)
     int bad = 0;
     shade_light lamps[LIGHT_LAMPS];
     shade_material m;
-    shade_lighting l;
     shade_vec3 eye = fuzz_vec3(in, most), sum;
     shade_terms terms;
-    memset(&l, 0, sizeof l);
+    shade_lighting l = { 0 };
     memset(lamps, 0, sizeof lamps);
     l.model = (shade_model)fuzz_enum(in, 6, &bad);
     l.flags = fuzz_byte(in);

@@ -51,14 +51,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_input in = { data, data + size };
     picture pic;
-    lines_scene s;
     uint32_t kind = fuzz_byte(&in);
     int bad = 0, n;
     shade_result want;
     shade_vec3 *points, before = shade_v3(0, 0, 0);
     picture_open(&in, &pic, 40);
     want = pic.want;
-    memset(&s, 0, sizeof s);
+    lines_scene s = { 0 };
     s.given = &s.state;
     s.state.clip_from_points = fuzz_matrix(&in, kind & 64 ? 0 : 1e6f);
     if (kind & 2) s.state.width = kind & 4 ? fuzz_float(&in) : (float)fuzz_byte(&in) / 4;

@@ -38,14 +38,11 @@ static void shape_nudge(shade_vec3 *v, uint32_t kind)
 
 static shape_mesh shape_open(fuzz_input *in)
 {
-    shape_mesh s;
     uint32_t kind = fuzz_byte(in), *indices = NULL;
     int n = fuzz_int(in, 0, SHAPE_VERTICES);
     size_t step = kind & 1 ? 12 + 4 * (size_t)fuzz_int(in, 0, 3) : 12;
     char *p = (char *)guard_take(n ? ((size_t)n - 1) * step + 12 : 0, kind >> 1 & 1);
-    memset(&s, 0, sizeof s);
-    s.most = kind & 4 ? 1e6f : 0;
-    s.want = SHADE_OK;
+    shape_mesh s = { .most = kind & 4 ? 1e6f : 0, .want = SHADE_OK };
     if (n) memset(p, 0xEE, ((size_t)n - 1) * step + 12);
     for (int i = 0; i < n; i++) {
         uint32_t again = fuzz_byte(in);

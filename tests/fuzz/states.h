@@ -323,11 +323,12 @@ static void ex_sensible(explained *e)
 static void ex_ordinary(explained *e)
 {
     const int wrong = explained_pick(3);
-    int of_anybody = 0;          /* they come first in the table */
-    while (mistakes[of_anybody].scenes & ON_TEAPOT) of_anybody++;
+    int of_anybody = 0;          /* they come first in the list */
+    for (const mistake *m = mistake_first; m->scenes & ON_TEAPOT; m = m->next) of_anybody++;
     ex_sensible(e);
     for (int k = 0; k < wrong; k++) {
-        const mistake *m = &mistakes[explained_pick(of_anybody)];
+        const mistake *m = mistake_first;
+        for (int i = explained_pick(of_anybody); i > 0; i--) m = m->next;
         e->made[k] = m->name;
         m->make(&e->s);
     }

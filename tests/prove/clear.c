@@ -20,14 +20,8 @@ static void prove_fill(void)
 /* 5 x 3 pixels, 6 from row to row, whose memory ends with the last one */
 static void prove_clear(shade_format format)
 {
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    t.color = (uint8_t *)color + sizeof color - 17 * shade__pixel_bytes(format);
-    t.depth = depth;
-    t.width = 5;
-    t.height = 3;
-    t.stride = 6;
-    t.format = format;
+    shade_target t = { .color = (uint8_t *)color + sizeof color - 17 * shade__pixel_bytes(format),
+                       .depth = depth, .width = 5, .height = 3, .stride = 6, .format = format };
     t.srgb = ANY_OF(0, 1);
     t.dither = ANY_OF(0, 1);
     for (int x = -1; x <= 5; x += 2) {

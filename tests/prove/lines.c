@@ -8,9 +8,8 @@ int main(void)
     static float coordinates[4 * 3];
     static shade_vertex_ids ids;
     static shade_vertices out;
-    shade_line_state state;
     shade__stroke s;
-    memset(&state, 0, sizeof state);
+    shade_line_state state = { 0 };
     state.raster.depth_zero_to_one = ANY_OF(0, 1);
     state.cap = (shade_cap)ANY_OF(SHADE_CAP_BUTT, SHADE_CAP_SQUARE);
     any_floats(coordinates, 12);

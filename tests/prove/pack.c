@@ -35,11 +35,7 @@ static void prove_target(shade_target *t)
 
 static void prove_formats(int srgb, int dither)
 {
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    t.srgb = srgb;
-    t.dither = dither;
-    t.format = SHADE_FORMAT_RGBA8;
+    shade_target t = { .srgb = srgb, .dither = dither, .format = SHADE_FORMAT_RGBA8 };
     prove_target(&t);
     t.format = SHADE_FORMAT_BGRA8;
     prove_target(&t);

@@ -55,7 +55,7 @@ static void prove_push(int varyings, int stride, int lod)
         run[k].x = ANY_OF(0, 16383);
         run[k].y = ANY_OF(0, 32767);
         run[k].n = ANY_OF(0, 16384);
-        run[k].lane = ANY_OF(0, SHADE__TRIANGLES - 1);
+        run[k].triangle = ANY_OF(0, SHADE__TRIANGLES - 1);
     }
     d.u.queue.f.count = ANY_OF(0, SHADE_LANES - 1);
     shade__push_body(&d, run, 2);

@@ -4,18 +4,10 @@
 # none.  What nothing links or reads is not compiled further than to its warnings, and one object
 # serves all programs.
 cd "$(dirname "$0")/../.." || exit 1
-CC=${CC:-cc}
-if [ -z "${CXX:-}" ]; then
-    for c in c++ g++ clang++; do command -v $c >/dev/null 2>&1 && CXX=$c && break; done
-fi
-WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror"
 . tests/scripts/tools.sh
+find_compilers
+WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror"
 
-check() {                       # name, command ...
-    name=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
-    else failed=$((failed + 1)); echo "compile: $name: $*"; sed 's/^/    /;20q' "$T/log"; fi
-}
 accepts() { $1 $2 -x "$3" -fsyntax-only - </dev/null >/dev/null 2>&1; }   # compiler, flag, language
 
 printf '#include "shade.h"\nint shade_h_alone;\n' >"$T/header.c"
@@ -437,5 +429,4 @@ names() {
 }
 check "macros begin with SHADE_" names
 
-echo "$passed passed, $failed failed"
-[ $failed = 0 ]
+finish

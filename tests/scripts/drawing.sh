@@ -9,11 +9,7 @@ there python3 || { left_out "everything: no python3"; finish; }
 python3 tests/thumbnail/parts.py "$T" || exit 1
 
 # ---- programs ------------------------------------------------------------------------------------
-STB= ASSIMP= LIBRARIES=
-echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
-    2>/dev/null && STB=-DMODEL_STB
-echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
-    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
+find_libraries
 compile() {                     # program, flags
     program=$1; shift
     $CC -std=c99 -ffp-contract=off -pthread -I. "$@" examples/programs/thumbnail/thumbnail.c -lm \

@@ -2,16 +2,11 @@
 # microcontroller.sh - the example for small machines: its strips are the whole picture; the
 # program for a Cortex-M4F is small, stays within its memory, and sends out the same bits.
 cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
 CC=${CC:-cc}
 export CC
 B=build/microcontroller
-passed=0 failed=0
 
-check() {                       # what, command ...
-    name=$1; shift
-    if "$@" >"$B.log" 2>&1; then passed=$((passed + 1))
-    else failed=$((failed + 1)); echo "microcontroller: $name"; sed 's/^/    /;20q' "$B.log"; fi
-}
 below() {                       # most, value
     [ -n "$2" ] && echo "$2, allowed $1" && [ "$2" -lt "$1" ]
 }
@@ -29,12 +24,6 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
         check "less than 20 kB of RAM, static and stack" below 20000 "$(number together <$B/board.txt)"
         # G12
         check "the same bits" cmp $B/picture.565 $B/board.565
-    else
-        echo "microcontroller: no qemu-system-arm: memory and picture of the board left out"
-    fi
-else
-    echo "microcontroller: no arm-none-eabi-gcc: the board left out"
-fi
-rm -f "$B.log"
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+    else left_out "memory and picture of the board: no qemu-system-arm"; fi
+else left_out "the board: no arm-none-eabi-gcc"; fi
+finish

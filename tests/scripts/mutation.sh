@@ -33,14 +33,14 @@ printf '#include "%s"\n' "$H"/tests/unit/*.c >"$T/tests.c"
 FLAGS="-std=c99 -w -D_DEFAULT_SOURCE -DSHADE_NO_DISPATCH -include $H/tests/unit/count.h"
 gcc $FLAGS -O2 -I. -DSHADE__IMPLEMENTED -c "$T/tests.c" -o "$T/tests.o" || exit 1
 build() {                       # the folder of a shade.h, public or implementation
-    if [ "$2" = public ]; then gcc $FLAGS -O1 -I"$1" "$T/tests.c" -lm -o "$T/run"
+    if [ "$2" = public ]; then gcc $FLAGS -O1 -I"$1" -I. "$T/tests.c" -lm -o "$T/run"
     else
         gcc $FLAGS -O1 -DSHADE_IMPLEMENTATION -x c -c "$1/shade.h" -o "$T/shade.o" &&
             gcc "$T/tests.o" "$T/shade.o" -lm -o "$T/run"
     fi
 }
 assembly() {                    # the folder of a shade.h, public or implementation
-    if [ "$2" = public ]; then (gcc $FLAGS -O2 -S -I"$1" "$T/tests.c" -o -)
+    if [ "$2" = public ]; then (gcc $FLAGS -O2 -S -I"$1" -I. "$T/tests.c" -o -)
     else (cd "$1" && gcc $FLAGS -O2 -S -DSHADE_IMPLEMENTATION -x c shade.h -o -); fi |
         grep -v '\.file\|\.ident' | md5sum
 }

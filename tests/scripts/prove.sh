@@ -7,10 +7,8 @@ cd "$(dirname "$0")/../.." || exit 1
 if ! command -v frama-c >/dev/null; then
     echo "left out: no frama-c"; echo "0 passed, 0 failed"; exit 0
 fi
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
+. tests/scripts/tools.sh
 known=tests/prove/known.txt
-passed=0 failed=0
 
 # Writes the header with what known.txt says for a driver, and the names of its facts.
 annotate() {
@@ -83,5 +81,4 @@ for driver in "$@"; do
         failed=$((failed + 1)); echo "FAIL  $driver"; head -n 30 "$T/odd" 2>/dev/null
     fi
 done
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

@@ -8,10 +8,8 @@
 # tests/unit/recipes.c holds; every public function stands in the README, an example or the bench;
 # every example in examples/README.md.
 cd "$(dirname "$0")/../.." || exit 1
-CC=${CC:-cc}
-if [ -z "${CXX:-}" ]; then
-    for c in c++ g++ clang++; do command -v $c >/dev/null 2>&1 && CXX=$c && break; done
-fi
+. tests/scripts/tools.sh
+find_compilers
 README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
 CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
@@ -19,16 +17,7 @@ PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/READ
     examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
 WARN="-Wall -Wextra -Werror"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
-passed=0 failed=0
 
-check() {                       # what, command ...
-    name=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
-    else failed=$((failed + 1)); echo "readme: $name"; sed 's/^/    /;20q' "$T/log"; fi
-}
-left_out() { echo "readme: no $1: left out"; }
 shown() { pngtopnm examples/pictures/knot.png | cmp - "$T/alone/knot.ppm"; }
 accepts() {                     # compiler, flags, c or c++, text
     printf '%s\n' "$4" | $1 $2 -x "$3" -c - -o "$T/accepted.o" >/dev/null 2>&1
@@ -214,6 +203,4 @@ cat $PAGES examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] bench/*.[
 words "$T/shown" >"$T/shown_words"
 check "more than 90 public functions" test "$(wc -l <"$T/functions")" -gt 90
 check "every public function is shown" none "$(comm -23 "$T/functions" "$T/shown_words")"
-
-echo "$passed passed, $failed failed"
-[ $failed = 0 ]
+finish

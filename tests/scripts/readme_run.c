@@ -92,10 +92,8 @@ static d3 gold_light(const shade_light *light, d3 P, d3 N, d3 from)
 {
     static const double k_d[3] = { 0.75164, 0.60648, 0.22648 };
     static const double k_s[3] = { 0.628281, 0.555802, 0.366065 };
-    shade_material m;
-    shade_lighting lighting;
-    memset(&m, 0, sizeof m);
-    memset(&lighting, 0, sizeof lighting);
+    shade_material m = { 0 };
+    shade_lighting lighting = { 0 };
     m.diffuse = shade_v3((float)ref_decode_srgb(k_d[0]), (float)ref_decode_srgb(k_d[1]),
                          (float)ref_decode_srgb(k_d[2]));
     m.specular = shade_v3((float)ref_decode_srgb(k_s[0]), (float)ref_decode_srgb(k_s[1]),
@@ -292,10 +290,8 @@ TEST(readme, window_shows_the_target)
 #ifdef README_SDL
     static const int red[2] = { 0, 2 };    /* the byte of red in RGBA8 and BGRA8 */
     for (int format = SHADE_FORMAT_RGBA8; format <= SHADE_FORMAT_BGRA8; format++) {
-        SDL_Event quit;
         random_bytes(64, 48, (shade_format)format);
-        memset(&quit, 0, sizeof quit);
-        quit.type = SDL_QUIT;
+        SDL_Event quit = { .type = SDL_QUIT };
         CHECK_INT(SDL_Init(SDL_INIT_VIDEO), 0);
         CHECK_INT(SDL_PushEvent(&quit), 1);
         show();
@@ -483,11 +479,9 @@ static shadow_count count_shadows(int around, double height, float share)
     const float fovy = 1.3f;
     const shade_vec3 at = { 4, 2.5f, 1.5f };
     const shade_vec3 axis = shade_normalize(shade_neg(at)), N = { 0, 1, 0 };
-    shade_target lamp_target;
-    shade_pipeline pipeline;
     shadow_count n = { 0, 0, 0, 0 };
-    memset(&lamp_target, 0, sizeof lamp_target);
-    memset(&pipeline, 0, sizeof pipeline);
+    shade_target lamp_target = { 0 };
+    shade_pipeline pipeline = { 0 };
     lamp_target.width = lamp_target.height = SIDE;
     lamp_target.depth = map[0];
     start(8, 8, shade_v3(0, 4, 6), shade_v3(0, 0, 0));
@@ -687,23 +681,12 @@ TEST(readme, chunks_draw_the_same_and_skip_what_is_not_seen)
     CHECK_SAY(stats.skipped > 500, "%lld of %lld skipped", stats.skipped, stats.triangles);
 }
 
-static const test_case readme_cases[] = {
-    CASE(readme, program_draws_a_knot_of_gold),
-    CASE(readme, program_of_the_header_draws_a_triangle),
-    CASE(readme, explain_says_what_the_table_quotes),
-    CASE(readme, three_lamps_shine_as_said),
-    CASE(readme, unlit_shows_the_colours_alone),
-    CASE(readme, first_picture_shows_all_of_any_mesh),
-    CASE(readme, floats_become_bytes),
-    CASE(readme, window_shows_the_target),
-    CASE(readme, png_holds_the_target),
-    CASE(readme, shaders_draw_map_and_shadow),
-    CASE(readme, the_offset_advised_leaves_no_shadow_acne),
-    CASE(readme, mist_takes_a_tenth_of_the_light_each_unit),
-    CASE(readme, picking_finds_what_was_drawn),
-    CASE(readme, chunks_draw_the_same_and_skip_what_is_not_seen),
-};
-SECTION(readme);
+LISTED(test_case);
+void test_list(test_case *item)
+{
+    *test_case_next = item;
+    test_case_next = &item->next;
+}
 
 int main(int argc, char **argv)
 {
@@ -711,8 +694,8 @@ int main(int argc, char **argv)
     knot_ppm = argc > 1 ? argv[1] : NULL;
     triangle_ppm = argc > 2 ? argv[2] : NULL;
     test_now.seed = 20261121u;
-    for (int k = 0; k < readme_section.count; k++)
-        test_run_case(&readme_section, &readme_section.cases[k], &passed, &failed);
+    for (test_case *item = test_case_first; item; item = item->next)
+        test_run_case(item, &passed, &failed);
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

@@ -16,15 +16,9 @@ check() {                       # what, command ...
 
 # ---- programs ------------------------------------------------------------------------------------
 build=programs
-STB= ZLIB= ASSIMP= LIBRARIES=
-echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
-    2>/dev/null && STB=-DMODEL_STB
+find_libraries
 [ "$STB" ] || echo "no stb (libstb-dev): PNG and textures are left out"
-echo 'int main(void) { return !zlibVersion(); }' | $CC -include zlib.h -x c - -lz -o "$T/probe" \
-    2>/dev/null && ZLIB="-DMODEL_ZLIB -lz"
 [ "$ZLIB" ] || echo "no zlib (zlib1g-dev): packed 3MF is left out"
-echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
-    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
 [ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
 FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I."
 compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }

@@ -16,6 +16,22 @@ check() {                       # what, command ...
 }
 no() { ! "$@"; }
 same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
+# Sets CC and CXX where they are not set; CXX stays empty if there is no C++ compiler.
+find_compilers() {
+    CC=${CC:-cc}
+    [ "${CXX:-}" ] || for c in c++ g++ clang++; do there $c && CXX=$c && break; done
+}
+# Sets STB, ZLIB and ASSIMP to what programs are built with where a library is here, else to nothing,
+# and LIBRARIES to those of assimp.
+find_libraries() {
+    STB= ZLIB= ASSIMP= LIBRARIES=
+    echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
+        2>/dev/null && STB=-DMODEL_STB
+    echo 'int main(void) { return !zlibVersion(); }' | $CC -include zlib.h -x c - -lz -o "$T/probe" \
+        2>/dev/null && ZLIB="-DMODEL_ZLIB -lz"
+    echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
+        -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
+}
 # The inline functions of shade.h's public part, one a line
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 # Lessons draw with one sample a pixel where $one_sample is included before them, but for those that

@@ -5,10 +5,8 @@
 # not armv7, whose NEON flushes denormal numbers, so that gcc leaves floats to its scalar unit.
 # And every function that gcc compiled for AVX2 or AVX-512 without using its registers: none.
 cd "$(dirname "$0")/../.." || exit 1
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
+. tests/scripts/tools.sh
 printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/impl.c"
-passed=0 failed=0
 
 # Reports, functions whose loops they leave scalar, and why; each must still be left.
 known='gcc for aarch64: shade__come_from_infinity (stores of constants: gcc 12 sees no gain)
@@ -77,5 +75,4 @@ if command -v $arm >/dev/null; then
         ! grep -E '\sv(add|sub|mul|ml[as])\.f32\s+[qd]' "$T/impl.s"; then passed=$((passed + 1))
     else failed=$((failed + 1)); fi
 else echo "left out: gcc for armv7"; fi
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

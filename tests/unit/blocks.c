@@ -226,11 +226,3 @@ TEST(blocks, level_walls_keep_the_nearest)
         canvas_close(&c);
     }
 }
-
-static const test_case blocks_cases[] = {
-    CASE(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test),
-    CASE(blocks, filled_blocks_are_left_out),
-    CASE(blocks, level_walls_keep_the_nearest),
-};
-
-SECTION(blocks);

@@ -378,7 +378,7 @@ TEST(camera, what_is_explained_does_not_change_where_a_camera_is_split)
         shade_mesh mesh = plain_mesh(&s.position[0].x, 3 * s.count);
         const char *said[2];
         for (int k = 0; k < 2; k++) {
-            canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, mistake != 5);
+            canvas c = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, mistake != 5);
             shade_draw_state state = { 0 };
             shade_stats stats;
             state.lighting.lights = mistake == 6 ? &behind : &lamp;
@@ -389,7 +389,6 @@ TEST(camera, what_is_explained_does_not_change_where_a_camera_is_split)
             state.view = view;
             state.projection = projection;
             mesh.normals = mistake == 9 ? &s.position[0].x : NULL;
-            canvas_clear(&c, 1);
             CHECK_INT(shade_draw_mesh(&c.target, &mesh, &state, &stats), SHADE_OK);
             said[k] = shade_explain(&c.target, &mesh, &state, &stats);
             canvas_close(&c);
@@ -418,7 +417,7 @@ TEST(camera, highlights_of_another_eye_are_explained)
                                       { 0.5f * (float)shiny, 0, 0 }, 8 };
         const dmat turn = dmat_from(shade_mat4_look_at(random_vector(3), random_vector(1),
                                                        random_vector(1)));
-        canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
         shade_mesh mesh = plain_mesh(&s.position[0].x, 3 * s.count);
         shade_draw_state state = { 0 };
         shade_stats stats;
@@ -437,7 +436,6 @@ TEST(camera, highlights_of_another_eye_are_explained)
         state.lighting.lights = &lamp;
         state.lighting.light_count = 1;
         if (infinite) state.lighting.flags = SHADE_FLAG_INFINITE_VIEWER;
-        canvas_clear(&c, 1);
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &state, &stats), SHADE_OK);
         const char *said = shade_explain(&c.target, &mesh, &state, &stats);
         CHECK_SAY(astray && shiny ? strstr(said, "another eye") != NULL : !*said, "%d: \"%s\"", i,
@@ -445,15 +443,3 @@ TEST(camera, highlights_of_another_eye_are_explained)
         canvas_close(&c);
     }
 }
-
-static const test_case camera_cases[] = {
-    CASE(camera, rays_do_not_change_where_a_camera_is_split),
-    CASE(camera, every_camera_that_draws_picks_what_it_draws),
-    CASE(camera, finite_matrices_give_finite_rays),
-    CASE(camera, boxes_are_seen_in_every_split),
-    CASE(camera, fits_do_not_change_with_a_motion_in_the_projection),
-    CASE(camera, what_is_explained_does_not_change_where_a_camera_is_split),
-    CASE(camera, highlights_of_another_eye_are_explained),
-};
-
-SECTION(camera);

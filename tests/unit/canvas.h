@@ -84,14 +84,9 @@ static inline int untouched(const void *at, size_t bytes)
 static inline canvas canvas_strip(int width, int height, int stride, shade_format format,
                                   int with_depth, int row_offset, int row_count)
 {
-    canvas c;
-    memset(&c, 0, sizeof c);
-    c.target.width = width;
-    c.target.height = height;
-    c.target.stride = stride;
-    c.target.format = format;
-    c.target.row_offset = row_offset;
-    c.target.row_count = row_count;
+    canvas c = { .target.width = width, .target.height = height, .target.stride = stride,
+                 .target.format = format, .target.row_offset = row_offset,
+                 .target.row_count = row_count };
     size_t cells = (size_t)canvas_stride(&c) * (size_t)canvas_rows(&c);
     c.color_bytes = cells * canvas_pixel_bytes(format);
     c.color = canvas_block(c.color_bytes);
@@ -201,6 +196,15 @@ static inline void canvas_clear(canvas *c, float depth)
     CHECK_INT(shade_clear(&c->target, shade_v4(0, 0, 0, 0), depth), SHADE_OK);
 }
 
+/* A canvas that is cleared, to depth 1. */
+static inline canvas canvas_ready(int width, int height, int stride, shade_format format,
+                                  int with_depth)
+{
+    canvas c = canvas_open(width, height, stride, format, with_depth);
+    canvas_clear(&c, 1);
+    return c;
+}
+
 /* Two canvases cleared alike, and their end, where the same was to be drawn on both. */
 static inline void canvas_twins(canvas c[2], int width, int height, shade_format format,
                                 float depth)
@@ -244,9 +248,7 @@ typedef struct scene {
 
 static inline recorder recorder_open(int capacity)
 {
-    recorder r;
-    memset(&r, 0, sizeof r);
-    r.capacity = capacity;
+    recorder r = { .capacity = capacity };
     r.fragments = test_memory((size_t)capacity * sizeof(fragment_record));
     return r;
 }
@@ -346,12 +348,8 @@ static inline void scene_colors(const void *uniforms, const shade_fragments *SHA
 
 static inline shade_pipeline scene_pipeline(const scene *s)
 {
-    shade_pipeline p;
-    memset(&p, 0, sizeof p);
-    p.vertex = scene_vertex;
-    p.fragment = scene_flat;
-    p.uniforms = s;
-    p.varyings = s->varyings;
+    shade_pipeline p = { .vertex = scene_vertex, .fragment = scene_flat, .uniforms = s,
+                         .varyings = s->varyings };
     return p;
 }
 

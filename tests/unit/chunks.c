@@ -269,8 +269,7 @@ static void check_chunk_picture(const chunk_scene *s, shade_format format, shade
 static void check_chunk_pictures(int sorted)
 {
     static chunk_scene s;
-    shade_stats sum;
-    memset(&sum, 0, sizeof sum);
+    shade_stats sum = { 0 };
     for (int i = 0; i < 250; i++) {
         random_chunk_scene(&s);
         if (sorted) sort_chunk_scene(&s);
@@ -521,10 +520,9 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
         const int n = rnd_one_in(2) ? rnd_int(4, 5) : rnd_int(0, 3);
         double rows[4][4], plane[4], point[4];
         shade_vec3 p[3], low, high;
-        shade_target t;
         int zero_to_one, want, got;
         const shade_mat4 m = random_chunk_matrix(&zero_to_one, size);
-        memset(&t, 0, sizeof t);
+        shade_target t = { 0 };
         t.width = widths[rnd_int(0, 5)];
         t.height = t.width == 16384 ? 4 : 16384 / 300;
         t.color = pixels;
@@ -560,10 +558,7 @@ TEST(chunks, rounding_of_numbers_that_cancel_hides_nothing)
 {
     static uint32_t pixels[64 * 64];
     long by_rounding = 0;
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    t.width = t.height = 64;
-    t.color = pixels;
+    shade_target t = { .width = 64, .height = 64, .color = pixels };
     for (int i = 0; i < 20000; i++) {
         const float c = rnd_float(0.5, 1), s = rnd_float(0.5, 1), x = rnd_float(8e6, 16e6);
         const double most = -1 / 32.0 - (double)rnd_float(0, 0.5);
@@ -593,10 +588,7 @@ TEST(chunks, depths_that_underflow_are_not_hidden)
 {
     static const shade_vec3 p[3] = { { -1, -1, -1e-20f }, { 1, -1, -2e-20f }, { 0, 1, -1e-20f } };
     static uint32_t pixels[64];
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    t.width = t.height = 8;
-    t.color = pixels;
+    shade_target t = { .width = 8, .height = 8, .color = pixels };
     for (int e = -10; e >= -44; e--) {
         shade_mat4 m = shade_mat4_identity();
         m.col[2].z = (float)pow(10, e);
@@ -616,10 +608,8 @@ TEST(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible)
     static uint32_t pixels[64];
     const shade_vec3 low = shade_v3(5, 5, 5), high = shade_v3(6, 6, 6);
     const shade_mat4 one = shade_mat4_identity();
-    shade_target t, bad;
-    memset(&t, 0, sizeof t);
-    t.width = t.height = 8;
-    t.color = pixels;
+    shade_target bad;
+    shade_target t = { .width = 8, .height = 8, .color = pixels };
     CHECK_INT(shade_box_visible(&t, one, 0, low, high), 0);
     for (int axis = 0; axis < 3; axis++) {
         CHECK_INT(shade_box_visible(&t, one, 0, with_axis(low, axis, (float)NAN), high), 1);
@@ -650,10 +640,8 @@ TEST(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible)
 TEST(chunks, a_zero_matrix_is_the_identity)
 {
     static uint32_t pixels[64];
-    shade_mat4 zero;
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    memset(&zero, 0, sizeof zero);
+    shade_target t = { 0 };
+    shade_mat4 zero = { 0 };
     t.width = t.height = 8;
     t.color = pixels;
     for (int i = 0; i < 500; i++) {
@@ -670,10 +658,7 @@ TEST(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels)
     enum { SIDE = 8 };
     static uint32_t pixels[SIDE * SIDE];
     int seen[2] = { 0, 0 };
-    shade_target t;
-    memset(&t, 0, sizeof t);
-    t.width = t.height = SIDE;
-    t.color = pixels;
+    shade_target t = { .width = SIDE, .height = SIDE, .color = pixels };
     for (int i = 0; i < 4000; i++) {
         const int x = rnd_int(0, SIDE - 1), y = rnd_int(0, SIDE - 1);
         const float left = (float)(2 * (x + 0.1) / SIDE - 1);
@@ -703,12 +688,9 @@ static shade_result chunk_calls(const shade_mesh *m, int call)
     static shade_vec3 normals[64];
     static unsigned char memory[65536];
     shade_edge edges[64];
-    shade_target t;
     int count;
     shade_draw_state state = plain_state(NULL);
-    memset(&t, 0, sizeof t);
-    t.width = t.height = 8;
-    t.color = pixels;
+    shade_target t = { .width = 8, .height = 8, .color = pixels };
     state.shading = SHADE_SHADING_PER_VERTEX;
     switch (call) {
     case 0: return shade_draw_mesh(&t, m, &state, NULL);
@@ -789,9 +771,8 @@ static void open_squares(chunk_squares *s)
 /* What lies in the four columns, each digit of it. */
 static int draw_squares(const chunk_squares *s, shade_stats *stats)
 {
-    canvas c = canvas_open(4, 2, 0, SHADE_FORMAT_RGBA32F, 0);
+    canvas c = canvas_ready(4, 2, 0, SHADE_FORMAT_RGBA32F, 0);
     int digits = 0;
-    canvas_clear(&c, 1);
     CHECK_INT(shade_draw_mesh(&c.target, &s->mesh, &s->state, stats), SHADE_OK);
     CHECK(stats->triangles == stats->skipped + stats->drawn);
     for (int x = 0; x < 4; x++) {
@@ -876,11 +857,9 @@ TEST(chunks, a_triangle_in_several_chunks_is_blended_as_often)
     for (int round = 0; round < 200; round++) {
         const shade_format format = rnd_one_in(2) ? rnd_format() : SHADE_FORMAT_RGBA32F;
         const int with_depth = rnd_one_in(2);
-        canvas together = canvas_open(24, 18, 0, format, with_depth);
-        canvas apart = canvas_open(24, 18, 0, format, with_depth);
+        canvas together = canvas_ready(24, 18, 0, format, with_depth);
+        canvas apart = canvas_ready(24, 18, 0, format, with_depth);
         random_flakes(&s);
-        canvas_clear(&together, 1);
-        canvas_clear(&apart, 1);
         draw_flakes(&s, &together, 0, FLAKE_CHUNKS);
         for (int k = 0; k < FLAKE_CHUNKS; k++) draw_flakes(&s, &apart, k, k + 1);
         CHECK_SAY(canvas_same(&together, &apart), "round %d", round);
@@ -1242,11 +1221,9 @@ static chunk_pick pick_with(const shade_mesh *mesh, const shade_chunk *chunks, i
                             shade_mat4 model, shade_ray ray)
 {
     shade_mesh m = *mesh;
-    chunk_pick p;
     m.chunks = chunks;
     m.chunk_count = count;
-    memset(&p, 0, sizeof p);
-    p.t = -7;
+    chunk_pick p = { .t = -7 };
     p.triangle = shade_pick(&m, model, ray, &p.t, &p.b);
     return p;
 }
@@ -1494,36 +1471,3 @@ TEST(chunks, bad_indices_are_found_where_their_box_is_met)
     m.index_count = 8;
     CHECK_INT(pick_with(&m, chunk, 1, shade_mat4_identity(), ray).triangle, -1);
 }
-
-static const test_case chunks_cases[] = {
-    CASE(chunks, pictures_have_the_same_bits_with_chunks_and_without),
-    CASE(chunks, sorted_meshes_have_the_same_bits_with_chunks_and_without),
-    CASE(chunks, bands_with_chunks_together_make_the_picture_without),
-    CASE(chunks, strips_with_chunks_together_make_the_picture_without),
-    CASE(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box),
-    CASE(chunks, rounding_of_numbers_that_cancel_hides_nothing),
-    CASE(chunks, depths_that_underflow_are_not_hidden),
-    CASE(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible),
-    CASE(chunks, a_zero_matrix_is_the_identity),
-    CASE(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels),
-    CASE(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call),
-    CASE(chunks, exactly_the_triangles_of_the_list_are_drawn),
-    CASE(chunks, a_triangle_in_several_chunks_is_blended_as_often),
-    CASE(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen),
-    CASE(chunks, runs_tile_the_list_in_boxes_of_their_corners),
-    CASE(chunks, counts_are_those_of_whole_chunks_and_a_rest),
-    CASE(chunks, bad_arguments_change_nothing_and_are_told_in_their_order),
-    CASE(chunks, without_mesh_or_room_nothing_is_made_and_no_vertex_makes_no_chunk),
-    CASE(chunks, no_numbers_take_long_to_sort),
-    CASE(chunks, a_shuffled_sheet_is_sorted_into_squares),
-    CASE(chunks, neighbouring_floats_are_sorted_apart),
-    CASE(chunks, shuffled_crumbs_are_sorted_into_cubes),
-    CASE(chunks, rays_meet_the_same_triangle_with_chunks_and_without),
-    CASE(chunks, picks_through_chunks_are_the_nearest_triangles_of_all),
-    CASE(chunks, picks_are_the_nearest_intersection_under_any_model),
-    CASE(chunks, a_ray_that_starts_on_triangles_picks_the_lowest),
-    CASE(chunks, boxes_of_any_scale_are_met),
-    CASE(chunks, bad_indices_are_found_where_their_box_is_met),
-};
-
-SECTION(chunks);

@@ -22,10 +22,8 @@ static shade_stats draw_clip_space(canvas *c, const shade_vec4 *clip, int vertic
 /* All three corners are beyond the same plane, by a hundredth of w up to a hundred w. */
 TEST(clip, triangles_outside_one_plane_count_as_clipped)
 {
-    canvas c = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
-    canvas before = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&before, 1);
+    canvas c = canvas_ready(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
+    canvas before = canvas_ready(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
     for (int i = 0; i < 3000; i++) {
         shade_vec4 v[3];
         int axis = rnd_int(0, 2), zero_to_one = rnd_one_in(2), side = rnd_one_in(2);
@@ -51,8 +49,7 @@ TEST(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled) /* front-f
 {
     static const shade_vec4 offsets[] = { { 5, 0, 0, 0 },  { -5, 0, 0, 0 }, { 0, 5, 0, 0 },
                                           { 0, -5, 0, 0 }, { 0, 0, 5, 0 },  { 0, 0, -5, 0 } };
-    canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     for (int i = 0; i < 6; i++) {
         shade_vec4 v[3];
         for (int k = 0; k < 3; k++) v[k] = shade_add4(clip_corners[k], offsets[i]);
@@ -67,10 +64,8 @@ TEST(clip, positions_that_are_no_numbers_are_rejected)
 {
     static const uint32_t bad[] = { 0x7FC00000u, 0xFFC00000u, 0x7F800000u,
                                     0xFF800000u, 0x7F7FFFFFu, 0xFF7FFFFFu };
-    canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
-    canvas before = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&before, 1);
+    canvas c = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas before = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     for (int corner = 0; corner < 3; corner++)
         for (int field = 0; field < 4; field++)
             for (int k = 0; k < 8; k++) {
@@ -93,8 +88,7 @@ TEST(clip, positions_that_are_no_numbers_are_rejected)
 
 TEST(clip, zero_area_counts_as_culled)
 {
-    canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 point[3] = { { 0.1f, 0.2f, 0, 1 }, { 0.1f, 0.2f, 0, 1 }, { 0.1f, 0.2f, 0, 1 } };
     shade_vec4 line[3] = { { -0.5f, 0, 0, 1 }, { 0.5f, 0, 0, 1 }, { 0, 0, 0, 1 } };
     shade_vec4 tiny[3] = { { 0, 0, 0, 1 },
@@ -300,8 +294,7 @@ TEST(clip, facing_survives_the_cut)
         random_eye_triangle(v, 0, 15);
         ref_triangle t;
         if (!ref_triangle_of(&t, &v[0], &v[1], &v[2], 64, 48)) continue;
-        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
         r.count = 0;
         draw_clip_space(&c, v, 3, 0, &r);
         for (int k = 0; k < r.count; k++) {
@@ -446,10 +439,9 @@ TEST(clip, affine_is_linear_on_the_screen_in_three_examples)
     static const double want[3] = { 23.5 / 160, 23.5 / 64, 23.5 / 1312 };
     static const float red[3] = { 0, 0, 1 };
     for (int k = 0; k < 3; k++) {
-        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         shade_vec4 v[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 } };
         v[2] = apex[k];
-        canvas_clear(&c, 1);
         draw_affine(&c, v, red, 0, NULL);
         CHECK_NEAR(canvas_float(&c, 32, 40, 0), want[k], 2e-6);
         canvas_close(&c);
@@ -606,8 +598,7 @@ TEST(clip, polygons_dented_by_rounding_are_survived)
           { 0x1.5cb7e6p-1f, -0x1.b98b2cp+0f, 0x1.0a2b5p+0f, 0x1.805886p-1f } },
         { { -2, 2, 2, -2 }, { 0, -2, 2, -2 }, { 2, -2, -2, 2 } }, /* through w = 0 at the origin */
     };
-    canvas c = canvas_open(33, 29, 35, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(33, 29, 35, SHADE_FORMAT_RGBA8, 1);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) draw_clip_space(&c, bad[i], 3, 0, NULL);
     for (int i = 0; i < 30000; i++) {
         shade_vec4 v[3];
@@ -627,8 +618,7 @@ TEST(clip, any_position_at_all_is_accounted_for)
 {
     for (int i = 0; i < 3000; i++) {
         shade_vec4 v[30];
-        canvas c = canvas_open(rnd_int(1, 40), rnd_int(1, 40), 41, rnd_format(), rnd_int(0, 1));
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(rnd_int(1, 40), rnd_int(1, 40), 41, rnd_format(), rnd_int(0, 1));
         int kind = rnd_int(0, 3);
         for (int k = 0; k < 30; k++) {
             float f[4];
@@ -650,11 +640,10 @@ TEST(clip, any_position_at_all_is_accounted_for)
 /* z in [-w, 0) is visible by default only */
 TEST(clip, only_the_volume_decides_between_the_planes_of_zero_to_one)
 {
-    canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas c = canvas_ready(16, 16, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 v[3];
     memcpy(v, clip_corners, sizeof v);
     for (int k = 0; k < 3; k++) v[k].z = -0.5f;
-    canvas_clear(&c, 1);
     CHECK_INT(draw_clip_space(&c, v, 3, 0, NULL).fragments, 128);
     CHECK_NEAR(canvas_depth(&c, 8, 12), 0.25, 1e-7);
     CHECK_INT(draw_clip_space(&c, v, 3, 1, NULL).clipped, 1);
@@ -728,8 +717,7 @@ TEST(clip, pieces_that_snapping_turns_are_left_out)
     };
     recorder r = recorder_open(4096);
     for (int k = 0; k < TEST_COUNT(sliver); k++) {
-        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
         r.count = 0;
         draw_clip_space(&c, sliver[k], 3, 0, &r);
         CHECK(r.count > 0);
@@ -828,8 +816,7 @@ TEST(clip, a_dent_keeps_out_the_centre_that_is_cut_off)
     };
     for (int n = 0; n < (int)(sizeof dented / sizeof dented[0]); n++) {
         const shade_vec4 *v = dented[n];
-        canvas c = canvas_open(SIDE, SIDE, 0, SHADE_FORMAT_RGBA8, 0);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(SIDE, SIDE, 0, SHADE_FORMAT_RGBA8, 0);
         draw_clip_space(&c, v, 3, 0, NULL);
         for (int i = 0; i < SIDE * SIDE; i++) {
             double X = (i % SIDE + 0.5) / (SIDE / 2) - 1, Y = 1 - (i / SIDE + 0.5) / (SIDE / 2);
@@ -851,30 +838,3 @@ TEST(clip, a_dent_keeps_out_the_centre_that_is_cut_off)
         canvas_close(&c);
     }
 }
-
-static const test_case clip_cases[] = {
-    CASE(clip, a_dent_keeps_out_the_centre_that_is_cut_off),
-    CASE(clip, affine_values_survive_a_cut_between_any_two_w),
-    CASE(clip, dents_by_snapping_are_filled_without_overlap),
-    CASE(clip, pieces_that_snapping_turns_are_left_out),
-    CASE(clip, triangles_outside_one_plane_count_as_clipped),
-    CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),
-    CASE(clip, positions_that_are_no_numbers_are_rejected),
-    CASE(clip, zero_area_counts_as_culled),
-    CASE(clip, near_and_far_cut_where_they_should),
-    CASE(clip, corners_far_outside_the_guard_band_keep_their_edges),
-    CASE(clip, eye_space_far_to_the_sides_keeps_its_edges),
-    CASE(clip, meshes_beyond_the_guard_band_cover_every_pixel_once),
-    CASE(clip, meshes_through_the_near_plane_cover_every_pixel_once),
-    CASE(clip, facing_survives_the_cut),
-    CASE(clip, varyings_survive_the_cut),
-    CASE(clip, affine_is_linear_on_the_screen_in_three_examples),
-    CASE(clip, affine_is_linear_on_the_screen_whatever_is_cut),
-    CASE(clip, affine_behind_the_eye_is_linear_between_perspective_values),
-    CASE(clip, affine_behind_the_eye_stays_between_the_corners),
-    CASE(clip, polygons_dented_by_rounding_are_survived),
-    CASE(clip, any_position_at_all_is_accounted_for),
-    CASE(clip, only_the_volume_decides_between_the_planes_of_zero_to_one),
-};
-
-SECTION(clip);

@@ -132,7 +132,7 @@ TEST(cover, meshes_cover_every_pixel_exactly_once)
 TEST(cover, slivers_a_256th_wide_are_exact)
 {
     for (int i = 0; i < 2000; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, rnd_int(0, 1));
+        canvas c = canvas_ready(90, 70, 0, SHADE_FORMAT_RGBA8, rnd_int(0, 1));
         int64_t x[3], y[3];
         x[0] = rnd_int(0, 90 * 256);
         y[0] = rnd_int(0, 70 * 256);
@@ -143,7 +143,6 @@ TEST(cover, slivers_a_256th_wide_are_exact)
         if (along == 1) y[0] = y[1] = y[1] / 256 * 256 + 128;
         x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2);
         y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
-        canvas_clear(&c, 1);
         random_clip(&c.target);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
@@ -196,7 +195,7 @@ TEST(cover, varyings_of_slivers_are_finite)
 {
     long infinite = 0;
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA32F, 0);
+        canvas c = canvas_ready(90, 70, 0, SHADE_FORMAT_RGBA32F, 0);
         float values[3] = { 1, 2, 3 };
         shade_vec4 clip[3];
         scene s = { clip, values, 1, NULL, NULL };
@@ -208,7 +207,6 @@ TEST(cover, varyings_of_slivers_are_finite)
         clip[1] = clip_of_fx8(x + dx, y + dy, 90, 70, 0, far);
         clip[2] = clip_of_fx8(x + rnd_int(-2, 2), y + rnd_int(-2, 2), 90, 70, 0, 1);
         p.fragment = scene_colors;
-        canvas_clear(&c, 1);
         canvas_draw(&c, &p, 3);
         for (int k = 0; k < 90 * 70; k++)
             infinite += !isfinite(canvas_float(&c, k % 90, k / 90, 0));
@@ -320,7 +318,7 @@ TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
 {
     for (int i = 0; i < test_rounds(120); i++) {
         int width = rnd_int(6000, 8000), height = rnd_int(40, 60), attempts = 0;
-        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
+        canvas c = canvas_ready(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], u, v, dy;
         do { /* to the centre: (u, v); along the edge: (dy u / v rounded, dy) */
             x[0] = rnd_int(-300, 300);
@@ -341,7 +339,6 @@ TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
             if (i % 4 > 1) x[k] = width * 256 - x[k];
             if (i % 8 > 3) y[k] = height * 256 - y[k];
         }
-        canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
         canvas_close(&c);
@@ -354,7 +351,7 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
     static const int sizes[][2] = { { 1024, 1024 }, { 2000, 520 }, { 524, 2000 },  { 1448, 724 },
                                     { 2040, 2040 }, { 1100, 950 }, { 1023, 1020 }, { 64, 2040 } };
     for (int i = 0; i < test_rounds(16); i++) {
-        canvas c = canvas_open(2048, 2048, 0, SHADE_FORMAT_RGBA8, i % 2);
+        canvas c = canvas_ready(2048, 2048, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], w = sizes[i % 8][0] * 256, h = sizes[i % 8][1] * 256;
         int64_t left = rnd_int(0, 2048 * 256 - (int)w), top = rnd_int(0, 2048 * 256 - (int)h);
         int shape = rnd_int(0, 3);
@@ -363,7 +360,6 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
             y[k] = top + (k == 2 ? h : shape == 0 ? 0 : rnd_int(0, (int)h));
             if (shape == 3 && k == 1) x[k] = x[0] + rnd_int(-700, 700);
         }
-        canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
         canvas_close(&c);
@@ -397,10 +393,9 @@ TEST(cover, thin_triangles_across_nine_million_pixels_are_exact)
 TEST(cover, borders_of_huge_triangles_are_exact)
 {
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(1600, 600, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(1600, 600, 0, SHADE_FORMAT_RGBA8, 1);
         int64_t x[3] = { rnd_int(-1600 * 255, 0), 1600 * 511, rnd_int(0, 1600 * 256) };
         int64_t y[3] = { rnd_int(-600 * 255, 0), rnd_int(0, 600 * 511), 600 * 511 };
-        canvas_clear(&c, 1);
         c.target.clip_width = rnd_int(1, 12);
         c.target.clip_height = 600;
         c.target.clip_x = i % 2 ? rnd_int(0, 1588) : i % 4 ? 0 : 1600 - c.target.clip_width;
@@ -472,7 +467,7 @@ TEST(cover, slivers_with_a_short_side_are_exact)
 TEST(cover, level_edges_of_big_triangles_follow_the_rule)
 {
     for (int i = 0; i < 8; i++) {
-        canvas c = canvas_open(1500, 1500, 0, SHADE_FORMAT_RGBA8, i & 1);
+        canvas c = canvas_ready(1500, 1500, 0, SHADE_FORMAT_RGBA8, i & 1);
         int64_t x[3] = { 300, 1499 * 256, 0 }, y[3], level = 128 + 256 * (int64_t)rnd_int(5, 40);
         x[2] = rnd_int(0, 1499 * 256);
         y[0] = y[1] = level;
@@ -482,7 +477,6 @@ TEST(cover, level_edges_of_big_triangles_follow_the_rule)
             x[0] = 1499 * 256;
             x[1] = 300;
         }
-        canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
         canvas_close(&c);
@@ -493,7 +487,7 @@ TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float roundi
 {
     for (int i = 0; i < 50; i++) {
         int width = rnd_int(2000, 9000), height = rnd_int(3, 24);
-        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
+        canvas c = canvas_ready(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3];
         for (int k = 0; k < 3; k++) {
             x[k] = k == 0   ? rnd_int(0, 3000)
@@ -502,7 +496,6 @@ TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float roundi
             y[k] = rnd_int(-height * 128, height * 384);
             if (i % 3 == 0) y[k] = rnd_int(0, 2 * height) * 128;
         }
-        canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
         canvas_close(&c);
@@ -517,7 +510,7 @@ TEST(cover, wide_triangles_between_pixel_centres_are_exact)
 {
     static const int rows[] = { 41, 47, 55, 61 };
     for (int i = 0; i < 16; i++) {
-        canvas c = canvas_open(4000, 62, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(4000, 62, 0, SHADE_FORMAT_RGBA8, 1);
         const int high = rows[i % 4], wide = high * (3900 / high);
         int64_t x[3] = { 50, 50 + wide, 0 }, y[3] = { 0, high, 0 };
         x[2] = i & 4 ? x[1] : x[0];
@@ -526,7 +519,6 @@ TEST(cover, wide_triangles_between_pixel_centres_are_exact)
             x[k] = (i & 8 ? 3999 - x[k] : x[k]) * 256 + 128;
             y[k] = y[k] * 256 + 128;
         }
-        canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
         canvas_close(&c);
@@ -598,28 +590,3 @@ TEST(cover, the_oracle_is_the_top_left_rule)
     }
     CHECK_SAY(ties > 1000, "%d centres on edges", ties);
 }
-
-static const test_case cover_cases[] = {
-    CASE(cover, the_oracle_is_the_top_left_rule),
-    CASE(cover, random_triangles_cover_exactly_the_top_left_pixels),
-    CASE(cover, corners_snap_to_the_nearest_256th_halves_up),
-    CASE(cover, meshes_cover_every_pixel_exactly_once),
-    CASE(cover, slivers_a_256th_wide_are_exact),
-    CASE(cover, depth_of_slivers_stays_between_their_corners),
-    CASE(cover, varyings_of_slivers_are_finite),
-    CASE(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing),
-    CASE(cover, small_boxes_of_long_triangles_are_exact),
-    CASE(cover, the_biggest_pictures_are_exact),
-    CASE(cover, wide_flat_triangles_are_exact),
-    CASE(cover, wide_triangles_between_pixel_centres_are_exact),
-    CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
-    CASE(cover, triangles_of_a_million_pixels_are_exact),
-    CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),
-    CASE(cover, ends_of_slivers_of_thousands_of_pixels_are_exact),
-    CASE(cover, slivers_with_a_short_side_are_exact),
-    CASE(cover, borders_of_huge_triangles_are_exact),
-    CASE(cover, level_edges_of_big_triangles_follow_the_rule),
-    CASE(cover, facing_is_counter_clockwise_on_the_screen),
-};
-
-SECTION(cover);

@@ -67,8 +67,8 @@ TEST(depth, is_the_same_bits_whatever_is_interpolated)
     long touched = 0;
     for (int i = 0; i < 36 * pairs; i++) {
         int zero_to_one = rnd_one_in(2), kind = i / pairs % 6;
-        canvas alone = canvas_open(DEPTH_WIDTH, DEPTH_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
-        canvas other = canvas_open(DEPTH_WIDTH, DEPTH_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas alone = canvas_ready(DEPTH_WIDTH, DEPTH_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas other = canvas_ready(DEPTH_WIDTH, DEPTH_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         for (int k = 0; k < DEPTH_TRIANGLES; k++)
             random_depth_triangle(kind, zero_to_one, clip + 3 * k);
         for (int k = 0; k < 3 * DEPTH_TRIANGLES * SHADE_MAX_VARYINGS; k++)
@@ -79,8 +79,6 @@ TEST(depth, is_the_same_bits_whatever_is_interpolated)
         p.raster.depth_zero_to_one = zero_to_one;
         p.raster.depth_test = rnd_one_in(2) ? SHADE_COMPARE_LESS : SHADE_COMPARE_ALWAYS;
         p.raster.depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : 0;
-        canvas_clear(&alone, 1);
-        canvas_clear(&other, 1);
         shade_stats a = draw_depth_triangles(&alone, &p);
         s.varyings = p.varyings = i % pairs / 3;
         p.interpolation = (shade_interpolation)(i % 3);
@@ -222,12 +220,11 @@ TEST(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass)
     shade_mesh mesh = plain_mesh(corner, 3);
     shade_light light = shade_point_light(shade_v3(1, 2, 3), shade_v3(1, 1, 1));
     for (int i = 0; i < 18; i++) {
-        canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(200, 200, 0, SHADE_FORMAT_RGBA8, 1);
         shade_draw_state s = plain_state(&light);
         shade_stats first, second;
         s.projection = shade_mat4_perspective(1, 1, 0.1f, 20);
         s.shading = (shade_shading)(i % 3);
-        canvas_clear(&c, 1);
         shade_target target = c.target;
         target.color = NULL;
         CHECK_INT(shade_draw_mesh(&target, &mesh, &s, &first), SHADE_OK);
@@ -239,11 +236,3 @@ TEST(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass)
         canvas_close(&c);
     }
 }
-
-static const test_case depth_cases[] = {
-    CASE(depth, is_the_same_bits_whatever_is_interpolated),
-    CASE(depth, passes_of_every_pair_of_shadings_agree),
-    CASE(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass),
-};
-
-SECTION(depth);

@@ -557,23 +557,3 @@ TEST(drive, one_draw_equals_its_triangles_drawn_one_by_one)
         canvas_twins_close(c);
     }
 }
-
-static const test_case drive_cases[] = {
-    CASE(drive, missing_pointers_are_bad_arguments),
-    CASE(drive, bad_targets_are_refused_by_every_call),
-    CASE(drive, odd_but_legal_targets_are_taken),
-    CASE(drive, memory_of_2_to_the_32_minus_1_pixels_is_the_largest),
-    CASE(drive, bad_pipelines_are_refused),
-    CASE(drive, bad_indices_are_refused_before_a_pixel_changes),
-    CASE(drive, every_index_is_0_where_there_is_one_vertex),
-    CASE(drive, one_bad_index_anywhere_in_a_long_list_is_found),
-    CASE(drive, no_triangles_is_no_error),
-    CASE(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up),
-    CASE(drive, stats_do_not_depend_on_the_clip_rectangle),
-    CASE(drive, bands_and_rectangles_give_the_bits_of_the_whole),
-    CASE(drive, strips_hold_the_rows_of_the_whole),
-    CASE(drive, drawing_twice_gives_the_same_bits),
-    CASE(drive, one_draw_equals_its_triangles_drawn_one_by_one),
-};
-
-SECTION(drive);

@@ -58,15 +58,11 @@ static int64_t exact_y(exact_lattice l, int p) { return l.first + p / l.side * l
 /* Draws what the sheet holds and compares; returns the number of wrong triangles. */
 static long exact_draw(exact_sheet *s, canvas *c)
 {
-    shade_pipeline p;
     shade_stats stats;
     long wrong = 0;
     long long covered = 0;
-    memset(&p, 0, sizeof p);
-    p.vertex = exact_vertex;
-    p.fragment = exact_fragment;
-    p.uniforms = &s;
-    p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+    shade_pipeline p = { .vertex = exact_vertex, .fragment = exact_fragment, .uniforms = &s,
+                         .raster.depth_test = SHADE_COMPARE_ALWAYS };
     memset(s->got, 0, sizeof s->got);
     stats = canvas_draw(c, &p, 3 * s->count);
     for (int k = 0; k < s->count; k++) {
@@ -118,8 +114,7 @@ static long exact_all(exact_lattice l)
             right[a][b] = (uint16_t)exact_side(l, a, b, -1);
         }
     for (int with_depth = 0; with_depth < 2; with_depth++) {
-        canvas c = canvas_open(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_FORMAT_RGBA8, with_depth);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_FORMAT_RGBA8, with_depth);
         memset(&sheet, 0, sizeof sheet);
         for (int a = 0; a < points; a++) {
             for (int b = a + 1; b < points; b++) {
@@ -281,13 +276,3 @@ TEST(exact, fans_of_slivers_cover_every_pixel_once)
         canvas_close(&c);
     }
 }
-
-static const test_case exact_cases[] = {
-    CASE(exact, every_triangle_on_a_quarter_pixel_lattice),
-    CASE(exact, every_triangle_of_256ths_around_a_centre),
-    CASE(exact, lattice_meshes_cover_every_pixel_once),
-    CASE(exact, strips_across_the_biggest_pictures_cover_every_pixel_once),
-    CASE(exact, fans_of_slivers_cover_every_pixel_once),
-};
-
-SECTION(exact);

@@ -3,24 +3,35 @@
 #include "unit.h"
 #include "stage.h"
 
-/* The words are said where miss is 0.  A sentence of several conditions has a miss for each. */
-#define NEAR(name) static void near_##name(stage *s, int miss)
+/* The words are said where miss is 0, and not where it is 1 .. misses: a sentence of several
+   conditions has a miss for each. */
+typedef struct limit {
+    const char *name, *words;
+    void (*make)(stage *s, int miss);
+    int misses;
+    struct limit *next;
+} limit;
+LISTED(limit);
+#define NEAR(name, misses, words)                                                                  \
+    static void near_##name(stage *s, int miss);                                                   \
+    LIST(limit, name, #name, words, near_##name, misses)                                           \
+    static void near_##name(stage *s, int miss)
 
-NEAR(positions) { s->position[40].x = miss ? 9e11f : 1.1e12f; }
-NEAR(lamp_nan) { s->lamps[1].diffuse.y = miss ? 0.5f : NAN; }
-NEAR(attenuation) { s->lamps[0].linear = miss ? 1e-6f : -1e-6f; }
-NEAR(last_row)
+NEAR(positions, 1, "mesh.positions hold NaN") { s->position[40].x = miss ? 9e11f : 1.1e12f; }
+NEAR(lamp_nan, 1, "holds a NaN") { s->lamps[1].diffuse.y = miss ? 0.5f : NAN; }
+NEAR(attenuation, 1, "quadratic is negative") { s->lamps[0].linear = miss ? 1e-6f : -1e-6f; }
+NEAR(last_row, 1, "The last row")
 {
     s->state.model = shade_mat4_identity();
     s->state.model.col[3].w = miss ? 1.0f : 1.5f;
 }
-NEAR(cutoff)
+NEAR(cutoff, 1, "radians; use shade_radians")
 {
     s->lamps[1] = shade_spot_light(s->eye, shade_neg(s->eye), miss ? 3.1415927f : 45, 0, WHITE);
 }
-NEAR(stats) { s->other_stats = !miss; }
+NEAR(stats, 1, "stats are not") { s->other_stats = !miss; }
 /* w = 1 - z/3: the matrix of a one-point perspective, and translation(1/3, 0, -1/3) by rows */
-NEAR(by_rows)
+NEAR(by_rows, 1, "transposed")
 {
     memset(&s->state.view, 0, sizeof s->state.view);
     s->state.projection = shade_mat4_identity();
@@ -32,7 +43,7 @@ NEAR(by_rows)
         s->state.model = shade_mat4_translation(shade_v3(0, 0, 1.5f));
     }
 }
-NEAR(equal)
+NEAR(equal, 1, "is SHADE_COMPARE_EQUAL")
 {
     s->state.raster.depth_test = SHADE_COMPARE_EQUAL;
     if (miss) {
@@ -43,28 +54,25 @@ NEAR(equal)
         s->clear = NAN;
     }
 }
-NEAR(far_plane)
+NEAR(far_plane, 1, "Every depth of the mesh is the far plane's")
 {
     s->z_near = miss ? 1e-5f : 1e-8f;
     stage_look(s);
 }
-NEAR(view_by_rows)
+NEAR(view_by_rows, 1, "state.view looks transposed")
 {
     if (miss) s->state.view = s->state.projection;
     s->state.view = shade_mat4_transpose(s->state.view);
     if (miss) s->state.projection = shade_mat4_identity();
 }
-NEAR(beyond_far)
+NEAR(beyond_far, 1, "beyond the far plane")
 {
     s->state.model = shade_mat4_translation(shade_v3(0, 0, -200));
     s->state.projection = shade_mat4_ortho(-60, 60, -60, 60, -100, 100);
     if (miss) {    /* a view that moves all corners to the eye */
         memset(&s->state.view, 0, sizeof s->state.view);
         s->state.view.col[3].w = 1;
-        s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, s->z_near);
-        s->state.raster.depth_zero_to_one = 1;
-        s->state.raster.depth_test = SHADE_COMPARE_GREATER;
-        s->clear = 0;
+        stage_reverse(s, s->z_near);
     }
 }
 /* A triangle twice in the same place, which covers most of the picture. */
@@ -77,13 +85,12 @@ static void near_triangles(stage *s)
         s->position[i] = shade_v3(x, y, 0);
         s->normal[i] = shade_v3(0, 0, 1);
     }
-    s->eye = shade_v3(0, 0, 3);
-    stage_look(s);
+    stage_place(s, shade_v3(0, 0, 3), s->center);
     stage_lamp(s, shade_directional_light(shade_v3(0, 0, -1), WHITE));
 }
 /* A lamp that grazes one vertex, and is behind the two others: light of vertices fills the triangle
    from there. */
-NEAR(behind_of_pixels)
+NEAR(behind_of_pixels, 1, "Every lamp is behind")
 {
     near_triangles(s);
     s->mesh.vertex_count = 3;
@@ -96,7 +103,7 @@ NEAR(behind_of_pixels)
     }
 }
 /* The triangle that another one hides does not count. */
-NEAR(material_of_twins)
+NEAR(material_of_twins, 1, "state.material reflects")
 {
     near_triangles(s);
     for (int i = 0; i < 6; i++) s->color[i] = miss && i < 3 ? BLACK : WHITE;
@@ -104,15 +111,14 @@ NEAR(material_of_twins)
     s->lamps[0].specular = s->material.diffuse = BLACK;
 }
 /* A lamp above the eye leaves the ball's lower part in the dark; how much, decides its height. */
-NEAR(behind)
+NEAR(behind, 1, "Every lamp is behind")
 {
     stage_lamp(s, shade_directional_light(shade_v3(0, miss ? -1.5f : -0.3f, 1), WHITE));
-    s->eye = shade_v3(0, 0, 4);
-    stage_look(s);
+    stage_place(s, shade_v3(0, 0, 4), s->center);
 }
 /* A small triangle with a highlight, and a large one with none.  Diffuse light is not asked for,
    but decides whether the large one faces the lamp. */
-NEAR(behind_of_highlights)
+NEAR(behind_of_highlights, 1, "Every lamp is behind")
 {
     near_triangles(s);
     for (int i = 0; i < 6; i++) {
@@ -125,7 +131,7 @@ NEAR(behind_of_highlights)
     s->material.shininess = 60;
 }
 /* Both triangles face away, but the small one shines at a flat angle where highlights are open. */
-NEAR(behind_of_open_highlights)
+NEAR(behind_of_open_highlights, 1, "Every lamp is behind")
 {
     near_behind_of_highlights(s, 0);
     for (int i = 0; i < 6; i++)
@@ -134,13 +140,13 @@ NEAR(behind_of_open_highlights)
     s->state.lighting.flags = miss ? 0 : SHADE_FLAG_UNGATED_SPECULAR;
 }
 /* Wide ones show on more than a tenth. */
-NEAR(behind_of_wide_highlights)
+NEAR(behind_of_wide_highlights, 1, "Every lamp is behind")
 {
     near_behind(s, 0);
     s->state.lighting.flags = miss ? SHADE_FLAG_UNGATED_SPECULAR : 0;
 }
 /* A dim lamp that grazes one vertex is not before the pixels to which its light spreads. */
-NEAR(behind_of_vertices)
+NEAR(behind_of_vertices, 1, "Every lamp is behind")
 {
     near_behind_of_pixels(s, 0);
     s->state.shading = SHADE_SHADING_PER_VERTEX;
@@ -150,7 +156,7 @@ NEAR(behind_of_vertices)
     stage_lamp(s, shade_directional_light(shade_v3(0, 0, 1), shade_v3(0.3f, 0.3f, 0.3f)));
 }
 /* Emission of one channel is light, too. */
-NEAR(behind_of_emission)
+NEAR(behind_of_emission, 3, "Every lamp is behind")
 {
     near_behind(s, 0);
     if (miss == 1) s->material.emission.x = 0.5f;
@@ -158,10 +164,9 @@ NEAR(behind_of_emission)
     if (miss == 3) s->material.emission.z = 0.5f;
 }
 /* A narrow cone on the ball: its light is before faces in view, though it meets few of them. */
-NEAR(behind_of_a_cone)
+NEAR(behind_of_a_cone, 1, "Every lamp is behind")
 {
-    s->eye = shade_v3(0, 0, 4);
-    stage_look(s);
+    stage_place(s, shade_v3(0, 0, 4), s->center);
     stage_lamp(s, stage_spot(s, miss ? 0.02f : 0.2f, 0));
     if (!miss) {
         s->lamps[0].position.z = -6;
@@ -169,7 +174,7 @@ NEAR(behind_of_a_cone)
     }
 }
 /* A spot of light that is white may be meant, and a part of the picture does not tell. */
-NEAR(clipped)
+NEAR(clipped, 2, "is clipped to white")
 {
     shade_light lamp = stage_spot(s, miss == 1 ? 0.02f : 0.25f, 0);
     if (miss == 2) {
@@ -180,18 +185,18 @@ NEAR(clipped)
     lamp.diffuse = lamp.specular = shade_v3(9, 9, 9);
     stage_lamp(s, lamp);
 }
-NEAR(attenuated)
+NEAR(attenuated, 1, "Attenuation")
 {
     s->material.specular = BLACK;
     s->state.lighting.light_count = 1;
     s->lamps[0].quadratic = miss ? 0.2f : 0.4f;    /* 12 and 7 of 255 are left */
 }
-NEAR(cone)
+NEAR(cone, 1, "No cone")
 {
     stage_lamp(s, shade_spot_light(s->eye, shade_v3(0, miss ? -1.0f : 1.0f, -4), 0.2f, 0, WHITE));
 }
 /* The second lamp, which is dark, meets the mesh. */
-NEAR(cone_of_two)
+NEAR(cone_of_two, 1, "No cone")
 {
     const shade_vec3 dark = shade_v3(1e-3f, 1e-3f, 1e-3f);
     near_cone(s, 0);
@@ -199,13 +204,13 @@ NEAR(cone_of_two)
         shade_spot_light(s->eye, shade_v3(0, miss ? 0.0f : 1.0f, -4), 0.2f, 0, dark);
     s->state.lighting.light_count = 2;
 }
-NEAR(no_colour)
+NEAR(no_colour, 1, "no colour")
 {
     const float light = miss ? 0.08f : 0.02f;
     s->material.specular = BLACK;
     stage_lamp(s, shade_point_light(s->eye, shade_v3(light, light, light)));
 }
-NEAR(no_light)
+NEAR(no_light, 1, "There is no light")
 {
     const float light = miss ? 0.06f : 0.03f;
     s->state.lighting.lights = NULL;
@@ -213,49 +218,53 @@ NEAR(no_light)
     s->mesh.normals = NULL;
     s->state.lighting.ambient = shade_v3(light, light, light);
 }
-NEAR(material)
+NEAR(material, 1, "state.material reflects")
 {
     const float albedo = miss ? 0.04f : 0.02f;
     s->material.diffuse = shade_v3(albedo, albedo, albedo);
     s->material.specular = BLACK;
 }
-NEAR(alpha)
+NEAR(alpha, 1, "Alpha is 0")
 {
     s->state.raster.blend = SHADE_BLEND_OVER;
     s->state.transparency = miss ? 0.9f : 0.99f;
 }
 /* Terms that show nothing, and would not show more if none were left out: there is no lamp. */
-NEAR(terms)
+NEAR(terms, 1, "leaves out every term")
 {
     s->state.lighting.terms = SHADE_TERM_EMISSION;
     if (miss) s->state.lighting.light_count = 0;
 }
-NEAR(colors)    /* hidden by highlights, which white colours would not be */
+/* hidden by highlights, which white colours would not be */
+NEAR(colors, 1, "mesh.colors, or the texels")
 {
     for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = miss ? shade_v3(1e-3f, 0, 0) : BLACK;
     s->mesh.colors = &s->color[0].x;
 }
-NEAR(shader) { s->state.fragment = miss ? shader_white : shader_black; }
+NEAR(shader, 1, "leaves all pixels") { s->state.fragment = miss ? shader_white : shader_black; }
 /* Of glass, a shader is said to leave black only where it may have been meant to show. */
-NEAR(shader_of_glass)
+NEAR(shader_of_glass, 1, "leaves all pixels")
 {
     near_shader(s, miss);
     s->state.raster.blend = SHADE_BLEND_OVER;
     s->state.transparency = 0.5f;
 }
-NEAR(shader_of_no_alpha)    /* which is stored */
+NEAR(shader_of_no_alpha, 1, "leaves all pixels")    /* which is stored */
 {
     near_shader(s, miss);
     s->state.transparency = 1;
 }
-NEAR(shader_of_nothing)
+NEAR(shader_of_nothing, 1, "Alpha is 0")
 {
     near_shader(s, 0);
     s->state.raster.blend = SHADE_BLEND_OVER;
     s->state.transparency = miss ? 0.5f : 1.0f;
 }
-NEAR(discards) { s->state.fragment = miss ? shader_white : shader_that_discards; }
-NEAR(inside_out)
+NEAR(discards, 1, "discards all")
+{
+    s->state.fragment = miss ? shader_white : shader_that_discards;
+}
+NEAR(inside_out, 2, "inside out")
 {
     s->mesh.normals = NULL;
     if (!miss) stage_turn(s, 0);
@@ -269,7 +278,7 @@ NEAR(inside_out)
     }
 }
 /* Parallel sight; where the farthest fragment is asked for, backs are what one sees. */
-NEAR(inside_out_of_boxes)
+NEAR(inside_out_of_boxes, 1, "inside out")
 {
     near_inside_out(s, 0);
     s->state.projection = shade_mat4_ortho(-2, 2, -2, 2, 0.1f, 30);
@@ -279,7 +288,7 @@ NEAR(inside_out_of_boxes)
     }
 }
 /* A square, and before it the back of another, which leaves a twentieth or more of it in view */
-NEAR(inside_out_of_nine_tenths)
+NEAR(inside_out_of_nine_tenths, 1, "inside out")
 {
     static const float x[6] = { 0, 1, 1, 0, 1, 0 }, y[6] = { 0, 0, 1, 0, 1, 1 };
     near_triangles(s);
@@ -294,31 +303,30 @@ NEAR(inside_out_of_nine_tenths)
     s->state.raster.cull = SHADE_CULL_BACK;
 }
 /* With a triangle behind the eye, which is within the box then, it may be a room. */
-NEAR(inside_out_around_the_eye)
+NEAR(inside_out_around_the_eye, 1, "inside out")
 {
     near_inside_out_of_nine_tenths(s, 0);
     stage_look(s);
     for (int i = 12; i < 15; i++) s->position[i] = shade_v3((float)(i % 2), (float)(i - 13), 6);
     if (miss) s->mesh.vertex_count = 15;
 }
-NEAR(later)
+NEAR(later, 1, "Triangles drawn later")
 {
     s->state.raster.depth_read_only = 1;
     s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;
 }
 /* A ball of some 60 pixels */
-NEAR(later_of_few)
+NEAR(later_of_few, 1, "Triangles drawn later")
 {
     near_later(s, miss);
-    s->eye = shade_v3(0, 0, 18);
-    stage_look(s);
+    stage_place(s, shade_v3(0, 0, 18), s->center);
 }
-NEAR(always)
+NEAR(always, 1, "Triangles drawn later")
 {
     s->state.raster.depth_test = SHADE_COMPARE_ALWAYS;
     s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;
 }
-NEAR(test_is_turned)
+NEAR(test_is_turned, 2, "does not fit")
 {
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
@@ -326,7 +334,7 @@ NEAR(test_is_turned)
     if (miss == 2) s->state.projection = shade_mat4_ortho(-2, 2, -2, 2, 1, 9);
 }
 /* The nearer of two triangles comes last. */
-NEAR(test_is_turned_of_layers)
+NEAR(test_is_turned_of_layers, 1, "does not fit")
 {
     near_triangles(s);
     for (int i = 3; i < 6; i++) s->position[i].z = miss ? 0.0f : 1.0f;
@@ -334,20 +342,20 @@ NEAR(test_is_turned_of_layers)
     s->clear = 0;
 }
 /* The matrix of perspective_reversed, and one whose planes of equal depth lean */
-NEAR(reversed)
+NEAR(reversed, 1, "perspective_reversed")
 {
     s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, s->z_near);
     if (miss) s->state.projection.col[0].z = 0.2f;
 }
 /* A model so large that its clip coordinates are no numbers */
-NEAR(overflow)
+NEAR(overflow, 1, "mesh.positions hold NaN")
 {
     const shade_mat4 larger = shade_mat4_scaling(shade_v3(9, 9, 9));
     const float size = miss ? 1.0f : 1e38f;
     s->state.model = shade_mat4_scaling(shade_v3(size, size, size));
     s->state.projection = shade_mat4_mul(s->state.projection, larger);
 }
-NEAR(turned)
+NEAR(turned, 1, "point away from the eye")
 {
     for (int i = 0; i < STAGE_VERTICES; i++)
         if (s->position[i].x < (miss ? -0.3f : 0.3f)) s->normal[i] = shade_neg(s->normal[i]);
@@ -370,7 +378,7 @@ static void near_turned_by_normals(stage *s, float side)
         }
     }
 }
-NEAR(normals_as_colours)    /* all of them, or all but one */
+NEAR(normals_as_colours, 3, "no negative component")    /* all of them, or all but one */
 {
     for (int i = 0; i < STAGE_VERTICES; i++) {
         s->normal[i] = shade_scale(shade_add(s->normal[i], WHITE), 0.5f);
@@ -379,13 +387,13 @@ NEAR(normals_as_colours)    /* all of them, or all but one */
     if (miss == 2) near_turned_by_normals(s, -1);
     if (miss == 3) near_turned_by_normals(s, 1);
 }
-NEAR(stored_alpha)
+NEAR(stored_alpha, 1, "stored as alpha")
 {
     s->state.transparency = 0.5f;
     s->state.raster.blend = miss ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
 }
 /* What is white at half of its light as well */
-NEAR(stored_alpha_of_white)
+NEAR(stored_alpha_of_white, 1, "stored as alpha")
 {
     near_triangles(s);
     near_stored_alpha(s, 0);
@@ -394,8 +402,8 @@ NEAR(stored_alpha_of_white)
     s->material.specular = BLACK;
     if (miss) stage_lamp(s, shade_directional_light(shade_v3(0, 0, -1), shade_v3(9, 9, 9)));
 }
-NEAR(shininess) { s->material.shininess = miss ? 1.0f : 0.9f; }
-NEAR(emission)
+NEAR(shininess, 1, "shininess is below 1") { s->material.shininess = miss ? 1.0f : 0.9f; }
+NEAR(emission, 5, "emission alone")
 {
     s->material.emission = shade_v3(1, 1, miss == 1 ? 0.99f : 1.0f);
     if (miss == 2) s->target.format = SHADE_FORMAT_RGBA32F;
@@ -403,27 +411,24 @@ NEAR(emission)
     if (miss == 4) s->material.diffuse = BLACK;
     if (miss == 5) s->material.emission.y = 0.99f;
 }
-NEAR(bias) { s->state.raster.depth_bias = miss ? -0.9f : -1.0f; }
+NEAR(bias, 1, "depth of all pixels") { s->state.raster.depth_bias = miss ? -0.9f : -1.0f; }
 /* A mesh that a view without its last 1 puts at one depth, beyond far or not */
-NEAR(beside_of_one_depth)
+NEAR(beside_of_one_depth, 1, "beside the picture, before near")
 {
     s->state.view.col[3].w = 0;
     s->state.projection = shade_mat4_mul(s->state.projection, s->state.view);
     memset(&s->state.view, 0, sizeof s->state.view);
     if (miss) s->state.projection = shade_mat4_perspective(s->fovy, s->aspect, 50, 90);
 }
-NEAR(clip)
+NEAR(clip, 1, "lies beyond the picture")
 {
     s->target.clip_x = 40;
     s->target.clip_width = miss ? STAGE_WIDTH - 40 : STAGE_WIDTH - 39;
     s->target.clip_height = STAGE_HEIGHT - 1;
 }
-NEAR(box)
+NEAR(box, 2, "does not hold its triangles")
 {
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(-1, -1, -1);
-    s->chunk.high = shade_v3(1, miss ? 1 : 0.999f, 1);
+    stage_chunk(s, shade_v3(-1, -1, -1), shade_v3(1, miss ? 1 : 0.999f, 1));
     if (miss == 2) {    /* a part without triangles has a box, and no need of one */
         s->mesh.chunks = s->chunks;
         s->mesh.chunk_count = 2;
@@ -432,7 +437,7 @@ NEAR(box)
         s->chunks[1].count = 0;
     }
 }
-NEAR(unset_view)
+NEAR(unset_view, 2, "state.view is unset")
 {
     memset(&s->state.view, 0, sizeof s->state.view);
     s->state.model = shade_mat4_translation(shade_v3(0, 0, miss ? -3.0f : -0.5f));
@@ -444,7 +449,7 @@ NEAR(unset_view)
     }
 }
 /* A second eye is told where highlights need it. */
-NEAR(second_eye)
+NEAR(second_eye, 2, "Highlights belong")
 {
     const shade_mat4 there = shade_mat4_translation(shade_v3(0, 0, -4));
     s->state.view = shade_mat4_identity();
@@ -465,13 +470,13 @@ NEAR(second_eye)
     }
 }
 /* Beside a map, which highlights do not multiply, they are lit apart. */
-NEAR(second_eye_of_vertices)
+NEAR(second_eye_of_vertices, 1, "Highlights belong")
 {
     near_second_eye(s, miss);
     stage_map(s);
     s->state.shading = SHADE_SHADING_PER_VERTEX;
 }
-NEAR(texels)
+NEAR(texels, 2, "reach the width")
 {
     stage_map(s);
     s->map.width = 16;
@@ -480,7 +485,7 @@ NEAR(texels)
         s->texcoord[i] =
             shade_scale2(s->texcoord[i], miss == 1 ? 14.0f : miss == 2 ? 16.5f : 15.5f);
 }
-NEAR(aspect)    /* 4 % and 2 % wide */
+NEAR(aspect, 4, "The aspect of")    /* 4 % and 2 % wide */
 {
     s->aspect = miss == 1 ? 1.53f : 1.56f;
     stage_look(s);
@@ -493,7 +498,7 @@ NEAR(aspect)    /* 4 % and 2 % wide */
     }
 }
 /* 80 x 24 cells, twice as high as wide: the picture's aspect is 160 / 24 of the screen */
-NEAR(aspect_of_cells)
+NEAR(aspect_of_cells, 1, "The aspect of")
 {
     s->target.width = 80;
     s->target.height = 24;
@@ -501,7 +506,7 @@ NEAR(aspect_of_cells)
     stage_look(s);
 }
 
-NEAR(aspect_of_pixels)    /* no terminal has so many rows */
+NEAR(aspect_of_pixels, 1, "The aspect of")    /* no terminal has so many rows */
 {
     s->target.width = s->target.stride = 48;
     s->target.height = miss ? 127 : 128;
@@ -509,62 +514,16 @@ NEAR(aspect_of_pixels)    /* no terminal has so many rows */
     stage_look(s);
 }
 
-#define ROW_OF(name, words, misses) { #name, words, near_##name, misses }
-#define ROW(name, words) ROW_OF(name, words, 1)
-static const struct near {
-    const char *name, *words;
-    void (*make)(stage *, int);
-    int misses;
-} nears[] = {
-    ROW(positions, "mesh.positions hold NaN"), ROW(lamp_nan, "holds a NaN"),
-    ROW(attenuation, "quadratic is negative"), ROW(last_row, "The last row"),
-    ROW(cutoff, "radians; use shade_radians"), ROW(stats, "stats are not"),
-    ROW(by_rows, "transposed"), ROW(equal, "is SHADE_COMPARE_EQUAL"),
-    ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
-    ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
-    ROW(second_eye_of_vertices, "Highlights belong"), ROW_OF(clipped, "is clipped to white", 2),
-    ROW(behind_of_highlights, "Every lamp is behind"),
-    ROW(behind_of_open_highlights, "Every lamp is behind"),
-    ROW(behind_of_wide_highlights, "Every lamp is behind"),
-    ROW(behind_of_vertices, "Every lamp is behind"), ROW(cone_of_two, "No cone"),
-    ROW(test_is_turned_of_layers, "does not fit"), ROW(later_of_few, "Triangles drawn later"),
-    ROW(stored_alpha_of_white, "stored as alpha"),
-    ROW_OF(behind_of_emission, "Every lamp is behind", 3),
-    ROW(cone, "No cone"), ROW(no_colour, "no colour"), ROW(no_light, "There is no light"),
-    ROW(material, "state.material reflects"), ROW(alpha, "Alpha is 0"),
-    ROW(terms, "leaves out every term"), ROW(colors, "mesh.colors, or the texels"),
-    ROW(shader, "leaves all pixels"), ROW(discards, "discards all"),
-    ROW(shader_of_glass, "leaves all pixels"), ROW(shader_of_nothing, "Alpha is 0"),
-    ROW(shader_of_no_alpha, "leaves all pixels"),
-    ROW(reversed, "perspective_reversed"), ROW(overflow, "mesh.positions hold NaN"),
-    ROW_OF(second_eye, "Highlights belong", 2), ROW(view_by_rows, "state.view looks transposed"),
-    ROW(beyond_far, "beyond the far plane"), ROW(behind_of_pixels, "Every lamp is behind"),
-    ROW(material_of_twins, "state.material reflects"),
-    ROW_OF(inside_out, "inside out", 2), ROW(inside_out_of_boxes, "inside out"),
-    ROW(inside_out_of_nine_tenths, "inside out"),
-    ROW(inside_out_around_the_eye, "inside out"),
-    ROW(later, "Triangles drawn later"), ROW(always, "Triangles drawn later"),
-    ROW_OF(test_is_turned, "does not fit", 2),
-    ROW(turned, "point away from the eye"), ROW_OF(normals_as_colours, "no negative component", 3),
-    ROW(stored_alpha, "stored as alpha"), ROW(shininess, "shininess is below 1"),
-    ROW_OF(emission, "emission alone", 5), ROW(bias, "depth of all pixels"),
-    ROW(beside_of_one_depth, "beside the picture, before near"),
-    ROW(clip, "lies beyond the picture"), ROW_OF(box, "does not hold its triangles", 2),
-    ROW_OF(unset_view, "state.view is unset", 2), ROW_OF(texels, "reach the width", 2),
-    ROW_OF(aspect, "The aspect of", 4), ROW(aspect_of_cells, "The aspect of"),
-    ROW(aspect_of_pixels, "The aspect of"),
-};
-
 TEST(explain_more, each_sentence_has_its_limit)
 {
     stage *s = stage_open();
-    for (int k = 0; k < TEST_COUNT(nears); k++)
-        for (int miss = 0; miss <= nears[k].misses; miss++) {
+    for (const limit *l = limit_first; l; l = l->next)
+        for (int miss = 0; miss <= l->misses; miss++) {
             stage_of_ball(s);
-            nears[k].make(s, miss);
+            l->make(s, miss);
             const char *said = stage_explain(s, 1);
-            CHECK_SAY((strstr(said, nears[k].words) == NULL) == (miss > 0), "%s, miss %d: \"%s\"",
-                      nears[k].name, miss, said);
+            CHECK_SAY((strstr(said, l->words) == NULL) == (miss > 0), "%s, miss %d: \"%s\"",
+                      l->name, miss, said);
         }
     free(s);
 }
@@ -644,13 +603,3 @@ TEST(explain_more, a_shader_that_lights_one_channel_leaves_no_black)
     }
     free(s);
 }
-
-static const test_case explain_more_cases[] = {
-    CASE(explain_more, each_sentence_has_its_limit),
-    CASE(explain_more, a_bias_that_shows_a_far_mesh_is_not_called_far),
-    CASE(explain_more, of_more_than_sixteen_lamps_none_is_said_to_be_behind),
-    CASE(explain_more, aspect_and_depth_are_those_of_the_camera),
-    CASE(explain_more, a_shader_that_lights_one_channel_leaves_no_black),
-};
-
-SECTION(explain_more);

@@ -146,26 +146,61 @@ static shade_result piped_say(piped *p, int lines, const char *said[2])
 
 /* ---- mistakes.  Those of both draws come first. */
 
-#define PIPED(name) static void piped_##name(piped *p)
-PIPED(nothing) { (void)p; }
-PIPED(no_target) { p->given_target = NULL; }
-PIPED(no_size) { p->target.width = 0; }
-PIPED(no_memory) { p->target.color = p->target.depth = NULL; }
-PIPED(clip_outside) { p->target.clip_x = 90; p->target.clip_width = p->target.clip_height = 9; }
-PIPED(clip_beside) { p->target.clip_width = p->target.clip_height = 3; }
-PIPED(strip_beside_clip)
+enum { OF_DRAW = 1, OF_LINES = 2, OF_BOTH = 3, AFTERWARDS = 4, STATS_ALONE = 8 };
+typedef struct piped_mistake {
+    const char *name, *words;    /* "": nothing is said */
+    void (*make)(piped *p);
+    int of;
+    struct piped_mistake *next;
+} piped_mistake;
+LISTED(piped_mistake);
+#define PIPED(name, of, words)                                                                     \
+    static void piped_##name(piped *p);                                                            \
+    PIPED_IN(name, name, of, words)                                                                \
+    static void piped_##name(piped *p)
+/* The same mistake, which has other words in one of the draws. */
+#define PIPED_IN(name, entry, of, words)                                                           \
+    LIST(piped_mistake, entry, #name, words, piped_##name, of)
+PIPED(nothing, OF_BOTH, "") { (void)p; }
+PIPED(no_target, OF_BOTH, "target") { p->given_target = NULL; }
+PIPED(no_size, OF_BOTH, "target.width") { p->target.width = 0; }
+PIPED(no_memory, OF_BOTH, "target.color and target.depth")
+{
+    p->target.color = p->target.depth = NULL;
+}
+PIPED(clip_outside, OF_BOTH, "clip rectangle is empty")
+{
+    p->target.clip_x = 90; p->target.clip_width = p->target.clip_height = 9;
+}
+PIPED(clip_beside, OF_BOTH, "beside the clip rectangle")
+{
+    p->target.clip_width = p->target.clip_height = 3;
+}
+PIPED(strip_beside_clip, OF_BOTH, "")
 {
     p->target.clip_width = 80;
     p->target.clip_height = 10;
     p->target.row_offset = 30;
     p->target.row_count = 10;
 }
-PIPED(band_beside) { p->target.clip_width = PIPED_W; p->target.clip_height = 3; }
-PIPED(fovy_in_degrees) { p->projection = shade_mat4_perspective(45, 1, 0.5f, 30); }
-PIPED(near_is_far) { p->projection = shade_mat4_perspective(0.8f, 1, 30, 30); }
-PIPED(near_too_far) { p->projection = shade_mat4_perspective(0.8f, 1, 20, 30); }
-PIPED(far_too_near) { p->projection = shade_mat4_perspective(0.8f, 1, 0.5f, 2); }
-PIPED(eye_turned)
+PIPED(band_beside, OF_BOTH, "") { p->target.clip_width = PIPED_W; p->target.clip_height = 3; }
+PIPED(fovy_in_degrees, OF_BOTH, "degrees")
+{
+    p->projection = shade_mat4_perspective(45, 1, 0.5f, 30);
+}
+PIPED(near_is_far, OF_BOTH, "near = far")
+{
+    p->projection = shade_mat4_perspective(0.8f, 1, 30, 30);
+}
+PIPED(near_too_far, OF_BOTH, "near plane")
+{
+    p->projection = shade_mat4_perspective(0.8f, 1, 20, 30);
+}
+PIPED(far_too_near, OF_BOTH, "far plane")
+{
+    p->projection = shade_mat4_perspective(0.8f, 1, 0.5f, 2);
+}
+PIPED(eye_turned, OF_BOTH, "behind the eye")
 {
     p->view = shade_mat4_look_at(shade_v3(1, 2, 5), shade_v3(2, 4, 10), shade_v3(0, 1, 0));
     p->projection = shade_mat4_perspective_reversed(0.8f, 1, 0.5f);
@@ -173,121 +208,151 @@ PIPED(eye_turned)
     p->pipe.raster.depth_zero_to_one = p->lines.raster.depth_zero_to_one = 1;
     p->clear = 0;
 }
-PIPED(looks_aside)
+PIPED(looks_aside, OF_BOTH, "beside the picture")
 {
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(9, 0, 3), shade_v3(0, 1, 0));
 }
-PIPED(view_nan) { p->view.col[1].y = (float)NAN; }
-PIPED(depth_zero) { p->clear = 0; }
-PIPED(depth_nan) { p->clear = (float)NAN; }
-PIPED(test_greater)
+PIPED(view_nan, OF_BOTH, "NaN") { p->view.col[1].y = (float)NAN; }
+PIPED(depth_zero, OF_BOTH, "shade_clear") { p->clear = 0; }
+PIPED(depth_nan, OF_BOTH, "shade_clear") { p->clear = (float)NAN; }
+PIPED(test_greater, OF_BOTH, "shade_clear")
 {
     p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER;
 }
-PIPED(test_equal) { p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_EQUAL; }
-PIPED(hidden) { p->clear = 0.01f; }
-PIPED(bad_test) { p->pipe.raster.depth_test = p->lines.raster.depth_test = (shade_compare)9; }
-PIPED(bad_blend) { p->pipe.raster.blend = p->lines.raster.blend = (shade_blend)9; }
-PIPED(bias_nan) { p->pipe.raster.depth_bias = p->lines.raster.depth_bias = (float)NAN; }
-PIPED(alpha_zero)
+PIPED(test_equal, OF_BOTH, "SHADE_COMPARE_EQUAL")
+{
+    p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_EQUAL;
+}
+PIPED(hidden, OF_BOTH | STATS_ALONE, "Everything is hidden") { p->clear = 0.01f; }
+PIPED(bad_test, OF_BOTH, "raster.depth_test")
+{
+    p->pipe.raster.depth_test = p->lines.raster.depth_test = (shade_compare)9;
+}
+PIPED(bad_blend, OF_BOTH, "raster.blend")
+{
+    p->pipe.raster.blend = p->lines.raster.blend = (shade_blend)9;
+}
+PIPED(bias_nan, OF_BOTH, "raster.depth_bias")
+{
+    p->pipe.raster.depth_bias = p->lines.raster.depth_bias = (float)NAN;
+}
+PIPED(alpha_zero, OF_BOTH, "Alpha is 0")
 {
     p->pipe.raster.blend = p->lines.raster.blend = SHADE_BLEND_OVER;
     p->lines.color.w = p->uniforms.color[3] = 0;
 }
-PIPED(adds_black)
+PIPED(adds_black, OF_BOTH, "adds nothing")
 {
     p->pipe.raster.blend = p->lines.raster.blend = SHADE_BLEND_ADD;
     for (int k = 0; k < 3; k++) (&p->lines.color.x)[k] = p->uniforms.color[k] = 0;
 }
-PIPED(colors_of_255)
+PIPED(colors_of_255, OF_BOTH, "255")
 {
     for (int k = 0; k < 3; k++) {
         (&p->lines.color.x)[k] *= 255;
         p->uniforms.color[k] *= 255;
     }
 }
-PIPED(colors_of_255_in_floats)
+PIPED(colors_of_255_in_floats, OF_BOTH, "")
 {
     piped_colors_of_255(p);
     p->target.format = SHADE_FORMAT_RGBA32F;    /* the memory of four pixels for each */
     p->target.width /= 2;
     p->target.height /= 2;
 }
-PIPED(without_colors) { p->target.color = NULL; }
-PIPED(without_colors_discards_some)
+PIPED(without_colors, OF_BOTH, "") { p->target.color = NULL; }
+PIPED(without_colors_discards_some, OF_DRAW, "")
 {
     p->target.color = NULL;
     p->pipe.may_discard = 1;
     p->uniforms.discards = 2;
 }
 /* Cameras that lines must not take for a matrix that is wrong */
-PIPED(looks_down)
+PIPED(looks_down, OF_BOTH, "")
 {
     p->view = shade_mat4_look_at(shade_v3(0, 2, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
 }
-PIPED(eye_at_the_origin)
+PIPED(eye_at_the_origin, OF_BOTH, "")
 {
     p->view = shade_mat4_identity();
     for (int k = 0; k < PIPED_CORNERS; k++) p->position[3 * k + 2] -= 5;
     for (int k = 0; k < PIPED_POINTS; k++) p->point[k].z -= 5;
 }
-PIPED(eye_at_the_origin_reversed)
+PIPED(eye_at_the_origin_reversed, OF_BOTH, "")
 {
     piped_eye_turned(p);
     piped_eye_at_the_origin(p);
 }
-PIPED(no_pipeline) { p->given_pipe = NULL; }
-PIPED(no_vertex) { p->pipe.vertex = NULL; }
-PIPED(bad_interpolation) { p->pipe.interpolation = (shade_interpolation)7; }
-PIPED(too_many_varyings) { p->pipe.varyings = 65; }
-PIPED(bad_cull) { p->pipe.raster.cull = (shade_cull)7; }
+PIPED(no_pipeline, OF_DRAW, "pipeline") { p->given_pipe = NULL; }
+PIPED(no_vertex, OF_DRAW, "pipeline.vertex") { p->pipe.vertex = NULL; }
+PIPED(bad_interpolation, OF_DRAW, "pipeline.interpolation")
+{
+    p->pipe.interpolation = (shade_interpolation)7;
+}
+PIPED(too_many_varyings, OF_DRAW, "pipeline.varyings") { p->pipe.varyings = 65; }
+PIPED(bad_cull, OF_DRAW, "raster.cull") { p->pipe.raster.cull = (shade_cull)7; }
 static const shade_texture piped_map = { NULL, 4, 4, 0, SHADE_FORMAT_RGBA8, 0, SHADE_WRAP_REPEAT,
                                          SHADE_WRAP_REPEAT, SHADE_FILTER_BILINEAR, NULL, 0 };
-PIPED(lod_without_varyings) { p->pipe.lod_texture = &piped_map; }
-PIPED(lod_without_pixels) { p->pipe.lod_texture = &piped_map; p->pipe.varyings = 2; }
-PIPED(negative_count) { p->index_count = -3; }
-PIPED(count_of_triangles) { p->index_count = 2; }
-PIPED(index_past) { p->index[4] = 6; }
-PIPED(too_few_vertices) { p->indices = NULL; p->vertex_count = 3; }
-PIPED(no_triangle) { p->index_count = 0; }
-PIPED(w_forgotten) { p->uniforms.keeps_w = 1; }
-PIPED(wound_clockwise)
+PIPED(lod_without_varyings, OF_DRAW, "pipeline.lod_varying") { p->pipe.lod_texture = &piped_map; }
+PIPED(lod_without_pixels, OF_DRAW, "texture's pixels")
+{
+    p->pipe.lod_texture = &piped_map; p->pipe.varyings = 2;
+}
+PIPED(negative_count, OF_DRAW, "index_count") { p->index_count = -3; }
+PIPED(count_of_triangles, OF_DRAW, "multiple of 3") { p->index_count = 2; }
+PIPED(index_past, OF_DRAW, "vertex_count") { p->index[4] = 6; }
+PIPED(too_few_vertices, OF_DRAW, "vertex_count") { p->indices = NULL; p->vertex_count = 3; }
+PIPED(no_triangle, OF_DRAW, "no triangle") { p->index_count = 0; }
+PIPED(w_forgotten, OF_DRAW, "out->clip[3]") { p->uniforms.keeps_w = 1; }
+PIPED(wound_clockwise, OF_DRAW, "SHADE_CULL_BACK")
 {
     p->pipe.raster.cull = SHADE_CULL_BACK;
     for (int k = 0; k < PIPED_CORNERS; k++) p->index[k] = (uint32_t)(PIPED_CORNERS - 1 - k);
 }
-PIPED(fronts_culled) { p->pipe.raster.cull = SHADE_CULL_FRONT; }
-PIPED(corners_coincide) { for (int k = 0; k < PIPED_CORNERS; k++) p->index[k] = 1; }
-PIPED(discards_all) { p->pipe.may_discard = p->uniforms.discards = 1; }
-PIPED(discards_some) { p->pipe.may_discard = 1; p->uniforms.discards = 2; }
-PIPED(discard_not_allowed) { p->uniforms.discards = 2; }
-PIPED(no_fragment) { p->pipe.fragment = NULL; p->target.depth = NULL; }
-PIPED(depth_alone) { p->pipe.fragment = NULL; }
-PIPED(depth_not_written) { p->pipe.fragment = NULL; p->pipe.raster.depth_read_only = 1; }
-PIPED(black) { p->uniforms.color[0] = p->uniforms.color[1] = p->uniforms.color[2] = 0; }
-PIPED(outlines)
+PIPED(fronts_culled, OF_DRAW, "SHADE_CULL_FRONT") { p->pipe.raster.cull = SHADE_CULL_FRONT; }
+PIPED(corners_coincide, OF_DRAW, "coincide")
+{
+    for (int k = 0; k < PIPED_CORNERS; k++) p->index[k] = 1;
+}
+PIPED(discards_all, OF_DRAW, "discards all") { p->pipe.may_discard = p->uniforms.discards = 1; }
+PIPED(discards_some, OF_DRAW, "") { p->pipe.may_discard = 1; p->uniforms.discards = 2; }
+PIPED(discard_not_allowed, OF_DRAW, "may_discard") { p->uniforms.discards = 2; }
+PIPED(no_fragment, OF_DRAW, "pipeline.fragment is NULL")
+{
+    p->pipe.fragment = NULL; p->target.depth = NULL;
+}
+PIPED(depth_alone, OF_DRAW, "") { p->pipe.fragment = NULL; }
+PIPED(depth_not_written, OF_DRAW, "depth_read_only")
+{
+    p->pipe.fragment = NULL; p->pipe.raster.depth_read_only = 1;
+}
+PIPED(black, OF_DRAW, "black")
+{
+    p->uniforms.color[0] = p->uniforms.color[1] = p->uniforms.color[2] = 0;
+}
+PIPED(outlines, OF_DRAW, "")
 {
     piped_wound_clockwise(p);
     p->pipe.raster.cull = SHADE_CULL_FRONT;
     piped_black(p);
 }
-PIPED(black_nan) { for (int k = 0; k < 3; k++) p->uniforms.color[k] = (float)NAN; }
-PIPED(shadow)
+PIPED(black_nan, OF_DRAW, "NaN") { for (int k = 0; k < 3; k++) p->uniforms.color[k] = (float)NAN; }
+PIPED(shadow, OF_DRAW, "")
 {
     p->pipe.raster.blend = SHADE_BLEND_OVER;
     piped_black(p);
     p->uniforms.color[3] = 0.5f;
 }
-PIPED(no_state) { p->given_lines = NULL; }
-PIPED(no_points) { p->points = NULL; }
-PIPED(odd_points) { p->point_count = 23; }
-PIPED(no_line) { p->point_count = 0; }
-PIPED(negative_width) { p->lines.width = -1; }
-PIPED(width_nan) { p->lines.width = (float)NAN; }
-PIPED(bad_cap) { p->lines.cap = (shade_cap)5; }
-PIPED(point_nan) { p->point[3].y = (float)NAN; }
-PIPED(hairs) { p->lines.width = 1e-6f; }
-PIPED(in_a_surface)
+PIPED(no_state, OF_LINES, "state") { p->given_lines = NULL; }
+PIPED(no_points, OF_LINES, "points") { p->points = NULL; }
+PIPED(odd_points, OF_LINES, "point_count") { p->point_count = 23; }
+PIPED(no_line, OF_LINES, "point_count is 0") { p->point_count = 0; }
+PIPED(negative_width, OF_LINES, "state.width") { p->lines.width = -1; }
+PIPED(width_nan, OF_LINES, "state.width") { p->lines.width = (float)NAN; }
+PIPED(bad_cap, OF_LINES, "state.cap") { p->lines.cap = (shade_cap)5; }
+PIPED(point_nan, OF_LINES, "NaN") { p->point[3].y = (float)NAN; }
+PIPED(hairs, OF_LINES, "state.width") { p->lines.width = 1e-6f; }
+PIPED(in_a_surface, OF_LINES | STATS_ALONE, "depth_bias")
 {
     p->over_quad = 1;
     p->point_count = 2;
@@ -295,151 +360,67 @@ PIPED(in_a_surface)
     p->point[1] = shade_v3(0.5f, 0, 0);
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
 }
-PIPED(behind_a_surface)
+PIPED(behind_a_surface, OF_LINES, "")
 {
     piped_in_a_surface(p);
     p->point[0].z = p->point[1].z = -1;
 }
-PIPED(color_forgotten) { p->lines.color = shade_v4(0, 0, 0, 0); }
-PIPED(black_lines) { p->lines.color = shade_v4(0, 0, 0, 1); }
+PIPED(color_forgotten, OF_LINES, "state.color") { p->lines.color = shade_v4(0, 0, 0, 0); }
+PIPED(black_lines, OF_LINES, "") { p->lines.color = shade_v4(0, 0, 0, 1); }
 
-PIPED(in_a_box) { p->projection = shade_mat4_ortho(-3, 3, -3, 3, 0, 20); }
-PIPED(box_beside) { p->projection = shade_mat4_ortho(30, 33, -3, 3, 0, 20); }
+PIPED(in_a_box, OF_BOTH, "") { p->projection = shade_mat4_ortho(-3, 3, -3, 3, 0, 20); }
+PIPED(box_beside, OF_BOTH, "beside the picture")
+{
+    p->projection = shade_mat4_ortho(30, 33, -3, 3, 0, 20);
+}
 
 /* Mistakes that are made after the product of projection and view. */
-PIPED(matrix_forgotten)
+PIPED(matrix_forgotten, OF_LINES | AFTERWARDS, "unset")
 {
     for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = shade_scale(p->point[k], 3);
     memset(&p->lines.clip_from_points, 0, sizeof p->lines.clip_from_points);
 }
-PIPED(no_matrix_needed)
+PIPED(no_matrix_needed, OF_LINES | AFTERWARDS, "")
 {
     for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = shade_scale(p->point[k], 0.5f);
     memset(&p->lines.clip_from_points, 0, sizeof p->lines.clip_from_points);
 }
-PIPED(matrix_of_no_camera) { p->lines.clip_from_points.col[0].z += 0.3f; }
-PIPED(matrix_by_rows)
+PIPED(matrix_of_no_camera, OF_LINES | AFTERWARDS, "")
+{
+    p->lines.clip_from_points.col[0].z += 0.3f;
+}
+PIPED(matrix_by_rows, OF_LINES | AFTERWARDS, "transposed")
 {
     p->lines.clip_from_points = shade_mat4_transpose(p->lines.clip_from_points);
 }
-PIPED(matrix_by_rows_ahead)
+PIPED(matrix_by_rows_ahead, OF_LINES | AFTERWARDS, "transposed")
 {
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     piped_aim(p);
     piped_matrix_by_rows(p);
 }
-PIPED(matrix_of_a_box_by_rows)
+PIPED(matrix_of_a_box_by_rows, OF_LINES | AFTERWARDS, "transposed")
 {
     p->projection = shade_mat4_ortho(-5, 3, -4, 3, 3, 20);
     piped_aim(p);
     piped_matrix_by_rows(p);
 }
-PIPED(matrices_exchanged)
+PIPED(matrices_exchanged, OF_DRAW | AFTERWARDS, "projection times view")
 {
     const shade_mat4 m = shade_mat4_mul(p->view, p->projection);
     p->lines.clip_from_points = p->uniforms.clip_from_world = m;
 }
-PIPED(matrices_exchanged_ahead)
+PIPED(matrices_exchanged_ahead, OF_LINES | AFTERWARDS, "view times projection")
 {
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     piped_matrices_exchanged(p);
 }
-
-enum { OF_DRAW = 1, OF_LINES = 2, OF_BOTH = 3, AFTERWARDS = 4, STATS_ALONE = 8 };
-static const struct piped_mistake {
-    int of;
-    void (*make)(piped *p);
-    const char *words; /* "" : nothing is said */
-} piped_mistakes[] = {
-    { OF_BOTH, piped_nothing, "" },
-    { OF_BOTH, piped_no_target, "target" },
-    { OF_BOTH, piped_no_size, "target.width" },
-    { OF_BOTH, piped_no_memory, "target.color and target.depth" },
-    { OF_BOTH, piped_clip_outside, "clip rectangle is empty" },
-    { OF_BOTH, piped_clip_beside, "beside the clip rectangle" },
-    { OF_BOTH, piped_strip_beside_clip, "" },
-    { OF_BOTH, piped_band_beside, "" },
-    { OF_BOTH, piped_fovy_in_degrees, "degrees" },
-    { OF_BOTH, piped_near_is_far, "near = far" },
-    { OF_BOTH, piped_near_too_far, "near plane" },
-    { OF_BOTH, piped_far_too_near, "far plane" },
-    { OF_BOTH, piped_eye_turned, "behind the eye" },
-    { OF_BOTH, piped_looks_aside, "beside the picture" },
-    { OF_BOTH, piped_view_nan, "NaN" },
-    { OF_BOTH, piped_depth_zero, "shade_clear" },
-    { OF_BOTH, piped_depth_nan, "shade_clear" },
-    { OF_BOTH, piped_test_greater, "shade_clear" },
-    { OF_BOTH, piped_test_equal, "SHADE_COMPARE_EQUAL" },
-    { OF_BOTH | STATS_ALONE, piped_hidden, "hides everything" },
-    { OF_BOTH, piped_bad_test, "raster.depth_test" },
-    { OF_BOTH, piped_bad_blend, "raster.blend" },
-    { OF_BOTH, piped_bias_nan, "raster.depth_bias" },
-    { OF_BOTH, piped_alpha_zero, "Alpha is 0" },
-    { OF_BOTH, piped_adds_black, "adds nothing" },
-    { OF_BOTH, piped_colors_of_255, "255" },
-    { OF_BOTH, piped_colors_of_255_in_floats, "" },
-    { OF_BOTH, piped_without_colors, "" },
-    { OF_BOTH, piped_looks_down, "" },
-    { OF_BOTH, piped_eye_at_the_origin, "" },
-    { OF_BOTH, piped_eye_at_the_origin_reversed, "" },
-    { OF_BOTH, piped_in_a_box, "" },
-    { OF_BOTH, piped_box_beside, "beside the picture" },
-    { OF_DRAW, piped_no_pipeline, "pipeline" },
-    { OF_DRAW, piped_no_vertex, "pipeline.vertex" },
-    { OF_DRAW, piped_bad_interpolation, "pipeline.interpolation" },
-    { OF_DRAW, piped_too_many_varyings, "pipeline.varyings" },
-    { OF_DRAW, piped_bad_cull, "raster.cull" },
-    { OF_DRAW, piped_lod_without_varyings, "pipeline.lod_varying" },
-    { OF_DRAW, piped_lod_without_pixels, "texture's pixels" },
-    { OF_DRAW, piped_negative_count, "index_count" },
-    { OF_DRAW, piped_count_of_triangles, "multiple of 3" },
-    { OF_DRAW, piped_index_past, "vertex_count" },
-    { OF_DRAW, piped_too_few_vertices, "vertex_count" },
-    { OF_DRAW, piped_no_triangle, "no triangle" },
-    { OF_DRAW, piped_w_forgotten, "out->clip[3]" },
-    { OF_DRAW, piped_wound_clockwise, "SHADE_CULL_BACK" },
-    { OF_DRAW, piped_fronts_culled, "SHADE_CULL_FRONT" },
-    { OF_DRAW, piped_corners_coincide, "coincide" },
-    { OF_DRAW, piped_discards_all, "discards all" },
-    { OF_DRAW, piped_discards_some, "" },
-    { OF_DRAW, piped_discard_not_allowed, "may_discard" },
-    { OF_DRAW, piped_no_fragment, "pipeline.fragment is NULL" },
-    { OF_DRAW, piped_depth_alone, "" },
-    { OF_DRAW, piped_depth_not_written, "depth_read_only" },
-    { OF_DRAW, piped_black, "black" },
-    { OF_DRAW, piped_outlines, "" },
-    { OF_DRAW, piped_without_colors_discards_some, "" },
-    { OF_DRAW, piped_black_nan, "NaN" },
-    { OF_DRAW, piped_shadow, "" },
-    { OF_DRAW | AFTERWARDS, piped_matrices_exchanged, "projection times view" },
-    { OF_LINES, piped_no_state, "state" },
-    { OF_LINES, piped_no_points, "points" },
-    { OF_LINES, piped_odd_points, "point_count" },
-    { OF_LINES, piped_no_line, "point_count is 0" },
-    { OF_LINES, piped_negative_width, "state.width" },
-    { OF_LINES, piped_width_nan, "state.width" },
-    { OF_LINES, piped_bad_cap, "state.cap" },
-    { OF_LINES, piped_point_nan, "NaN" },
-    { OF_LINES, piped_hairs, "state.width" },
-    { OF_LINES | STATS_ALONE, piped_in_a_surface, "depth_bias" },
-    { OF_LINES, piped_behind_a_surface, "" },
-    { OF_LINES, piped_color_forgotten, "state.color" },
-    { OF_LINES, piped_black_lines, "" },
-    { OF_LINES | AFTERWARDS, piped_matrix_forgotten, "unset" },
-    { OF_LINES | AFTERWARDS, piped_no_matrix_needed, "" },
-    { OF_LINES | AFTERWARDS, piped_matrix_of_no_camera, "" },
-    { OF_LINES | AFTERWARDS, piped_matrix_by_rows, "transposed" },
-    { OF_LINES | AFTERWARDS, piped_matrix_by_rows_ahead, "transposed" },
-    { OF_LINES | AFTERWARDS, piped_matrix_of_a_box_by_rows, "transposed" },
-    { OF_LINES | AFTERWARDS, piped_matrices_exchanged, "view times projection" },
-    { OF_LINES | AFTERWARDS, piped_matrices_exchanged_ahead, "view times projection" },
-};
+PIPED_IN(matrices_exchanged, exchanged_of_lines, OF_LINES | AFTERWARDS, "view times projection")
 
 TEST(explain_pipelines, each_mistake_gets_its_sentence)
 {
-    for (int i = 0; i < TEST_COUNT(piped_mistakes); i++)
+    for (const piped_mistake *m = piped_mistake_first; m; m = m->next)
         for (int lines = 0; lines < 2; lines++) {
-            const struct piped_mistake *m = &piped_mistakes[i];
             const char *said[2];
             if (!(m->of & (lines ? OF_LINES : OF_DRAW))) continue;
             piped *p = piped_open();
@@ -450,7 +431,7 @@ TEST(explain_pipelines, each_mistake_gets_its_sentence)
             for (int k = 0; k < 2; k++) {
                 const char *want = k && (m->of & STATS_ALONE) ? "" : m->words;
                 CHECK_SAY(*want ? strstr(said[k], want) != NULL : !*said[k],
-                          "mistake %d, %s, %s stats: \"%s\"", i, lines ? "lines" : "draw",
+                          "%s, %s, %s stats: \"%s\"", m->name, lines ? "lines" : "draw",
                           k ? "without" : "with", said[k]);
             }
             free(p);
@@ -496,28 +477,32 @@ static long long piped_fragments(const piped *given, int lines, void (*change)(p
     return piped_stats(&p, lines, 0).fragments;
 }
 
-PIPED(without_depth) { p->target.depth = NULL; }
-PIPED(without_clip)
+static void piped_without_depth(piped *p) { p->target.depth = NULL; }
+static void piped_without_clip(piped *p)
 {
     p->pipe.may_discard = 0;
     p->target.clip_x = p->target.clip_y = p->target.clip_width = p->target.clip_height = 0;
     p->target.depth = NULL;
 }
-PIPED(without_cull) { piped_without_clip(p); p->pipe.raster.cull = SHADE_CULL_NONE; }
-PIPED(undiscarded) { p->target.depth = NULL; p->uniforms.discards = 0; }
-PIPED(discarding) { p->target.depth = NULL; p->pipe.may_discard = 1; }
-PIPED(cleared)
+static void piped_without_cull(piped *p)
+{
+    piped_without_clip(p);
+    p->pipe.raster.cull = SHADE_CULL_NONE;
+}
+static void piped_undiscarded(piped *p) { p->target.depth = NULL; p->uniforms.discards = 0; }
+static void piped_discarding(piped *p) { p->target.depth = NULL; p->pipe.may_discard = 1; }
+static void piped_cleared(piped *p)
 {
     const shade_compare test = p->pipe.raster.depth_test;
     p->clear = test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL ? 0.0f : 1.0f;
 }
-PIPED(biased)
+static void piped_biased(piped *p)
 {
     const int greater = p->clear < 0.5f;
     p->lines.raster.depth_test = greater ? SHADE_COMPARE_GREATER_EQUAL : SHADE_COMPARE_LESS_EQUAL;
     p->lines.raster.depth_bias = greater ? 1e-4f : -1e-4f;
 }
-PIPED(by_columns) { piped_matrix_by_rows(p); piped_without_clip(p); }
+static void piped_by_columns(piped *p) { piped_matrix_by_rows(p); piped_without_clip(p); }
 
 /* Of the pixels that differ from `pixel` after the draw, are so many tenths black, or with `full`,
    full in a channel?  No pixel differs: yes. */
@@ -596,7 +581,7 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
         return !got && piped_fragments(p, lines, piped_without_depth);
     if (strstr(said, "shade_clear before drawing"))
         return !got && piped_fragments(p, lines, piped_cleared);
-    if (strstr(said, "hides everything"))
+    if (strstr(said, "Everything is hidden"))
         return !got && piped_fragments(p, lines, piped_without_depth);
     if (strstr(said, "lie in surfaces")) return !got && piped_fragments(p, lines, piped_biased);
     if (strstr(said, "fragment is NULL")) {
@@ -722,10 +707,3 @@ TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
     CHECK_SAY(said_something > test_rounds(10000) && nothing_seen > test_rounds(3000), "%ld, %ld",
               said_something, nothing_seen);
 }
-
-static const test_case explain_pipelines_cases[] = {
-    CASE(explain_pipelines, each_mistake_gets_its_sentence),
-    CASE(explain_pipelines, what_is_said_of_any_draw_is_true),
-};
-
-SECTION(explain_pipelines);

@@ -82,7 +82,7 @@ TEST(fragment, perspective_varyings_match_double_for_every_count) /* sum b v/w o
         int width = rnd_int(10, 120), height = rnd_int(10, 90),
             varyings = i % (SHADE_MAX_VARYINGS + 1);
         double w_range = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 10;
-        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(width, height, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         float attributes[6 * SHADE_MAX_VARYINGS], *attribute = attributes + 3 * varyings;
         shade_vec4 clip[6];
@@ -94,7 +94,6 @@ TEST(fragment, perspective_varyings_match_double_for_every_count) /* sum b v/w o
         scene s = { clip, attributes, varyings, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         r.count = 0;
-        canvas_clear(&c, 1);
         canvas_draw(&c, &p, 6);
         for (int k = 0; k < r.count; k++) {
             fragment_record *f = &r.fragments[k];
@@ -190,12 +189,11 @@ TEST(fragment, comparisons_do_what_their_names_say)
 TEST(fragment, a_second_identical_draw_has_equal_depth)
 {
     for (int i = 0; i < 100; i++) {
-        canvas c = canvas_open(100, 80, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(100, 80, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         random_grid_triangle(&t, 100, 80, 10);
         scene s = { t.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        canvas_clear(&c, 1);
         long long first = canvas_draw(&c, &p, 3).fragments;
         CHECK_INT(canvas_draw(&c, &p, 3).fragments, 0);
         p.raster.depth_test = SHADE_COMPARE_EQUAL;
@@ -238,13 +236,12 @@ TEST(fragment, bias_moves_sloping_depth_as_a_whole)
         ref_triangle e;
         random_grid_triangle(&t, 60, 50, 3);
         if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], 60, 50)) continue;
-        canvas c = canvas_open(60, 50, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(60, 50, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { t.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.raster.depth_test = SHADE_COMPARE_ALWAYS;
         p.raster.depth_bias = rnd_float(-0.6, 0.6);
         p.may_discard = i % 2;
-        canvas_clear(&c, 1);
         canvas_draw(&c, &p, 3);
         for (int y = 0; y < 50; y++)
             for (int x = 0; x < 60; x++) {
@@ -298,11 +295,10 @@ TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer)
             }
             color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
         }
-        canvas a = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1),
-               b = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas a = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA8, 1),
+                b = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        canvas_clear(&a, 1);
         canvas_clear(&b, 0);
         canvas_draw(&a, &p, 3 * N);
         s.clip = mirrored;
@@ -359,10 +355,9 @@ TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel)
     for (int round = 0; round < 40; round++) {
         random_pile(&of, PILE_MOST);
         for (int k = 0; k < of.count; k++) of.color[k] = shade_v4((float)k / 255, 0, 0, 1);
-        canvas c = canvas_open(PILE_SIZE, PILE_SIZE, 50, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(PILE_SIZE, PILE_SIZE, 50, SHADE_FORMAT_RGBA8, 1);
         scene s = { of.clip, NULL, 0, of.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        canvas_clear(&c, 1);
         canvas_draw(&c, &p, 3 * of.count);
         for (int at = 0; at < PILE_SIZE * PILE_SIZE; at++) {
             int i = at % PILE_SIZE, j = at / PILE_SIZE, winner = 0;
@@ -390,8 +385,7 @@ TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel)
 TEST(fragment, without_a_depth_buffer_every_test_passes)
 {
     for (int k = 0; k < 6; k++) {
-        canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
         CHECK_INT(draw_at_depth(&c, 0.5f, (shade_compare)k, 0, 0).fragments, 128);
         CHECK_INT(draw_at_depth(&c, 0.5f, (shade_compare)k, 0, 0).fragments, 128);
         canvas_close(&c);
@@ -590,12 +584,11 @@ TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
         int with_depth = round % 3 != 0, most = canvas_most(format, 0);
         random_pile(&of, N);
         for (int k = 0; k < N; k++) of.color[k] = shade_v4((float)(k + 1) / N, 0, 0, 1);
-        canvas c = canvas_open(PILE_SIZE, PILE_SIZE, 50, format, with_depth);
+        canvas c = canvas_ready(PILE_SIZE, PILE_SIZE, 50, format, with_depth);
         scene s = { of.clip, NULL, 0, of.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.fragment = fragment_sieve;
         p.may_discard = 1;
-        canvas_clear(&c, 1);
         canvas_draw(&c, &p, 3 * N);
         for (int at = 0; at < PILE_SIZE * PILE_SIZE; at++) {
             int i = at % PILE_SIZE, j = at / PILE_SIZE;
@@ -656,13 +649,12 @@ TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture)
 /* The sieve keeps two of three pixels of a triangle that covers half of 900. */
 TEST(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed)
 {
-    canvas c = canvas_open(30, 30, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas c = canvas_ready(30, 30, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 color[1] = { { 1, 1, 1, 1 } };
     scene s = { clip_corners, NULL, 0, color, NULL };
     shade_pipeline p = scene_pipeline(&s);
     p.fragment = fragment_sieve;
     p.may_discard = 1;
-    canvas_clear(&c, 1);
     canvas_draw(&c, &p, 3);
     int kept = 0, touched = 0;
     for (int k = 0; k < 900; k++) {
@@ -768,12 +760,11 @@ TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
 /* Red, green and blue are the three barycentric coordinates of a triangle without perspective. */
 TEST(fragment, vertex_colours_smear_between_the_corners)
 {
-    canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
+    canvas c = canvas_ready(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
     static const float color[] = { 1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1 };
     scene s = { clip_corners, color, 4, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
     p.fragment = scene_colors;
-    canvas_clear(&c, 1);
     canvas_draw(&c, &p, 3);
     for (int y = 0; y < 200; y++)
         for (int x = 0; x < 200; x++) {
@@ -812,17 +803,15 @@ static void fragment_lod_is_zero(const void *uniforms, const shade_fragments *SH
 TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
 {
     shade_vec4 clip[3];
-    scene s;
-    memset(&s, 0, sizeof s);
+    scene s = { 0 };
     for (int k = 0; k < 3; k++) clip[k] = clip_corners[k];
     s.clip = clip;
     for (int i = 0; i < 6; i++) {
-        canvas c = canvas_open(61, 47, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(61, 47, 0, SHADE_FORMAT_RGBA8, 1);
         shade_pipeline p = scene_pipeline(&s);
         p.fragment = fragment_lod_is_zero;
         p.interpolation = (shade_interpolation)(i % 3);
         p.may_discard = i / 3;
-        canvas_clear(&c, 1);
         fragment_lod_packets = 0;
         CHECK(fragment_poison());
         canvas_draw(&c, &p, 3);
@@ -830,30 +819,3 @@ TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
         canvas_close(&c);
     }
 }
-
-static const test_case fragment_cases[] = {
-    CASE(fragment, without_a_lod_texture_lod_is_zero_in_every_packet),
-    CASE(fragment, packets_are_full_but_the_last_of_a_batch),
-    CASE(fragment, perspective_varyings_match_double_for_every_count),
-    CASE(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones),
-    CASE(fragment, comparisons_do_what_their_names_say),
-    CASE(fragment, a_second_identical_draw_has_equal_depth),
-    CASE(fragment, bias_is_added_and_what_is_stored_is_clamped),
-    CASE(fragment, bias_moves_sloping_depth_as_a_whole),
-    CASE(fragment, reversed_depth_sees_what_is_nearer),
-    CASE(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer),
-    CASE(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel),
-    CASE(fragment, without_a_depth_buffer_every_test_passes),
-    CASE(fragment, blending_follows_submission_order_in_float),
-    CASE(fragment, blending_of_stored_bytes_follows_submission_order),
-    CASE(fragment, alpha_of_over_builds_up),
-    CASE(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth),
-    CASE(fragment, testing_depth_before_or_after_shading_gives_the_same_picture),
-    CASE(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed),
-    CASE(fragment, without_colour_the_shader_runs_only_where_it_may_discard),
-    CASE(fragment, without_a_shader_only_depth_is_written),
-    CASE(fragment, colours_a_shader_leaves_alone_are_opaque_black),
-    CASE(fragment, vertex_colours_smear_between_the_corners),
-};
-
-SECTION(fragment);

@@ -264,8 +264,7 @@ static void alone_check_pixels(const canvas *whole, const canvas *parts, const c
 
 static canvas alone_draw(const alone_scene *a, shade_format format, int w, int h)
 {
-    canvas c = canvas_open(ALONE_W, ALONE_H, 0, format, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(ALONE_W, ALONE_H, 0, format, 1);
     for (int y = 0; y < ALONE_H; y += h) {
         for (int x = 0; x < ALONE_W; x += w) {
             c.target.clip_x = x;
@@ -319,12 +318,8 @@ TEST(independent, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane)
     static float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
     shade_light lamp = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
     shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
-    shade_lighting lighting;
     float rgb[2][3][SHADE_LANES];
-    memset(&lighting, 0, sizeof lighting);
-    lighting.lights = &lamp;
-    lighting.light_count = 1;
-    lighting.ambient = shade_v3(1, 1, 1);
+    shade_lighting lighting = { .lights = &lamp, .light_count = 1, .ambient = shade_v3(1, 1, 1) };
     m.emission = shade_v3(-0.0f, -0.0f, -0.0f);
     for (int lit = 0; lit < 2; lit++) {
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -345,12 +340,7 @@ TEST(independent, the_sign_of_a_nan_decides_nothing)
     const float nan[2] = { bits_float(0x7FC00000u), bits_float(0xFFC00001u) };
     shade_light lamp = shade_point_light(shade_v3(0, 3, 0), shade_v3(1, 1, 1));
     static const float texel[4][4] = { { 1 }, { 2 }, { 3 }, { 4 } };
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = texel;
-    t.width = 4;
-    t.height = 1;
-    t.format = SHADE_FORMAT_RGBA32F;
+    shade_texture t = { .pixels = texel, .width = 4, .height = 1, .format = SHADE_FORMAT_RGBA32F };
     for (int falls = 0; falls < 2; falls++) {
         lamp.quadratic = (float)falls;
         CHECK_NEAR(shade_light_at(&lamp, shade_v3(nan[0], 0, 0), NULL, NULL), 0, 1e-30);
@@ -389,16 +379,3 @@ TEST(independent, a_distance_or_a_sum_that_overflows_has_one_outcome)
     lamp.quadratic = 1e30f;
     CHECK_NEAR(shade_light_at(&lamp, shade_v3(1e18f, 0, 0), NULL, NULL), 0, 0);
 }
-
-static const test_case independent_cases[] = {
-    CASE(independent, a_lane_of_a_packet_is_the_scalar_call),
-    CASE(independent, a_lane_among_others_is_the_lane_among_copies_of_itself),
-    CASE(independent, what_arrives_at_a_lane_is_what_arrives_at_the_point),
-    CASE(independent, a_texel_of_a_packet_is_the_scalar_sample),
-    CASE(independent, a_picture_is_the_same_in_bands_and_pixel_by_pixel),
-    CASE(independent, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane),
-    CASE(independent, the_sign_of_a_nan_decides_nothing),
-    CASE(independent, a_distance_or_a_sum_that_overflows_has_one_outcome),
-};
-
-SECTION(independent);

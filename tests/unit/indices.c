@@ -55,8 +55,8 @@ TEST(indices, sorted_chunks_of_16_bits_are_drawn_by_their_indices_of_32)
     static uint32_t sorted[CORNERS];
     static shade_chunk chunks[CHUNKS];
     const shade_draw_state s = plain_state(NULL);
-    canvas one = canvas_open(80, 80, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas two = canvas_open(80, 80, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas one = canvas_ready(80, 80, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas two = canvas_ready(80, 80, 0, SHADE_FORMAT_RGBA8, 1);
     shade_mesh m = plain_mesh(positions, (SIDE + 1) * (SIDE + 1));
     for (int i = 0; i < m.vertex_count; i++) {
         const float x = (float)(i % (SIDE + 1)) / SIDE, y = (float)(i / (SIDE + 1)) / SIDE;
@@ -69,8 +69,6 @@ TEST(indices, sorted_chunks_of_16_bits_are_drawn_by_their_indices_of_32)
     }
     m.indices16 = narrow;
     m.index_count = CORNERS;
-    canvas_clear(&one, 1);
-    canvas_clear(&two, 1);
     CHECK_INT(canvas_draw_mesh(&one, &m, &s).drawn, CORNERS / 3);
     CHECK_INT(shade_mesh_chunks(&m, 20, chunks, CHUNKS, sorted), SHADE_OK);
     m.indices = sorted;
@@ -157,13 +155,3 @@ TEST(indices, of_both_widths_are_refused)
     CHECK(canvas_untouched(&c));
     canvas_close(&c);
 }
-
-static const test_case indices_cases[] = {
-    CASE(indices, of_16_bits_give_every_call_what_those_of_32_give),
-    CASE(indices, sorted_chunks_of_16_bits_are_drawn_by_their_indices_of_32),
-    CASE(indices, the_last_of_65536_vertices_is_reached),
-    CASE(indices, one_past_the_vertices_is_found_wherever_it_stands),
-    CASE(indices, of_both_widths_are_refused),
-};
-
-SECTION(indices);

@@ -64,10 +64,8 @@ TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbour
 TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
 {
     static lane_packet k;
-    light_sample s;
     double worst[2] = { 0, 0 };
-    memset(&s, 0, sizeof s);
-    s.material.specular = shade_v3(1, 1, 1);
+    light_sample s = { .material.specular = shade_v3(1, 1, 1) };
     s.lighting.lights = s.lights;
     s.lighting.light_count = 1;
     s.lighting.terms = SHADE_TERM_SPECULAR;
@@ -135,11 +133,9 @@ static void random_opposite_packet(light_sample *s, lane_packet *k, int facing)
 TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
 {
     static lane_packet k;
-    light_sample s;
     double worst[2] = { 0, 0 };
     long checked = 0;
-    memset(&s, 0, sizeof s);
-    s.material.specular = shade_v3(1, 1, 1);
+    light_sample s = { .material.specular = shade_v3(1, 1, 1) };
     s.lighting.lights = s.lights;
     s.lighting.light_count = 1;
     s.lighting.terms = SHADE_TERM_SPECULAR;
@@ -457,12 +453,9 @@ TEST(lanes, each_of_many_lamps_has_its_own_row_of_visibility)
     enum { lamps = 11 };
     static float visibility[lamps][SHADE_LANES], P[3][SHADE_LANES], N[3][SHADE_LANES];
     shade_light lights[lamps];
-    shade_lighting lighting;
     float rgb[3][SHADE_LANES];
-    memset(&lighting, 0, sizeof lighting);
-    lighting.model = SHADE_MODEL_LAMBERT;
-    lighting.lights = lights;
-    lighting.light_count = lamps;
+    shade_lighting lighting = { .model = SHADE_MODEL_LAMBERT, .lights = lights,
+                                .light_count = lamps };
     for (int k = 0; k < lamps; k++)
         lights[k] = shade_directional_light(shade_v3(0, 0, -1), grey((double)(1 << k)));
     for (int round = 0; round < 20; round++) {
@@ -527,9 +520,7 @@ TEST(lanes, missing_arguments_mean_their_defaults)
     float rgb[3 * SHADE_LANES];
     lit_rows(NULL, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(rgb[i] == 0);
-    shade_lighting li;
-    memset(&li, 0, sizeof li);
-    li.ambient = shade_v3(0.25f, 0.5f, 0.75f);
+    shade_lighting li = { .ambient = shade_v3(0.25f, 0.5f, 0.75f) };
     lit_rows(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
@@ -558,10 +549,8 @@ TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
     float rgb[3 * SHADE_LANES];
     for (int round = 0; round < 8; round++) {
         shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
-        shade_material m;
-        shade_lighting li;
-        memset(&li, 0, sizeof li);
-        memset(&m, 0, sizeof m);
+        shade_lighting li = { 0 };
+        shade_material m = { 0 };
         li.lights = &light;
         li.light_count = 1;
         li.flags = round & 1 ? SHADE_FLAG_INFINITE_VIEWER : 0;
@@ -799,32 +788,3 @@ TEST(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte)
         }
     }
 }
-
-static const test_case lanes_cases[] = {
-    CASE(lanes, every_combination_of_rows_is_the_equation_of_its_lane),
-    CASE(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers_of_two),
-    CASE(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte),
-    CASE(lanes, each_of_many_lamps_has_its_own_row_of_visibility),
-    CASE(lanes, a_term_that_is_off_reads_nothing),
-    CASE(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite),
-    CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),
-    CASE(lanes, light_opposite_to_the_viewer_has_no_halfway_vector),
-    CASE(lanes, a_packet_matches_the_equation_for_every_flag_and_model),
-    CASE(lanes, every_lane_is_computed_the_same),
-    CASE(lanes, highlights_hold_the_bound_where_it_is_tightest),
-    CASE(lanes, albedo_multiplies_diffuse_and_ambient_only),
-    CASE(lanes, light_at_lanes_is_what_arrives_at_each_lane),
-    CASE(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more),
-    CASE(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light),
-    CASE(lanes, visibility_multiplies_the_diffuse_and_specular_light_of_its_lamp),
-    CASE(lanes, all_lamps_in_full_sight_are_the_bits_without_visibility),
-    CASE(lanes, models_without_light_of_lamps_read_no_visibility),
-    CASE(lanes, nothing_is_written_but_the_three_rows),
-    CASE(lanes, missing_arguments_mean_their_defaults),
-    CASE(lanes, many_lights_add_up),
-    CASE(lanes, a_lamp_without_an_axis_is_no_spot),
-    CASE(lanes, emission_alone_reads_no_albedo),
-    CASE(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane),
-};
-
-SECTION(lanes);

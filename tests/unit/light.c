@@ -14,8 +14,7 @@ TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
     int sure = 0, lit = 0;
     for (int i = 0; i < 200000; i++) {
         random_sample(&s);
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         shade_terms got = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
         shade_vec3 sum = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(sum));
@@ -130,8 +129,7 @@ TEST(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for)
     int checked = 0, on_brink = 0, brink = 0;
     for (int i = 0; i < 200000; i++) {
         random_brink_sample(&s);
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         double bound = stated_bound(&s, d3_max(want.total), &brink);
         if (bound == 0) continue;
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
@@ -182,10 +180,7 @@ TEST(light, each_bit_of_terms_selects_its_term_alone)
 
 static shade_lighting one_light(const shade_light *light)
 {
-    shade_lighting li;
-    memset(&li, 0, sizeof li);
-    li.lights = light;
-    li.light_count = light ? 1 : 0;
+    shade_lighting li = { .lights = light, .light_count = light ? 1 : 0 };
     return li;
 }
 
@@ -217,10 +212,7 @@ TEST(light, the_gate_stops_highlights_behind_the_terminator) /* N.L = -0.14, (N.
     CHECK_NEAR(shade_phong_specular(n, l, n, 4), 0, 0);
     shade_light light = shade_directional_light(shade_neg(l), grey(1));
     shade_lighting li = one_light(&light);
-    shade_material m;
-    memset(&m, 0, sizeof m);
-    m.specular = grey(1);
-    m.shininess = 4;
+    shade_material m = { .specular = grey(1), .shininess = 4 };
     check_color(__LINE__, "gated", shade_lit(&li, &m, shade_v3(0, 0, 9), grey(0), n),
                 d3_of(0, 0, 0), 0);
     li.flags = SHADE_FLAG_UNGATED_SPECULAR;
@@ -623,8 +615,7 @@ TEST(light, any_orthogonal_space_gives_the_same_light)
             s.lights[k] = random_light(s.P, 5);
             if (s.lights[k].spot_exponent > 50) s.lights[k].spot_exponent = 50;
         }
-        ref_lit exact = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                  d3_from(s.eye), no_albedo());
+        ref_lit exact = ref_of_sample(&s);
         shade_mat4 m =
             shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())),
                            shade_mat4_translation(random_vector(2)));
@@ -691,9 +682,7 @@ TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* 
 {
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(2));
     shade_lighting li = one_light(&light);
-    shade_material m;
-    memset(&m, 0, sizeof m);
-    m.specular = shade_v3(0.25f, 0.5f, 1);
+    shade_material m = { .specular = shade_v3(0.25f, 0.5f, 1) };
     shade_vec3 n = shade_v3(0.6f, 0, 0.8f), eye = shade_v3(-30, 2, 0.5f);
     check_color(__LINE__, "n 0", shade_lit(&li, &m, eye, grey(0), n), d3_of(0.5, 1, 2), 1e-6);
     m.shininess = -7;
@@ -715,8 +704,7 @@ TEST(light, a_lamp_at_the_point_itself_is_finite) /* r = 0 */
         s.lights[0] = random_light(s.P, 3);
         s.lights[0].position = shade_v4(s.P.x, s.P.y, s.P.z, 1);
         if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM) s.lighting.model = SHADE_MODEL_PHONG;
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!want.unsure) check_color(__LINE__, "lit", got, want.total, want.bound);
@@ -732,8 +720,7 @@ TEST(light, an_eye_at_the_point_itself_is_finite)
         random_sample(&s);
         s.eye = s.lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? grey(0) : s.P;
         s.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED;
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!want.unsure && !check_color(__LINE__, "lit", got, want.total, want.bound))
@@ -801,8 +788,7 @@ TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w)
         shade_vec3 p = random_vector(4);
         s.lights[0].position = shade_v4(p.x, p.y, p.z, 1);
         if (d3_length(d3_sub(d3_from(p), d3_from(s.P))) < 0.5) continue;
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         static const float w[] = { 1, 2, -1, 0.25f, -8, 1024 };
         for (int k = 0; k < 6 && !want.unsure; k++) {
             s.lights[0].position = shade_v4(p.x * w[k], p.y * w[k], p.z * w[k], w[k]);
@@ -858,8 +844,7 @@ TEST(light, length_of_the_normal_does_not_matter)
         random_sample(&s);
         shade_vec3 a = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         shade_vec3 b = shade_lit(&s.lighting, &s.material, s.eye, s.P, shade_scale(s.N, 1024));
-        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
-                                 d3_from(s.eye), no_albedo());
+        ref_lit want = ref_of_sample(&s);
         if (!want.unsure) check_color(__LINE__, "longer", b, d3_from(a), 2 * want.bound);
     }
 }
@@ -1090,11 +1075,8 @@ TEST(light, lengths_of_normals_and_directions_do_not_matter)
         const float size = rnd_log(1.1e-18, 0.9e18), other = rnd_log(1.1e-18, 0.9e18);
         const shade_vec3 white = shade_v3(1, 1, 1), eye = d3_round(rnd_direction());
         shade_material m = shade_preset_material(SHADE_PRESET_GOLD);
-        shade_lighting lighting;
         shade_light lamps[2];
-        memset(&lighting, 0, sizeof lighting);
-        lighting.lights = lamps;
-        lighting.light_count = 2;
+        shade_lighting lighting = { .lights = lamps, .light_count = 2 };
         lamps[0] = shade_directional_light(d3_round(way), white);
         lamps[1] = shade_spot_light(d3_round(d3_scale(way, -2)), d3_round(way), 1, 3, white);
         const shade_vec3 want = shade_lit(&lighting, &m, eye, shade_v3(0, 0, 0), d3_round(n));
@@ -1108,50 +1090,3 @@ TEST(light, lengths_of_normals_and_directions_do_not_matter)
                   (double)got.z, (double)want.x, (double)want.y, (double)want.z);
     }
 }
-
-static const test_case light_cases[] = {
-    CASE(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model),
-    CASE(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for),
-    CASE(light, lit_is_the_sum_of_the_four_terms),
-    CASE(light, each_bit_of_terms_selects_its_term_alone),
-    CASE(light, brass_lit_head_on_and_from_sixty_degrees),
-    CASE(light, the_gate_stops_highlights_behind_the_terminator),
-    CASE(light, the_gate_is_strict_at_grazing_light),
-    CASE(light, spot_and_attenuation_multiply),
-    CASE(light, four_alpha_looks_like_phong),
-    CASE(light, cool_to_warm_goes_from_cool_to_warm),
-    CASE(light, single_terms_match_double),
-    CASE(light, attenuation_is_defined_everywhere),
-    CASE(light, the_cone_includes_its_edge),
-    CASE(light, the_cone_of_a_lamp_includes_its_edge),
-    CASE(light, a_reflectance_without_a_direction_is_the_diffuse_one),
-    CASE(light, brdf_times_cosine_is_the_weighted_light),
-    CASE(light, light_at_is_what_arrives_where_from_and_how_far),
-    CASE(light, no_lamp_is_dark_and_nowhere),
-    CASE(light, at_the_lamp_itself_there_is_no_direction_and_so_no_cone_above_the_horizon),
-    CASE(light, light_at_times_the_cosine_is_the_diffuse_light),
-    CASE(light, light_adds_up_and_scales),
-    CASE(light, two_sided_diffuse_is_two_opposite_lamps),
-    CASE(light, turning_toward_the_viewer_equals_turning_the_normal),
-    CASE(light, any_orthogonal_space_gives_the_same_light),
-    CASE(light, zero_normals_keep_emission_and_ambient_only),
-    CASE(light, light_opposite_to_the_viewer_has_no_halfway_vector),
-    CASE(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks),
-    CASE(light, a_lamp_at_the_point_itself_is_finite),
-    CASE(light, an_eye_at_the_point_itself_is_finite),
-    CASE(light, missing_arguments_mean_their_defaults),
-    CASE(light, models_drop_the_terms_of_their_iteration),
-    CASE(light, a_lamp_of_any_w_stands_at_xyz_over_w),
-    CASE(light, a_distant_spot_keeps_its_cone),
-    CASE(light, ambient_takes_distance_and_cone_only_when_asked),
-    CASE(light, length_of_the_normal_does_not_matter),
-    CASE(light, constructors_fill_in_what_they_say),
-    CASE(light, presets_are_the_table_of_teapots),
-    CASE(light, presets_beyond_the_table_are_white_lambert_without_a_name),
-    CASE(light, linear_material_decodes_its_four_colours_and_keeps_the_shininess),
-    CASE(light, nan_and_infinity_give_what_the_arguments_alone_say),
-    CASE(light, big_and_tiny_finite_input_stays_finite),
-    CASE(light, lengths_of_normals_and_directions_do_not_matter),
-};
-
-SECTION(light);

@@ -54,10 +54,7 @@ static shade_vec3 line_point(double X, double Y, double z, int width, int height
 
 static shade_line_state line_state(float width)
 {
-    shade_line_state s;
-    memset(&s, 0, sizeof s);
-    s.width = width;
-    s.color = shade_v4(1, 1, 1, 1);
+    shade_line_state s = { .width = width, .color = shade_v4(1, 1, 1, 1) };
     return s;
 }
 
@@ -130,14 +127,13 @@ static void exact_rectangle(const exact_line *l, shade_cap cap, int64_t x[5], in
 TEST(lines, coverage_is_the_pixels_of_the_rectangle_exactly)
 {
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(COVER_W, COVER_H, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas c = canvas_ready(COVER_W, COVER_H, 0, SHADE_FORMAT_RGBA8, 0);
         exact_line l = random_exact_line();
         shade_line_state s = line_state((float)(l.half * 10 / 256.0));
         s.cap = (shade_cap)rnd_int(0, 1);
         shade_vec3 p[2];
         p[0] = line_point((double)l.ax / 256, (double)l.ay / 256, 0, COVER_W, COVER_H);
         p[1] = line_point((double)l.bx / 256, (double)l.by / 256, 0, COVER_W, COVER_H);
-        canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
 
         int64_t x[5], y[5];
@@ -161,7 +157,7 @@ TEST(lines, coverage_is_the_rectangle_in_any_direction)
 {
     for (int i = 0; i < 1500; i++) {
         int width = rnd_int(1, 70), height = rnd_int(1, 50);
-        canvas c = canvas_open(width, height, width + rnd_int(0, 3), SHADE_FORMAT_RGBA8, 0);
+        canvas c = canvas_ready(width, height, width + rnd_int(0, 3), SHADE_FORMAT_RGBA8, 0);
         double reach = rnd_one_in(4) ? 20 : 1, x[2], y[2];
         for (int k = 0; k < 2; k++) {
             x[k] = (rnd_unit() - 0.5) * reach * width + 0.5 * width;
@@ -171,7 +167,6 @@ TEST(lines, coverage_is_the_rectangle_in_any_direction)
         s.cap = (shade_cap)rnd_int(0, 1);
         shade_vec3 p[2];
         for (int k = 0; k < 2; k++) p[k] = line_point(x[k], y[k], 0, width, height);
-        canvas_clear(&c, 1);
         draw_lines(&c, p, 2, &s);
         /* corners snap to 1/256 pixel; a cut outside the guard band moves an edge by as much */
         line_places r = ref_rectangle(x[0], y[0], x[1], y[1], s.width > 0 ? (double)s.width : 1,
@@ -246,13 +241,12 @@ TEST(lines, square_ends_close_the_joints_of_a_path)
 TEST(lines, a_line_without_length_is_nothing_or_a_square)
 {
     for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas c = canvas_ready(32, 32, 0, SHADE_FORMAT_RGBA8, 0);
         int x = rnd_int(8, 24), y = rnd_int(8, 24), half = rnd_int(1, 6), count = 0;
         shade_line_state s = line_state((float)(2 * half));
         shade_vec3 p[2];
         p[0] = p[1] = line_point(x, y, 0, 32, 32);
         s.cap = (shade_cap)(i & 1);
-        canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
         for (int k = 0; k < 32 * 32; k++) {
             int in = i & 1 && k % 32 >= x - half && k % 32 < x + half && k / 32 >= y - half &&
@@ -315,7 +309,7 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
     enum { W = 64, H = 48 };
     long cut = 0;
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas c = canvas_ready(W, H, 0, SHADE_FORMAT_RGBA8, 0);
         shade_line_state s = line_state(rnd_log(0.5, 10));
         double e[2][4], t[2], x[2], y[2], w[2];
         shade_vec3 p[2];
@@ -325,7 +319,6 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
                                  ? shade_mat4_perspective_reversed(1, (float)W / H, 0.5f)
                                  : shade_mat4_perspective(1, (float)W / H, 0.5f, 8);
         random_cut_segment(&s, p, e);
-        canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
         int left = ref_line_cut(e, s.raster.depth_zero_to_one, t);
         if (!left) {
@@ -355,7 +348,7 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
 TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
 {
     for (int i = 0; i < 500; i++) {
-        canvas c = canvas_open(32, 24, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(32, 24, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_one_in(3) ? rnd_log(1e-30, 3e38) : 2);
         shade_vec3 p[6];
         s.cap = (shade_cap)rnd_int(0, 1);
@@ -364,7 +357,6 @@ TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
         for (int k = 2; k < 4; k++) p[k] = shade_v3(rnd_nasty(), rnd_nasty(), rnd_nasty());
         if (rnd_one_in(3)) s.clip_from_points = shade_mat4_perspective(1, 1, 0.1f, 10);
         if (rnd_one_in(3)) s.clip_from_points.col[rnd_int(0, 3)].w = rnd_nasty();
-        canvas_clear(&c, 1);
         draw_lines(&c, p, 6, &s);
         s = line_state(2);
         canvas_clear(&c, 1);
@@ -379,14 +371,12 @@ TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
 TEST(lines, nothing_is_drawn_outside_the_clip_rectangle)
 {
     for (int i = 0; i < 200; i++) {
-        canvas whole = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
-        canvas part = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
+        canvas whole = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas part = canvas_ready(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_float(0, 9));
         shade_vec3 p[10];
         for (int k = 0; k < 10; k++)
             p[k] = shade_v3(rnd_float(-2, 2), rnd_float(-2, 2), rnd_float(-1, 1));
-        canvas_clear(&whole, 1);
-        canvas_clear(&part, 1);
         int x = rnd_int(0, 39), y = rnd_int(0, 29), w = rnd_int(1, 30), h = rnd_int(1, 30);
         part.target.clip_x = x;
         part.target.clip_y = y;
@@ -413,11 +403,10 @@ typedef struct ref_line {
 
 static ref_line ref_line_of(const shade_line_state *s, const shade_vec3 p[2], int width, int height)
 {
-    ref_line r;
     double e[2][4], t[2];
     dmat m = matrix_or_identity(s->clip_from_points);
     int zero_to_one = s->raster.depth_zero_to_one != 0;
-    memset(&r, 0, sizeof r);
+    ref_line r = { 0 };
     for (int k = 0; k < 2; k++) {
         const double in[4] = { (double)p[k].x, (double)p[k].y, (double)p[k].z, 1 };
         dmat_apply(m, in, e[k]);
@@ -551,7 +540,7 @@ TEST(lines, far_ends_seen_by_a_camera_keep_their_pixels)
 TEST(lines, an_end_that_touches_near_or_far_is_a_point)
 {
     for (int i = 0; i < 16; i++) {
-        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(4);
         int far = i & 1, zero_to_one = i >> 1 & 1, square = i >> 2 & 1, swapped = i >> 3 & 1;
         double on = far ? 1 : zero_to_one ? 0 : -1;
@@ -561,7 +550,6 @@ TEST(lines, an_end_that_touches_near_or_far_is_a_point)
         s.cap = (shade_cap)square;
         s.raster.depth_zero_to_one = zero_to_one;
         s.raster.depth_test = SHADE_COMPARE_ALWAYS;
-        canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
         CHECK_INT(square ? stats.drawn : stats.culled, 2);
         CHECK_INT(stats.fragments, square ? 16 : 0);
@@ -574,7 +562,7 @@ TEST(lines, a_line_from_infinitely_far_enters_from_its_direction)
 {
     enum { W = 40, H = 40 };
     for (int i = 0; i < 400; i++) {
-        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(W, H, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_float(0.5, 6));
         double a = rnd_unit() * 6.283185307179586, behind = rnd_one_in(2) ? 0 : rnd_unit();
         shade_vec3 p[2] = { { (float)cos(a), (float)sin(a), (float)-behind }, { 0, 0, 1 } };
@@ -586,7 +574,6 @@ TEST(lines, a_line_from_infinitely_far_enters_from_its_direction)
         s.clip_from_points.col[0].x = s.clip_from_points.col[1].y = 1; /* x, y, 0, z */
         s.clip_from_points.col[2].w = 1;
         s.raster.depth_zero_to_one = rnd_int(0, 1);
-        canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
         line_places r = ref_rectangle(W / 2, H / 2, W / 2 + cos(a) * 100, H / 2 - sin(a) * 100,
                                       (double)s.width, SHADE_CAP_BUTT);
@@ -612,12 +599,11 @@ TEST(lines, the_scale_of_a_scene_does_not_matter)
             p[k].z -= 3;
         }
         for (int n = 0; n < 7; n++) {
-            canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
+            canvas c = canvas_ready(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
             float scale = (float)ldexp(1, power[n]);
             shade_line_state s = line_state(3);
             s.clip_from_points = shade_mat4_perspective(1, 4.0f / 3, 0.125f * scale, 16 * scale);
             for (int k = 0; k < 20; k++) moved[k] = shade_scale(p[k], scale);
-            canvas_clear(&c, 1);
             shade_stats stats = draw_lines(&c, moved, 20, &s);
             if (n)
                 CHECK_SAY(canvas_same(&first, &c), "2^%d", power[n]);
@@ -638,7 +624,7 @@ TEST(lines, places_that_are_none_are_rejected_wherever_they_lie)
 {
     static const float none[] = { NAN, INFINITY, -INFINITY, 3e38f, -3e38f };
     for (int i = 0; i < 4000; i++) {
-        canvas c = canvas_open(32, 24, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(32, 24, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_log(0.3, 2000));
         shade_vec3 p[4];
         float bad = none[rnd_int(0, 4)], f[16];
@@ -659,7 +645,6 @@ TEST(lines, places_that_are_none_are_rejected_wherever_they_lie)
             float *at[3] = { &p[k & 1].x, &p[k & 1].y, &p[k & 1].z };
             *at[rnd_int(0, 2)] = bad;
         }
-        canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 4, &s);
         CHECK_SAY(stats.rejected == (in_matrix ? 4 : 2), "%lld rejected, %lld clipped, %g",
                   stats.rejected, stats.clipped, (double)bad);
@@ -674,7 +659,7 @@ TEST(lines, places_that_are_none_are_rejected_wherever_they_lie)
 TEST(lines, any_finite_numbers_keep_to_the_picture_and_the_count)
 {
     for (int i = 0; i < 20000; i++) {
-        canvas c = canvas_open(i % 3 ? 17 : 1, i % 5 ? 9 : 1, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(i % 3 ? 17 : 1, i % 5 ? 9 : 1, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_one_in(3) ? 0 : rnd_log(1e-38, 3e38));
         float f[16];
         shade_vec3 p[6];
@@ -692,7 +677,6 @@ TEST(lines, any_finite_numbers_keep_to_the_picture_and_the_count)
                             rnd_one_in(2) ? 0 : rnd_sign() * (float)pow(10, most * -rnd_unit()));
             if (rnd_one_in(5) && n) p[n] = p[n - 1];
         }
-        canvas_clear(&c, 1);
         draw_lines(&c, p, 6, &s);
         canvas_close(&c);
     }
@@ -766,7 +750,7 @@ TEST(lines, depth_runs_from_end_to_end_and_is_tested)
 TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
 {
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(80, 60, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(80, 60, 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec3 p[3], pairs[6], behind[2];
         shade_line_state s = line_state(1);
         shade_mesh mesh = plain_mesh(&p[0].x, 3);
@@ -778,12 +762,10 @@ TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
         for (int k = 0; k < 6; k++) pairs[k] = p[(k / 2 + k % 2) % 3];
         behind[0] = shade_v3(-0.9f, 0, 0.9f);
         behind[1] = shade_v3(0.9f, 0, 0.9f);
-        canvas_clear(&c, 1);
         canvas_draw_mesh(&c, &mesh, &fill);
         s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
         s.raster.depth_bias = -0.02f;
-        canvas plain = canvas_open(80, 60, 0, SHADE_FORMAT_RGBA8, 0);
-        canvas_clear(&plain, 1);
+        canvas plain = canvas_ready(80, 60, 0, SHADE_FORMAT_RGBA8, 0);
         draw_lines(&plain, pairs, 6, &s);
         draw_lines(&c, pairs, 6, &s);
         for (int k = 0; k < 80 * 60; k++) {
@@ -803,17 +785,15 @@ TEST(lines, cull_is_ignored)
 {
     long drawn = 0;
     for (int i = 0; i < 60; i++) {
-        canvas plain = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas plain = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_float(0, 9));
         shade_vec3 p[10];
         for (int k = 0; k < 10; k++) p[k] = random_vector(1.5);
-        canvas_clear(&plain, 1);
         shade_stats stats = draw_lines(&plain, p, 10, &s);
         drawn += stats.drawn;
         for (int cull = 1; cull < 4; cull++) {
-            canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+            canvas c = canvas_ready(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
             s.raster.cull = (shade_cull)cull;
-            canvas_clear(&c, 1);
             shade_stats other = draw_lines(&c, p, 10, &s);
             CHECK(canvas_same(&c, &plain) && !memcmp(&stats, &other, sizeof stats));
             canvas_close(&c);
@@ -905,41 +885,12 @@ TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
 
 TEST(lines, depth_only_targets_take_lines_too)
 {
-    canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas c = canvas_ready(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
     shade_line_state s = line_state(2);
     shade_vec3 p[2] = { { -1, 0, 0 }, { 1, 0, 0 } };
-    canvas_clear(&c, 1);
     c.target.color = NULL;
     shade_stats stats = draw_lines(&c, p, 2, &s);
     CHECK_INT(stats.fragments, 32);
     CHECK_NEAR(canvas_depth(&c, 7, 5), 0.5, 0);
     canvas_close(&c);
 }
-
-static const test_case lines_cases[] = {
-    CASE(lines, coverage_is_the_pixels_of_the_rectangle_exactly),
-    CASE(lines, coverage_is_the_rectangle_in_any_direction),
-    CASE(lines, no_width_is_one_pixel),
-    CASE(lines, any_finite_width_covers_what_it_reaches),
-    CASE(lines, square_ends_close_the_joints_of_a_path),
-    CASE(lines, a_line_without_length_is_nothing_or_a_square),
-    CASE(lines, near_and_far_cut_the_segment_before_it_gets_its_width),
-    CASE(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn),
-    CASE(lines, ends_a_million_pictures_away_keep_their_pixels),
-    CASE(lines, far_ends_seen_by_a_camera_keep_their_pixels),
-    CASE(lines, an_end_that_touches_near_or_far_is_a_point),
-    CASE(lines, a_line_from_infinitely_far_enters_from_its_direction),
-    CASE(lines, the_scale_of_a_scene_does_not_matter),
-    CASE(lines, places_that_are_none_are_rejected_wherever_they_lie),
-    CASE(lines, any_finite_numbers_keep_to_the_picture_and_the_count),
-    CASE(lines, a_degenerate_camera_draws_no_line),
-    CASE(lines, nothing_is_drawn_outside_the_clip_rectangle),
-    CASE(lines, depth_runs_from_end_to_end_and_is_tested),
-    CASE(lines, a_small_negative_bias_lifts_lines_off_their_own_faces),
-    CASE(lines, cull_is_ignored),
-    CASE(lines, colour_and_blending_are_the_state_s),
-    CASE(lines, bad_arguments_are_refused_before_a_pixel_changes),
-    CASE(lines, depth_only_targets_take_lines_too),
-};
-
-SECTION(lines);

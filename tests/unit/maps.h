@@ -64,11 +64,7 @@ static inline void fill_texels(shade_texture *t, void *pixels) /* padding too */
    read. free(pixels) */
 static inline shade_texture texture_of(int width, int height, shade_format format)
 {
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.width = width;
-    t.height = height;
-    t.format = format;
+    shade_texture t = { .width = width, .height = height, .format = format };
     t.stride = rnd_one_in(2) ? 0 : width + rnd_int(0, 5);
     fill_texels(&t, test_memory(texture_cells(&t) * canvas_pixel_bytes(format)));
     return t;
@@ -116,11 +112,7 @@ static inline float random_coordinate(void)
 /* a map of which nothing but the size is read */
 static inline shade_texture lod_map(int width, int height)
 {
-    shade_texture map;
-    memset(&map, 0, sizeof map);
-    map.pixels = &map_of_no_texels;
-    map.width = width;
-    map.height = height;
+    shade_texture map = { .pixels = &map_of_no_texels, .width = width, .height = height };
     return map;
 }
 

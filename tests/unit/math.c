@@ -208,19 +208,3 @@ TEST(math, the_own_square_root_equals_sqrtf) /* what SHADE_NO_LIBM uses gives th
     }
     CHECK(shade__own_sqrt(-1) == 0 && isinf(shade__own_sqrt((float)INFINITY)));
 }
-
-static const test_case math_cases[] = {
-    CASE(math, componentwise_operations_round_once),
-    CASE(math, products_of_vectors_match_double),
-    CASE(math, clamp_holds_both_bounds_and_sends_nan_to_the_upper),
-    CASE(math, normalize_gives_unit_length_or_exactly_zero),
-    CASE(math, reflect_takes_incoming_and_mirror_takes_outgoing_light),
-    CASE(math, halfway_is_unit_between_or_zero_for_opposites),
-    CASE(math, face_normal_is_right_handed_and_zero_without_area),
-    CASE(math, every_function_is_finite_up_to_a_million_million),
-    CASE(math, two_and_four_component_vectors_match_double),
-    CASE(math, the_own_square_root_equals_sqrtf),
-    CASE(math, the_own_square_root_equals_sqrtf_at_every_mantissa),
-};
-
-SECTION(math);

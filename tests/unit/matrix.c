@@ -16,8 +16,7 @@ static void check_mat4(int line, shade_mat4 got, dmat want, double within)
 #define CHECK_MAT4(got, want, within) check_mat4(__LINE__, got, want, within)
 static shade_mat4 widen(shade_mat3 m)
 {
-    shade_mat4 r;
-    memset(&r, 0, sizeof r);
+    shade_mat4 r = { 0 };
     for (int c = 0; c < 3; c++) r.col[c] = shade_v4(m.col[c].x, m.col[c].y, m.col[c].z, 0);
     r.col[3].w = 1;
     return r;
@@ -543,29 +542,3 @@ TEST(matrix, radians_are_degrees_times_pi_over_180_to_the_last_bit)
     CHECK(isnan(shade_radians(odd[0])));
     for (int k = 1; k < 3; k++) CHECK(float_bits(shade_radians(odd[k])) == float_bits(odd[k]));
 }
-
-static const test_case matrix_cases[] = {
-    CASE(matrix, radians_are_degrees_times_pi_over_180_to_the_last_bit),
-    CASE(matrix, columns_are_stored_one_after_the_other),
-    CASE(matrix, simple_constructors_are_exact),
-    CASE(matrix, products_and_transforms_match_double),
-    CASE(matrix, transform_point_divides_except_by_zero),
-    CASE(matrix, determinants_match_elimination),
-    CASE(matrix, inverses_match_elimination),
-    CASE(matrix, the_inverse_of_a_singular_matrix_is_zero),
-    CASE(matrix, everything_is_finite_up_to_a_million),
-    CASE(matrix, inverses_beyond_floats_stay_finite),
-    CASE(matrix, inverse_transposes_of_small_numbers_are_finite),
-    CASE(matrix, rotation_follows_the_right_hand),
-    CASE(matrix, sine_and_cosine_are_exact_to_float_rounding),
-    CASE(matrix, rotations_invert_by_transposing_and_keep_their_normals),
-    CASE(matrix, normal_matrix_is_signed_cofactors),
-    CASE(matrix, look_at_puts_eye_center_and_up_where_it_says),
-    CASE(matrix, degenerate_cameras_are_finite_rotations),
-    CASE(matrix, projections_match_double),
-    CASE(matrix, reversed_projection_falls_from_one_at_near_to_zero),
-    CASE(matrix, degenerate_projections_put_every_point_outside),
-    CASE(matrix, near_beyond_far_and_left_beyond_right_are_cameras),
-};
-
-SECTION(matrix);

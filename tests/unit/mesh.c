@@ -11,10 +11,8 @@ typedef struct mesh_oracle {
 
 static mesh_oracle mesh_oracle_of(const test_mesh *m)
 {
-    mesh_oracle o;
     dmat view = matrix_or_identity(m->state.view), inverse;
-    memset(&o, 0, sizeof o);
-    o.model = matrix_or_identity(m->state.model);
+    mesh_oracle o = { .model = matrix_or_identity(m->state.model) };
     o.normals = dmat_normals(o.model);
     o.clip = dmat_mul(matrix_or_identity(m->state.projection), dmat_mul(view, o.model));
     dmat_invert(view, 4, &inverse);
@@ -172,9 +170,8 @@ static void check_meshes(shade_shading shading, int mirrored)
     static test_mesh m;
     int checked = 0;
     for (int i = 0; i < 40; i++) {
-        canvas c = canvas_open(64, 48, 65, SHADE_FORMAT_RGBA32F, 1);
+        canvas c = canvas_ready(64, 48, 65, SHADE_FORMAT_RGBA32F, 1);
         random_mesh_scene(&m, shading, mirrored);
-        canvas_clear(&c, 1);
         shade_stats stats = canvas_draw_mesh(&c, &m.mesh, &m.state);
         CHECK_SAY(stats_add_up(&stats, m.mesh.index_count / 3), "%lld triangles", stats.triangles);
         checked += check_mesh(&c, &m);
@@ -217,8 +214,7 @@ TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* to the bit */
         s.lighting.flags = SHADE_FLAG_INFINITE_VIEWER | (i % 3 ? SHADE_FLAG_TWO_SIDED : 0);
         s.view = shade_mat4_look_at(shade_v3(0.2f, 0.1f, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
         s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
-        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         canvas_draw_mesh(&c, &mesh, &s);
         float first[4] = { 0, 0, 0, 0 };
         for (int k = 0; k < 64 * 64; k++) {
@@ -245,8 +241,7 @@ TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
     mesh.colors = color;
     s.shading = SHADE_SHADING_PER_FACE;
     for (int turn = 0; turn < 2; turn++) {
-        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 0);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(20, 20, 0, SHADE_FORMAT_RGBA32F, 0);
         if (turn) {
             mesh.indices = turned;
             mesh.index_count = 3;
@@ -263,10 +258,7 @@ TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
 TEST(mesh, gouraud_misses_the_highlight_that_phong_finds)
 {
     shade_light light = shade_point_light(shade_v3(0, -0.2f, 0.5f), grey(1));
-    shade_material m;
-    memset(&m, 0, sizeof m);
-    m.specular = grey(1);
-    m.shininess = 80;
+    shade_material m = { .specular = grey(1), .shininess = 80 };
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.material = &m;
@@ -274,8 +266,7 @@ TEST(mesh, gouraud_misses_the_highlight_that_phong_finds)
     s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
     double most[2] = { 0, 0 };
     for (int k = 0; k < 2; k++) {
-        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         s.shading = k ? SHADE_SHADING_PER_VERTEX : SHADE_SHADING_PER_FRAGMENT;
         canvas_draw_mesh(&c, &mesh, &s);
         for (int i = 0; i < 64 * 64; i++)
@@ -293,8 +284,7 @@ TEST(mesh, light_between_gouraud_vertices_is_not_clamped) /* a corner of 3 besid
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     mesh.normals = normal;
     s.shading = SHADE_SHADING_PER_VERTEX;
-    canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
     canvas_draw_mesh(&c, &mesh, &s);
     shade_vec4 corner[3];
     ref_triangle t;
@@ -377,8 +367,7 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.lighting.ambient = shade_v3(0.1f, 0, 0);
-    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     shade_stats stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.drawn, 1);
     CHECK_NEAR(canvas_float(&c, 10, 12, 0), 0.5, 1e-5);
@@ -429,9 +418,8 @@ TEST(mesh, matrices_that_begin_with_zeros_are_used)
         s.projection = m;
         shade_stats stats = canvas_draw_mesh(&c[0], &turned, &s);
         CHECK(stats.fragments > 10);
-        scene plain;
         shade_vec4 clip[3];
-        memset(&plain, 0, sizeof plain);
+        scene plain = { 0 };
         for (int k = 0; k < 3; k++) {
             clip[k] = shade_mat4_transform(
                 m, shade_v4(moved[3 * k], moved[3 * k + 1], moved[3 * k + 2], 1));
@@ -505,8 +493,7 @@ TEST(mesh, a_nan_in_a_matrix_rejects_every_triangle)
         shade_mat4 *m = k == 0 ? &s.model : k == 1 ? &s.view : &s.projection;
         *m = shade_mat4_identity();
         m->col[1].x = (float)NAN;
-        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
         shade_stats stats = canvas_draw_mesh(&c, &mesh, &s);
         CHECK_INT(stats.rejected, 1);
         CHECK_INT(stats.fragments, 0);
@@ -578,8 +565,7 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
 {
     static const uint32_t good_indices[] = { 0, 1, 2 }, bad_indices[] = { 0, 1, 3 };
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
-    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
     mesh_call good = { plain_mesh(big_triangle, 3), plain_state(&light), 0 };
     good.m.normals = good.m.colors = good.m.texcoords = big_triangle;
     good.m.indices = good_indices;
@@ -604,8 +590,7 @@ TEST(mesh, a_negative_number_of_lights_is_none_and_no_index_is_no_triangle)
 {
     static const uint32_t indices[] = { 0, 1, 2 };
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
-    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
     shade_mesh m = plain_mesh(big_triangle, 3);
     shade_draw_state s = plain_state(&light);
     m.indices = indices;
@@ -896,7 +881,7 @@ TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
     shade_result want = SHADE_MAX_VARYINGS < 8 ? SHADE_ERROR_STATE : SHADE_OK;
     long holes = 0, drawn = 0;
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c = canvas_ready(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA32F, 1);
         random_alpha_scene(&s);
         s.mesh.colors = NULL;
         s.mesh.texcoords = s.texcoord[0];
@@ -911,7 +896,6 @@ TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
         s.map.height = H;
         s.map.filter = SHADE_FILTER_TRILINEAR;
         CHECK_INT(shade_build_mipmaps(&s.map, levels, memory, sizeof memory), SHADE_OK);
-        canvas_clear(&c, 1);
         if (i % 2) c.target.color = NULL;
         CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, NULL), want);
         for (int k = 0; k < ALPHA_W * ALPHA_H && want == SHADE_OK; k++) {
@@ -1060,35 +1044,3 @@ TEST(mesh, vertex_normals_of_bad_meshes_are_refused)
         CHECK_INT(shade_mesh_normals(&s, n), SHADE_OK);
     }
 }
-
-static const test_case mesh_cases[] = {
-    CASE(mesh, matrices_that_begin_with_zeros_are_used),
-    CASE(mesh, a_mesh_of_nothing_needs_no_positions),
-    CASE(mesh, per_fragment_is_the_equation_at_every_pixel),
-    CASE(mesh, per_vertex_interpolates_the_light_of_the_corners),
-    CASE(mesh, per_face_is_lit_once_at_the_centroid),
-    CASE(mesh, mirrored_models_keep_their_given_normals),
-    CASE(mesh, faces_of_distant_light_and_viewer_have_one_colour),
-    CASE(mesh, per_face_takes_the_colour_of_the_first_vertex),
-    CASE(mesh, gouraud_misses_the_highlight_that_phong_finds),
-    CASE(mesh, light_between_gouraud_vertices_is_not_clamped),
-    CASE(mesh, every_layout_of_the_same_mesh_gives_the_same_bits),
-    CASE(mesh, bands_of_a_mesh_give_the_bits_of_the_whole),
-    CASE(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert),
-    CASE(mesh, the_state_of_the_pipeline_is_handed_on),
-    CASE(mesh, a_nan_in_a_matrix_rejects_every_triangle),
-    CASE(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero),
-    CASE(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes),
-    CASE(mesh, a_negative_number_of_lights_is_none_and_no_index_is_no_triangle),
-    CASE(mesh, transparency_and_cutoff_lie_between_zero_and_one),
-    CASE(mesh, a_bad_index_is_found_wherever_it_stands),
-    CASE(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention),
-    CASE(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut),
-    CASE(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn),
-    CASE(mesh, depth_alone_has_the_holes_of_the_picture),
-    CASE(mesh, vertex_normals_are_weighted_by_angle_and_unit),
-    CASE(mesh, corners_of_a_cube_point_along_its_diagonals),
-    CASE(mesh, vertex_normals_of_bad_meshes_are_refused),
-};
-
-SECTION(mesh);

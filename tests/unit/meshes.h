@@ -17,20 +17,14 @@ static inline shade_vec3 grey(double v) { return shade_v3((float)v, (float)v, (f
 /* Positions one after the other, three to a triangle. */
 static inline shade_mesh plain_mesh(const float *positions, int vertices)
 {
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = positions;
-    m.vertex_count = vertices;
+    shade_mesh m = { .positions = positions, .vertex_count = vertices };
     return m;
 }
 
 /* All defaults, and one light or none. */
 static inline shade_draw_state plain_state(const shade_light *light)
 {
-    shade_draw_state s;
-    memset(&s, 0, sizeof s);
-    s.lighting.lights = light;
-    s.lighting.light_count = light ? 1 : 0;
+    shade_draw_state s = { .lighting.lights = light, .lighting.light_count = light ? 1 : 0 };
     return s;
 }
 

@@ -1,13 +1,14 @@
 /* mistakes.h - scenes that are right, and mistakes in them.
 
    A stage is one draw: a target, a mesh, a state, and memory for all of them.  Each mistake is a
-   function that changes a stage, and a row of mistakes[] with the words that shade_explain's
-   sentence must hold.  tests/unit/explain.c holds the words; tests/fuzz/explained.h makes the same
-   mistakes in random scenes. */
+   function that changes a stage, with the scenes in which it is made and the words that
+   shade_explain's sentence must hold.  tests/unit/explain.c holds it to the words; tests/fuzz makes
+   the same mistakes in random scenes. */
 #ifndef MISTAKES_H
 #define MISTAKES_H
 
 #include "examples/shared/teapot.h"
+#include "listed.h"
 
 enum { STAGE_RINGS = 12, STAGE_SECTORS = 16, STAGE_WIDTH = 96, STAGE_HEIGHT = 64 };
 enum { STAGE_VERTICES = (STAGE_RINGS + 1) * (STAGE_SECTORS + 1) };
@@ -66,6 +67,20 @@ static inline void stage_look(stage *s)
 {
     s->state.view = shade_mat4_look_at(s->eye, s->center, shade_v3(0, 1, 0));
     s->state.projection = shade_mat4_perspective(s->fovy, s->aspect, s->z_near, s->z_far);
+}
+static inline void stage_place(stage *s, shade_vec3 eye, shade_vec3 center)
+{
+    s->eye = eye;
+    s->center = center;
+    stage_look(s);
+}
+static inline void stage_lens(stage *s, float fovy, float aspect, float z_near, float z_far)
+{
+    s->fovy = fovy;
+    s->aspect = aspect;
+    s->z_near = z_near;
+    s->z_far = z_far;
+    stage_look(s);
 }
 /* What every scene has: a ball, grey colours, a white map, and no lamp yet. */
 static inline void stage_begin(stage *s)
@@ -145,7 +160,25 @@ static inline const char *stage_explain(stage *s, int with_stats)
 
 /* ---- mistakes -------------------------------------------------------------------------------- */
 
-#define MISTAKE(name) static void mistake_##name(stage *s)
+typedef struct mistake {
+    const char *name, *words;    /* "": nothing is said, since it may be meant; a|b: a or b */
+    void (*make)(stage *);
+    int scenes;
+    struct mistake *next;
+} mistake;
+LISTED(mistake);
+enum {
+    ON_BALL = 1, ON_TEAPOT = 2, WITH_STATS = 4,
+    BALL = ON_BALL, BALL_STATS = ON_BALL | WITH_STATS, POT = ON_TEAPOT,
+    BOTH = ON_BALL | ON_TEAPOT, BOTH_STATS = BOTH | WITH_STATS
+};
+#define MISTAKE(name, scenes, words)                                                               \
+    static void mistake_##name(stage *s);                                                          \
+    MISTAKE_IN(name, name, scenes, words)                                                          \
+    static void mistake_##name(stage *s)
+/* The same mistake, which has other words in some scenes. */
+#define MISTAKE_IN(name, entry, scenes, words)                                                     \
+    LIST(mistake, entry, #name, words, mistake_##name, scenes)
 #define BLACK shade_v3(0, 0, 0)
 #define WHITE shade_v3(1, 1, 1)
 #define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
@@ -160,11 +193,17 @@ static inline void stage_reverse(stage *s, float z_near)
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
-static inline void stage_lamp(stage *s, shade_light lamp)
+/* The first lamp, alone. */
+static inline shade_light *stage_one_lamp(stage *s)
+{
+    s->state.lighting.light_count = 1;
+    return &s->lamps[0];
+}
+static inline shade_light *stage_lamp(stage *s, shade_light lamp)
 {
     s->lamps[0] = lamp;
     s->state.lighting.lights = s->lamps;
-    s->state.lighting.light_count = 1;
+    return stage_one_lamp(s);
 }
 /* A lamp where the first one is, that points at the middle of the mesh. */
 static shade_light stage_spot(const stage *s, float cutoff, float exponent)
@@ -173,10 +212,11 @@ static shade_light stage_spot(const stage *s, float cutoff, float exponent)
     return shade_spot_light(from, shade_sub(s->center, from), cutoff, exponent,
                             shade_v3(1, 1, 1));
 }
-static inline void stage_map(stage *s)
+static inline shade_texture *stage_map(stage *s)
 {
     s->mesh.texcoords = &s->texcoord[0].x;
     s->state.diffuse_map = &s->map;
+    return &s->map;
 }
 /* Winds the triangles the other way from an index on. */
 static inline void stage_turn(stage *s, int first)
@@ -219,114 +259,114 @@ static inline void shader_white(const void *uniforms, const shade_fragments *SHA
 }
 
 /* the target */
-MISTAKE(width_and_height_exchanged)
+MISTAKE(width_and_height_exchanged, BOTH, "aspect")
 {
     const int width = s->target.width;
     s->target.width = s->target.height;
     s->target.height = width;
     s->target.stride = 0;
 }
-MISTAKE(width_forgotten) { s->target.width = 0; }
-MISTAKE(height_forgotten) { s->target.height = 0; }
-MISTAKE(no_buffers) { s->target.color = s->target.depth = NULL; }
-MISTAKE(color_forgotten) { s->target.color = NULL; }
-MISTAKE(depth_forgotten) { s->target.depth = NULL; }
-MISTAKE(srgb_forgotten) { s->target.srgb = 0; }
-MISTAKE(red_and_blue_exchanged) { s->target.format = SHADE_FORMAT_BGRA8; }
-MISTAKE(format_of_masks) { s->target.format = SHADE_FORMAT_A8; }
-MISTAKE(stride_of_a_row_too_few) { s->target.stride = s->target.width - 1; }
-MISTAKE(clip_of_a_corner_to_draw_in_all)
+MISTAKE(width_forgotten, BOTH, "target.width") { s->target.width = 0; }
+MISTAKE(height_forgotten, BOTH, "target.height") { s->target.height = 0; }
+MISTAKE(no_buffers, BOTH, "target.color") { s->target.color = s->target.depth = NULL; }
+MISTAKE(color_forgotten, BOTH, "") { s->target.color = NULL; }
+MISTAKE(depth_forgotten, BOTH, "target.depth is NULL") { s->target.depth = NULL; }
+MISTAKE(srgb_forgotten, BOTH, "") { s->target.srgb = 0; }
+MISTAKE(red_and_blue_exchanged, BOTH, "") { s->target.format = SHADE_FORMAT_BGRA8; }
+MISTAKE(format_of_masks, BOTH, "target.format") { s->target.format = SHADE_FORMAT_A8; }
+MISTAKE(stride_of_a_row_too_few, BOTH, "target.stride") { s->target.stride = s->target.width - 1; }
+MISTAKE(clip_of_a_corner_to_draw_in_all, BOTH, "clip rectangle")
 {
     s->target.clip_x = s->target.width;
     s->target.clip_y = s->target.height;
 }
-MISTAKE(clip_by_two_corners)
+MISTAKE(clip_by_two_corners, BOTH, "clip")
 {
     s->target.clip_x = s->target.width / 4;
     s->target.clip_y = s->target.height / 4;
     s->target.clip_width = s->target.width;
     s->target.clip_height = s->target.height;
 }
-MISTAKE(clip_width_alone) { s->target.clip_width = s->target.width; }
-MISTAKE(clip_beside_the_mesh)
+MISTAKE(clip_width_alone, BOTH, "clip_height") { s->target.clip_width = s->target.width; }
+MISTAKE(clip_beside_the_mesh, BOTH, "beside the clip rectangle")
 {
     s->target.clip_x = s->target.clip_y = 1;
     s->target.clip_width = s->target.width / 12;
     s->target.clip_height = s->target.height / 12;
 }
-MISTAKE(strip_without_rows) { s->target.row_offset = 3; }
+MISTAKE(strip_without_rows, BOTH, "row_count") { s->target.row_offset = 3; }
 
 /* depth */
-MISTAKE(clear_forgotten) { s->clear = NAN; }
-MISTAKE(cleared_to_zero) { s->clear = 0; }
-MISTAKE(cleared_once_for_two_frames) { s->draws = 2; }
-MISTAKE(test_greater) { s->state.raster.depth_test = SHADE_COMPARE_GREATER; }
-MISTAKE(test_equal)
+MISTAKE(clear_forgotten, BOTH, "shade_clear") { s->clear = NAN; }
+MISTAKE(cleared_to_zero, BOTH, "shade_clear") { s->clear = 0; }
+MISTAKE(cleared_once_for_two_frames, BOTH_STATS, "shade_clear") { s->draws = 2; }
+MISTAKE(test_greater, BOTH, "SHADE_COMPARE_LESS")
+{
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+}
+MISTAKE(test_equal, BOTH_STATS, "depth_test|target.depth")
 {
     s->state.raster.depth_test = SHADE_COMPARE_EQUAL;
 }
-MISTAKE(test_always) { s->state.raster.depth_test = SHADE_COMPARE_ALWAYS; }
-MISTAKE(depth_never_written) { s->state.raster.depth_read_only = 1; }
-MISTAKE(bias_of_one) { s->state.raster.depth_bias = 1; }
-MISTAKE(bias_of_minus_one) { s->state.raster.depth_bias = -1; }
-MISTAKE(bias_nan) { s->state.raster.depth_bias = NAN; }
-MISTAKE(reversed_camera_in_half)
+MISTAKE(test_always, BOTH, "depth_test") { s->state.raster.depth_test = SHADE_COMPARE_ALWAYS; }
+MISTAKE(depth_never_written, BOTH, "depth_read_only") { s->state.raster.depth_read_only = 1; }
+MISTAKE(bias_of_one, BOTH_STATS, "depth_bias") { s->state.raster.depth_bias = 1; }
+MISTAKE(bias_of_minus_one, BOTH, "depth_bias") { s->state.raster.depth_bias = -1; }
+MISTAKE(bias_nan, BOTH, "raster.depth_bias") { s->state.raster.depth_bias = NAN; }
+MISTAKE(reversed_camera_in_half, BOTH, "depth_zero_to_one")
 {
     s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, s->z_near);
 }
-MISTAKE(reversed_without_its_test)
+MISTAKE(reversed_without_its_test, BOTH, "depth_test")
 {
     stage_reverse(s, s->z_near);
     s->state.raster.depth_test = SHADE_COMPARE_LESS;
     s->clear = 1;
 }
-MISTAKE(reversed_without_its_test_cleared_to_zero)
+MISTAKE(reversed_without_its_test_cleared_to_zero, BOTH, "depth_test|shade_clear")
 {
     stage_reverse(s, s->z_near);
     s->state.raster.depth_test = SHADE_COMPARE_LESS;
 }
-MISTAKE(reversed_without_its_clear)
+MISTAKE(reversed_without_its_clear, BOTH, "shade_clear")
 {
     stage_reverse(s, s->z_near);
     s->clear = 1;
 }
-MISTAKE(reversed_without_its_flag)
+MISTAKE(reversed_without_its_flag, BOTH, "depth_zero_to_one")
 {
     stage_reverse(s, s->z_near);
     s->state.raster.depth_zero_to_one = 0;
 }
-MISTAKE(flag_of_vulkan_alone) { s->state.raster.depth_zero_to_one = 1; }
+MISTAKE(flag_of_vulkan_alone, BOTH, "") { s->state.raster.depth_zero_to_one = 1; }
 
 /* the mesh */
-MISTAKE(positions_forgotten) { s->mesh.positions = NULL; }
-MISTAKE(normals_forgotten) { s->mesh.normals = NULL; }
-MISTAKE(vertex_count_forgotten) { s->mesh.vertex_count = 0; }
-MISTAKE(vertex_count_of_another_mesh) { s->mesh.vertex_count /= 3; }
-MISTAKE(indices_forgotten)
+MISTAKE(positions_forgotten, BOTH, "mesh.positions") { s->mesh.positions = NULL; }
+MISTAKE(normals_forgotten, BOTH, "") { s->mesh.normals = NULL; }
+MISTAKE(vertex_count_forgotten, BOTH, "mesh.vertex_count") { s->mesh.vertex_count = 0; }
+MISTAKE(vertex_count_of_another_mesh, BOTH, "mesh.vertex_count") { s->mesh.vertex_count /= 3; }
+MISTAKE(indices_forgotten, BOTH, "mesh.indices|mesh.normals|mesh.vertex_count|")
 {
     s->mesh.indices = NULL;
     s->mesh.vertex_count -= s->mesh.vertex_count % 3;
 }
-MISTAKE(index_count_forgotten) { s->mesh.index_count = 0; }
-MISTAKE(index_count_of_triangles)
-{
-    s->mesh.index_count = s->mesh.index_count / 9 * 3;
-}
-MISTAKE(index_count_less_one) { s->mesh.index_count--; }
-MISTAKE(indices_of_16_bits)
+MISTAKE(index_count_forgotten, BOTH, "mesh.index_count") { s->mesh.index_count = 0; }
+MISTAKE(index_count_of_triangles, BOTH, "") { s->mesh.index_count = s->mesh.index_count / 9 * 3; }
+MISTAKE(index_count_less_one, BOTH, "multiple of 3") { s->mesh.index_count--; }
+MISTAKE(indices_of_16_bits, BOTH, "32 bits")
 {
     for (int i = 0; i < s->mesh.index_count / 2; i++)
         s->index[i] = s->index[2 * i] | s->index[2 * i + 1] << 16;
 }
-MISTAKE(indices_from_one)
+MISTAKE(indices_from_one, BOTH, "mesh.vertex_count")
 {
     for (int i = 0; i < s->mesh.index_count; i++) s->index[i]++;
 }
-MISTAKE(indices_never_filled) { memset(s->index, 0, sizeof s->index); }
-MISTAKE(stride_in_floats) { s->mesh.position_stride = 3; }
-MISTAKE(stride_of_eight_floats) { s->mesh.position_stride = 8; }
-MISTAKE(normal_stride_in_floats) { s->mesh.normal_stride = 3; }
-MISTAKE(positions_of_doubles)
+MISTAKE(indices_never_filled, BOTH, "mesh.indices") { memset(s->index, 0, sizeof s->index); }
+MISTAKE(stride_in_floats, BOTH, "bytes") { s->mesh.position_stride = 3; }
+MISTAKE(stride_of_eight_floats, BOTH, "position_stride") { s->mesh.position_stride = 8; }
+MISTAKE(normal_stride_in_floats, BOTH, "normal_stride") { s->mesh.normal_stride = 3; }
+MISTAKE(positions_of_doubles, BOTH, "mesh.positions")
 {
     for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
         const shade_vec3 p = s->position[i];
@@ -339,7 +379,7 @@ static inline int32_t stage_hundredths(float f)
 {
     return f > -1e6f && f < 1e6f ? (int32_t)(f * 100) : 0;
 }
-MISTAKE(positions_of_integers)
+MISTAKE(positions_of_integers, BOTH, "mesh.positions|state.model|small")
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) {
         const shade_vec3 q = s->position[i];
@@ -348,37 +388,40 @@ MISTAKE(positions_of_integers)
         memcpy(s->position + i, p, sizeof p);
     }
 }
-MISTAKE(positions_interleaved_without_stride)
+MISTAKE(positions_interleaved_without_stride, BOTH, "mesh.normals|mesh.positions|")
 {
     for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
         s->position[2 * i] = s->position[i];
         s->position[2 * i + 1] = s->normal[i];
     }
 }
-MISTAKE(positions_never_filled)
+MISTAKE(positions_never_filled, BOTH, "mesh.indices|mesh.positions|area")
 {
     memset(s->position, 0, sizeof s->position);
 }
-MISTAKE(positions_nan)
+MISTAKE(positions_nan, BOTH, "mesh.positions")
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) s->position[i].y = NAN;
 }
-MISTAKE(one_position_infinite) { s->position[s->mesh.vertex_count / 2].x = INFINITY; }
-MISTAKE(normals_never_filled) { memset(s->normal, 0, sizeof s->normal); }
-MISTAKE(normals_against_the_winding)
+MISTAKE(one_position_infinite, BOTH, "mesh.positions")
+{
+    s->position[s->mesh.vertex_count / 2].x = INFINITY;
+}
+MISTAKE(normals_never_filled, BOTH, "mesh.normals") { memset(s->normal, 0, sizeof s->normal); }
+MISTAKE(normals_against_the_winding, BOTH, "mesh.normals")
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) s->normal[i] = shade_neg(s->normal[i]);
 }
-MISTAKE(normals_nan)
+MISTAKE(normals_nan, BOTH, "mesh.normals")
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) s->normal[i] = shade_v3(NAN, NAN, NAN);
 }
-MISTAKE(normals_as_colours)    /* 0 .. 1, as pictures hold them */
+MISTAKE(normals_as_colours, BOTH, "mesh.normals")    /* 0 .. 1, as pictures hold them */
 {
     for (int i = 0; i < s->mesh.vertex_count; i++)
         s->normal[i] = shade_madd(shade_v3(0.5f, 0.5f, 0.5f), 0.5f, s->normal[i]);
 }
-MISTAKE(normals_in_reverse_order)
+MISTAKE(normals_in_reverse_order, BOTH, "")
 {
     for (int i = 0, k = s->mesh.vertex_count - 1; i < k; i++, k--) {
         const shade_vec3 n = s->normal[i];
@@ -386,116 +429,107 @@ MISTAKE(normals_in_reverse_order)
         s->normal[k] = n;
     }
 }
-MISTAKE(normals_with_z_up)
+MISTAKE(normals_with_z_up, BOTH, "mesh.normals|")
 {
     for (int i = 0; i < s->mesh.vertex_count; i++)
         s->normal[i] = shade_v3(s->normal[i].x, -s->normal[i].z, s->normal[i].y);
 }
-MISTAKE(positions_as_normals) { s->mesh.normals = s->mesh.positions; }
-MISTAKE(inside_out)
+MISTAKE(positions_as_normals, POT, "mesh.normals|") { s->mesh.normals = s->mesh.positions; }
+MISTAKE(inside_out, BOTH, "inside out|winding")
 {
     stage_turn(s, 0);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(wound_clockwise_without_normals)
+MISTAKE(wound_clockwise_without_normals, BOTH, "wound|winding")
 {
     stage_turn(s, 0);
     s->mesh.normals = NULL;
 }
-MISTAKE(half_wound_clockwise)
+MISTAKE(half_wound_clockwise, BOTH, "mesh.normals|")
 {
     stage_turn(s, s->mesh.index_count / 6 * 3);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(fronts_left_out) { s->state.raster.cull = SHADE_CULL_FRONT; }
-MISTAKE(colors_zero)
+MISTAKE(fronts_left_out, BOTH, "") { s->state.raster.cull = SHADE_CULL_FRONT; }
+MISTAKE(colors_zero, BOTH, "mesh.colors")
 {
     memset(s->color, 0, sizeof s->color);
     s->mesh.colors = &s->color[0].x;
 }
-MISTAKE(colors_of_255)
+MISTAKE(colors_of_255, BOTH, "255")
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) s->color[i] = shade_v3(200, 128, 130);
     s->mesh.colors = &s->color[0].x;
 }
-MISTAKE(colors_of_bytes)
+MISTAKE(colors_of_bytes, BOTH, "mesh.colors")
 {
     memset(s->color, 0x60, sizeof s->color);    /* as floats they are 6e19 */
     s->mesh.colors = &s->color[0].x;
 }
-MISTAKE(map_without_texcoords) { s->state.diffuse_map = &s->map; }
-MISTAKE(texcoords_without_map) { s->mesh.texcoords = &s->texcoord[0].x; }
-MISTAKE(texcoords_in_texels)
+MISTAKE(map_without_texcoords, BOTH, "mesh.texcoords is NULL") { s->state.diffuse_map = &s->map; }
+MISTAKE(texcoords_without_map, BOTH, "") { s->mesh.texcoords = &s->texcoord[0].x; }
+MISTAKE(texcoords_in_texels, BOTH, "mesh.texcoords")
 {
     stage_map(s);
     s->map.width = s->map.height = 16;
     for (int i = 0; i < s->mesh.vertex_count; i++)
         s->texcoord[i] = shade_scale2(s->texcoord[i], 16);
 }
-MISTAKE(texcoords_never_filled)
+MISTAKE(texcoords_never_filled, BOTH, "")
 {
     stage_map(s);
     memset(s->texcoord, 0, sizeof s->texcoord);
 }
-MISTAKE(map_without_pixels)
-{
-    stage_map(s);
-    s->map.pixels = NULL;
-}
-MISTAKE(map_black)
+MISTAKE(map_without_pixels, BOTH, "pixels") { stage_map(s)->pixels = NULL; }
+MISTAKE(map_black, BOTH, "diffuse_map")
 {
     stage_map(s);
     for (int k = 0; k < STAGE_TEXELS * 4; k++) s->texel[k] = (unsigned char)(k % 4 == 3 ? 255 : 0);
 }
-MISTAKE(map_never_filled_and_cut)
+MISTAKE(map_never_filled_and_cut, BOTH, "alpha_cutoff")
 {
     stage_map(s);
     memset(s->texel, 0, sizeof s->texel);
     s->state.alpha_cutoff = 0.5f;
 }
-MISTAKE(map_invisible)
+MISTAKE(map_invisible, BOTH, "Alpha|alpha")
 {
     stage_map(s);
     for (int k = 3; k < STAGE_TEXELS * 4; k += 4) s->texel[k] = 0;
     s->state.raster.blend = SHADE_BLEND_OVER;
 }
-MISTAKE(map_not_marked_srgb)
+MISTAKE(map_not_marked_srgb, BOTH, "")
 {
     stage_map(s);
     s->map.srgb = 0;
     s->target.srgb = 1;
 }
-MISTAKE(trilinear_without_mipmaps)
+MISTAKE(trilinear_without_mipmaps, BOTH, "mipmaps")
 {
-    stage_map(s);
-    s->map.filter = SHADE_FILTER_TRILINEAR;
+    stage_map(s)->filter = SHADE_FILTER_TRILINEAR;
 }
-MISTAKE(map_of_no_size)
-{
-    stage_map(s);
-    s->map.width = 0;
-}
-MISTAKE(chunk_count_forgotten)
+MISTAKE(map_of_no_size, BOTH, "texture") { stage_map(s)->width = 0; }
+MISTAKE(chunk_count_forgotten, BOTH, "chunk_count")
 {
     stage_chunks(s);
     s->mesh.chunk_count = 0;
 }
-MISTAKE(chunks_null)
+MISTAKE(chunks_null, BOTH, "mesh.chunks")
 {
     stage_chunks(s);
     s->mesh.chunks = NULL;
 }
-MISTAKE(chunks_of_half_the_triangles)
+MISTAKE(chunks_of_half_the_triangles, BOTH, "mesh.chunks")
 {
     stage_chunks(s);
     s->mesh.chunk_count--;
 }
-MISTAKE(chunks_never_filled)
+MISTAKE(chunks_never_filled, BOTH, "mesh.chunks")
 {
     stage_chunks(s);
     memset(s->chunks, 0, sizeof s->chunks);
 }
-MISTAKE(chunks_of_a_mesh_that_has_moved)
+MISTAKE(chunks_of_a_mesh_that_has_moved, BOTH, "mesh.chunks")
 {
     stage_chunks(s);
     s->chunks[0].low.x += 40;
@@ -503,223 +537,210 @@ MISTAKE(chunks_of_a_mesh_that_has_moved)
 }
 
 /* lamps */
-MISTAKE(lamp_never_filled) { stage_lamp(s, s->lamps[STAGE_LAMPS - 1]); }
-MISTAKE(lamp_black)
+MISTAKE(lamp_never_filled, BOTH, "no colour|diffuse") { stage_lamp(s, s->lamps[STAGE_LAMPS - 1]); }
+MISTAKE(lamp_black, BOTH, "no colour|diffuse")
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].diffuse = s->lamps[0].specular = BLACK;
 }
-MISTAKE(light_of_255)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].diffuse = shade_v3(255, 255, 255);
-}
-MISTAKE(lamp_of_a_hundredth)
+MISTAKE(light_of_255, BOTH, "255") { stage_one_lamp(s)->diffuse = shade_v3(255, 255, 255); }
+MISTAKE(lamp_of_a_hundredth, BOTH, "diffuse|light")
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].diffuse = s->lamps[0].specular = shade_v3(1e-3f, 1e-3f, 1e-3f);
 }
-MISTAKE(lamp_behind)
+MISTAKE(lamp_behind, BOTH, "behind|away")
 {
     const shade_vec3 behind = shade_madd(s->center, -1, shade_sub(s->eye, s->center));
     stage_lamp(s, shade_point_light(behind, shade_v3(1, 1, 1)));
 }
-MISTAKE(lamp_inside)
+MISTAKE(lamp_inside, BOTH, "behind|inside|away")
 {
     stage_lamp(s, shade_point_light(s->center, shade_v3(1, 1, 1)));
 }
-MISTAKE(lamp_in_eye_space)    /* a lamp at the eye, as OpenGL 1 had it */
+/* a lamp at the eye, as OpenGL 1 had it */
+MISTAKE(lamp_in_eye_space, BOTH, "behind|away|inside")
 {
     stage_lamp(s, shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1)));
 }
-MISTAKE(lamp_under_the_ground)
+MISTAKE(lamp_under_the_ground, BOTH, "behind|away")
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].position.y = -s->lamps[0].position.y;
     s->lamps[0].position.z = -s->lamps[0].position.z;
 }
-MISTAKE(lamp_far_away_that_falls_off)
+MISTAKE(lamp_far_away_that_falls_off, BOTH, "Attenuation")
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].position = shade_v4(40, 60, 50, 1);
     s->lamps[0].quadratic = 1;
 }
-MISTAKE(lamp_that_falls_off_by_the_square)
+MISTAKE(lamp_that_falls_off_by_the_square, BOTH, "Attenuation")
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].position = shade_v4(14, 20, 16, 1);
     s->lamps[0].quadratic = 1;
 }
-MISTAKE(attenuation_negative)
+MISTAKE(attenuation_negative, BOTH, "negative|attenuation|constant")
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].constant = 1;
     s->lamps[0].linear = -0.2f;
 }
-MISTAKE(sun_toward_the_light)
+MISTAKE(sun_toward_the_light, BOTH, "behind|away")
 {
     stage_lamp(s, shade_directional_light(shade_sub(s->eye, s->center), shade_v3(1, 1, 1)));
 }
-MISTAKE(sun_as_a_point)    /* a direction whose w was left at 1 */
+MISTAKE(sun_as_a_point, BOTH, "behind|inside|away")    /* a direction whose w was left at 1 */
 {
     stage_lamp(s, shade_directional_light(shade_v3(0, -0.2f, -0.4f), shade_v3(1, 1, 1)));
     s->lamps[0].position.w = 1;
 }
-MISTAKE(point_as_a_sun)
+MISTAKE(point_as_a_sun, BOTH, "") { stage_one_lamp(s)->position.w = 0; }
+MISTAKE(cutoff_in_degrees, BOTH, "cosine|radians") { stage_lamp(s, stage_spot(s, 30, 1)); }
+MISTAKE(cosine_in_degrees, BOTH, "cosine|radians")
 {
-    s->state.lighting.light_count = 1;
-    s->lamps[0].position.w = 0;
+    stage_lamp(s, stage_spot(s, 0.5f, 1))->spot_cos_cutoff = 30;
 }
-MISTAKE(cutoff_in_degrees) { stage_lamp(s, stage_spot(s, 30, 1)); }
-MISTAKE(cosine_in_degrees)
+MISTAKE(angle_for_its_cosine, BOTH, "")
 {
-    stage_lamp(s, stage_spot(s, 0.5f, 1));
-    s->lamps[0].spot_cos_cutoff = 30;
+    stage_lamp(s, stage_spot(s, 0.5f, 1))->spot_cos_cutoff = 0.5f;
 }
-MISTAKE(angle_for_its_cosine)
-{
-    stage_lamp(s, stage_spot(s, 0.5f, 1));
-    s->lamps[0].spot_cos_cutoff = 0.5f;
-}
-MISTAKE(cone_toward_the_eye)
+MISTAKE(cone_toward_the_eye, BOTH, "spot_direction")
 {
     stage_lamp(s, stage_spot(s, 0.5f, 1));
     s->lamps[0].spot_direction = shade_neg(s->lamps[0].spot_direction);
 }
-MISTAKE(cone_at_a_point)    /* a target where the direction belongs */
+MISTAKE(cone_at_a_point, BOTH, "spot_direction")    /* a target where the direction belongs */
 {
     stage_lamp(s, shade_spot_light(shade_v3(4, 6, 5), shade_v3(0, 1.4f, 0), 0.3f, 1,
                                    shade_v3(1, 1, 1)));
 }
-MISTAKE(cone_of_a_hair) { stage_lamp(s, stage_spot(s, 0.01f, 1)); }
-MISTAKE(exponent_of_thousands) { stage_lamp(s, stage_spot(s, 1.5f, 1e5f)); }
-MISTAKE(lights_forgotten) { s->state.lighting.lights = NULL; }
-MISTAKE(light_count_forgotten) { s->state.lighting.light_count = 0; }
-MISTAKE(light_count_negative) { s->state.lighting.light_count = -1; }
-MISTAKE(lighting_forgotten) { memset(&s->state.lighting, 0, sizeof s->state.lighting); }
-MISTAKE(lighting_of_ambient_alone)
+MISTAKE(cone_of_a_hair, BOTH, "") { stage_lamp(s, stage_spot(s, 0.01f, 1)); }
+MISTAKE(exponent_of_thousands, BOTH, "") { stage_lamp(s, stage_spot(s, 1.5f, 1e5f)); }
+MISTAKE(lights_forgotten, BOTH, "lighting.lights") { s->state.lighting.lights = NULL; }
+MISTAKE(light_count_forgotten, BOTH, "light_count") { s->state.lighting.light_count = 0; }
+MISTAKE(light_count_negative, BOTH, "light_count") { s->state.lighting.light_count = -1; }
+MISTAKE(lighting_forgotten, BOTH, "There is no light")
+{
+    memset(&s->state.lighting, 0, sizeof s->state.lighting);
+}
+MISTAKE(lighting_of_ambient_alone, BOTH, "Only ambient light")
 {
     memset(&s->state.lighting, 0, sizeof s->state.lighting);
     s->state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
 }
-MISTAKE(ambient_of_one) { s->state.lighting.ambient = shade_v3(1, 1, 1); }
-MISTAKE(ambient_of_255) { s->state.lighting.ambient = shade_v3(128, 128, 128); }
-MISTAKE(lamp_without_specular)
-{
-    s->state.lighting.light_count = 1;
-    s->lamps[0].specular = BLACK;
-}
-MISTAKE(lamp_of_ambient_light)    /* filled by hand */
+MISTAKE(ambient_of_one, BOTH, "") { s->state.lighting.ambient = shade_v3(1, 1, 1); }
+MISTAKE(ambient_of_255, BOTH, "255") { s->state.lighting.ambient = shade_v3(128, 128, 128); }
+MISTAKE(lamp_without_specular, BOTH, "") { stage_one_lamp(s)->specular = BLACK; }
+MISTAKE(lamp_of_ambient_light, BOTH, "Only ambient|diffuse")    /* filled by hand */
 {
     s->state.lighting.light_count = 1;
     s->lamps[0].diffuse = s->lamps[0].specular = BLACK;
     s->lamps[0].ambient = shade_v3(0.5f, 0.5f, 0.5f);
 }
-MISTAKE(lamp_nan)
+MISTAKE(lamp_nan, BOTH, "NaN") { stage_one_lamp(s)->position.x = NAN; }
+MISTAKE(lamp_negative, POT, "") { stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1); }
+MISTAKE(terms_of_nothing, BOTH, "lighting.terms") { s->state.lighting.terms = SHADE_TERM_EMISSION; }
+MISTAKE(terms_of_highlights, BOTH, "") { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
+MISTAKE(terms_unknown, BOTH, "lighting.terms") { s->state.lighting.terms = 64; }
+MISTAKE(model_of_emission, BOTH, "lighting.model")
 {
-    s->state.lighting.light_count = 1;
-    s->lamps[0].position.x = NAN;
+    s->state.lighting.model = SHADE_MODEL_EMISSIVE;
 }
-MISTAKE(lamp_negative)
+MISTAKE(model_of_ambient_light, BOTH, "lighting.model")
 {
-    s->state.lighting.light_count = 1;
-    s->lamps[0].diffuse = shade_v3(-1, -1, -1);
+    s->state.lighting.model = SHADE_MODEL_AMBIENT;
 }
-MISTAKE(terms_of_nothing) { s->state.lighting.terms = SHADE_TERM_EMISSION; }
-MISTAKE(terms_of_highlights) { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
-MISTAKE(terms_unknown) { s->state.lighting.terms = 64; }
-MISTAKE(model_of_emission) { s->state.lighting.model = SHADE_MODEL_EMISSIVE; }
-MISTAKE(model_of_ambient_light) { s->state.lighting.model = SHADE_MODEL_AMBIENT; }
-MISTAKE(model_unknown) { s->state.lighting.model = (shade_model)44; }
-MISTAKE(shading_unknown) { s->state.shading = (shade_shading)7; }
-MISTAKE(a_pool_of_light_by_vertices)    /* it falls where there are some, or none */
+MISTAKE(model_unknown, BOTH, "lighting.model") { s->state.lighting.model = (shade_model)44; }
+MISTAKE(shading_unknown, BOTH, "state.shading") { s->state.shading = (shade_shading)7; }
+MISTAKE(a_pool_of_light_by_vertices, BOTH, "")    /* it falls where there are some, or none */
 {
     stage_lamp(s, stage_spot(s, 0.06f, 1));
     s->state.shading = SHADE_SHADING_PER_VERTEX;
 }
 
 /* the material */
-MISTAKE(material_forgotten) { s->state.material = NULL; }
-MISTAKE(material_never_filled) { memset(&s->material, 0, sizeof s->material); }
-MISTAKE(material_of_255)
+MISTAKE(material_forgotten, BOTH, "") { s->state.material = NULL; }
+MISTAKE(material_never_filled, BOTH, "state.material")
+{
+    memset(&s->material, 0, sizeof s->material);
+}
+MISTAKE(material_of_255, BOTH, "255")
 {
     s->material.diffuse = s->material.ambient = shade_v3(255, 200, 100);
 }
-MISTAKE(material_of_ambient_light)
+MISTAKE(material_of_ambient_light, BOTH, "state.material|material.diffuse")
 {
     s->material.diffuse = s->material.specular = BLACK;
 }
-MISTAKE(ambient_without_k_a)
+MISTAKE(ambient_without_k_a, BOTH, "material.ambient")
 {
     memset(&s->state.lighting, 0, sizeof s->state.lighting);
     s->state.lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);
     s->material.ambient = BLACK;
 }
-MISTAKE(material_of_highlights) { s->material.diffuse = s->material.ambient = BLACK; }
-MISTAKE(material_dark)
+MISTAKE(material_of_highlights, BOTH, "") { s->material.diffuse = s->material.ambient = BLACK; }
+MISTAKE(material_dark, BOTH, "state.material|diffuse")
 {
     s->material.diffuse = s->material.ambient = shade_v3(1e-3f, 1e-3f, 1e-3f);
     s->material.specular = BLACK;
 }
-MISTAKE(material_negative)
+MISTAKE(material_negative, BOTH, "state.material|negative")
 {
     s->material.diffuse = shade_neg(s->material.diffuse);
     s->material.specular = BLACK;
 }
-MISTAKE(shininess_forgotten) { s->material.shininess = 0; }
-MISTAKE(shininess_of_a_table) { s->material.shininess = 0.4f; }
-MISTAKE(emission_of_the_diffuse_colour)
-{
-    s->material.emission = s->material.diffuse;
-}
-MISTAKE(emission_white) { s->material.emission = shade_v3(1, 1, 1); }
-MISTAKE(invisible)
+MISTAKE(shininess_forgotten, BOTH, "shininess") { s->material.shininess = 0; }
+MISTAKE(shininess_of_a_table, BOTH, "shininess") { s->material.shininess = 0.4f; }
+MISTAKE(emission_of_the_diffuse_colour, BOTH, "") { s->material.emission = s->material.diffuse; }
+MISTAKE(emission_white, BOTH, "emission") { s->material.emission = shade_v3(1, 1, 1); }
+MISTAKE(invisible, BOTH, "transparency")
 {
     s->state.transparency = 1;
     s->state.raster.blend = SHADE_BLEND_OVER;
 }
-MISTAKE(opacity_for_transparency)
+MISTAKE(opacity_for_transparency, BOTH, "transparency|alpha_cutoff")
 {
     s->state.transparency = 1;
     s->state.alpha_cutoff = 0.5f;
 }
-MISTAKE(transparency_in_percent) { s->state.transparency = 50; }
-MISTAKE(transparency_without_blend) { s->state.transparency = 0.5f; }
-MISTAKE(cutoff_of_128) { s->state.alpha_cutoff = 128; }
-MISTAKE(cutoff_above_the_alpha)
+MISTAKE(transparency_in_percent, BOTH, "state.transparency") { s->state.transparency = 50; }
+MISTAKE(transparency_without_blend, BOTH, "raster.blend") { s->state.transparency = 0.5f; }
+MISTAKE(cutoff_of_128, BOTH, "state.alpha_cutoff") { s->state.alpha_cutoff = 128; }
+MISTAKE(cutoff_above_the_alpha, BOTH, "alpha_cutoff")
 {
     s->state.transparency = 0.6f;
     s->state.alpha_cutoff = 0.5f;
 }
-MISTAKE(cull_unknown) { s->state.raster.cull = (shade_cull)4; }
-MISTAKE(blend_unknown) { s->state.raster.blend = (shade_blend)77; }
-MISTAKE(depth_test_unknown)
+MISTAKE(cull_unknown, BOTH, "raster.cull") { s->state.raster.cull = (shade_cull)4; }
+MISTAKE(blend_unknown, BOTH, "raster.blend") { s->state.raster.blend = (shade_blend)77; }
+MISTAKE(depth_test_unknown, BOTH, "raster.depth_test")
 {
     s->state.raster.depth_test = (shade_compare)513;
 }
-MISTAKE(shader_discards_all) { s->state.fragment = shader_that_discards; }
-MISTAKE(shader_leaves_black) { s->state.fragment = shader_black; }
-MISTAKE(shader_by_vertices)
+MISTAKE(shader_discards_all, BOTH_STATS, "state.fragment")
+{
+    s->state.fragment = shader_that_discards;
+}
+MISTAKE(shader_leaves_black, BOTH, "state.fragment") { s->state.fragment = shader_black; }
+MISTAKE(shader_by_vertices, BOTH, "state.shading")
 {
     s->state.fragment = shader_white;
     s->state.shading = SHADE_SHADING_PER_VERTEX;
 }
 
 /* cameras */
-MISTAKE(view_forgotten) { memset(&s->state.view, 0, sizeof s->state.view); }
-MISTAKE(eye_and_center_exchanged)
+MISTAKE(view_forgotten, BOTH, "state.view|the eye")
 {
-    const shade_vec3 eye = s->eye;
-    s->eye = s->center;
-    s->center = eye;
-    stage_look(s);
+    memset(&s->state.view, 0, sizeof s->state.view);
 }
-MISTAKE(looks_the_other_way)
+MISTAKE(eye_and_center_exchanged, BOTH, "") { stage_place(s, s->center, s->eye); }
+MISTAKE(looks_the_other_way, BOTH, "behind the eye")
 {
-    s->center = shade_madd(s->eye, 1, shade_sub(s->eye, s->center));
-    stage_look(s);
+    stage_place(s, s->eye, shade_madd(s->eye, 1, shade_sub(s->eye, s->center)));
 }
-MISTAKE(looks_to_the_side)
+MISTAKE(looks_to_the_side, BOTH, "beside|out of view")
 {
     const shade_vec3 ahead = shade_sub(s->center, s->eye);
     const float far = shade_length(ahead);
@@ -728,333 +749,299 @@ MISTAKE(looks_to_the_side)
     s->center = shade_madd(s->center, 0.2f, ahead);
     stage_look(s);
 }
-MISTAKE(eye_at_its_center)
-{
-    s->eye = s->center;
-    stage_look(s);
-}
-MISTAKE(up_along_the_view)
+MISTAKE(eye_at_its_center, BOTH, "eye|state.view") { stage_place(s, s->center, s->center); }
+MISTAKE(up_along_the_view, BOTH, "")
 {
     s->state.view = shade_mat4_look_at(s->eye, s->center, shade_sub(s->eye, s->center));
 }
-MISTAKE(view_inverted) { s->state.view = shade_mat4_inverse(s->state.view); }
-MISTAKE(view_by_rows)
+MISTAKE(view_inverted, BOTH, "inverse") { s->state.view = shade_mat4_inverse(s->state.view); }
+MISTAKE(view_by_rows, BOTH, "state.view looks transposed")
 {
     s->state.view = shade_mat4_transpose(s->state.view);
 }
-MISTAKE(view_nan) { s->state.view.col[3].x = NAN; }
-MISTAKE(view_moves_the_camera)    /* not the world */
+MISTAKE(view_nan, BOTH, "NaN") { s->state.view.col[3].x = NAN; }
+MISTAKE(view_moves_the_camera, BOTH, "behind the eye|inverse")    /* not the world */
 {
     s->state.view = shade_mat4_translation(shade_sub(s->eye, s->center));
 }
-MISTAKE(view_without_translation) { s->state.view.col[3] = shade_v4(0, 0, 0, 1); }
-MISTAKE(view_without_its_last_one) { s->state.view.col[3].w = 0; }
-MISTAKE(view_that_scales)
+MISTAKE(view_without_translation, BOTH, "eye|state.view|area")
+{
+    s->state.view.col[3] = shade_v4(0, 0, 0, 1);
+}
+MISTAKE(view_without_its_last_one, BOTH, "state.view") { s->state.view.col[3].w = 0; }
+MISTAKE(view_that_scales, BOTH, "state.view")
 {
     s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(0.5f, 0.5f, 0.5f)), s->state.view);
 }
-MISTAKE(view_twice)
+MISTAKE(view_twice, BOTH, "") { s->state.model = s->state.view; }
+MISTAKE(eye_a_thousand_away, BOTH, "beyond the far plane")
 {
-    s->state.model = s->state.view;
+    stage_place(s, shade_madd(s->center, 1000, shade_sub(s->eye, s->center)), s->center);
 }
-MISTAKE(eye_a_thousand_away)
+MISTAKE(eye_inside, BOTH, "inside|the eye")
 {
-    s->eye = shade_madd(s->center, 1000, shade_sub(s->eye, s->center));
-    stage_look(s);
+    stage_place(s, shade_madd(s->center, 0.02f, shade_sub(s->eye, s->center)), s->center);
 }
-MISTAKE(eye_inside)
+MISTAKE(projection_forgotten, BOTH, "state.projection")
 {
-    s->eye = shade_madd(s->center, 0.02f, shade_sub(s->eye, s->center));
-    stage_look(s);
+    memset(&s->state.projection, 0, sizeof s->state.projection);
 }
-MISTAKE(projection_forgotten) { memset(&s->state.projection, 0, sizeof s->state.projection); }
-MISTAKE(both_cameras_forgotten)
+MISTAKE(both_cameras_forgotten, POT, "state.view|state.projection")
 {
     memset(&s->state.view, 0, sizeof s->state.view);
     memset(&s->state.projection, 0, sizeof s->state.projection);
 }
-MISTAKE(fovy_in_degrees)
+MISTAKE(fovy_in_degrees, BOTH, "radians") { stage_lens(s, 40, s->aspect, s->z_near, s->z_far); }
+MISTAKE(fovy_zero, BOTH, "fovy") { stage_lens(s, 0, s->aspect, s->z_near, s->z_far); }
+MISTAKE(fovy_made_radians_twice, BOTH, "")
 {
-    s->fovy = 40;
-    stage_look(s);
+    stage_lens(s, shade_radians(s->fovy), s->aspect, s->z_near, s->z_far);
 }
-MISTAKE(fovy_zero)
+MISTAKE(fovy_of_half_a_turn, BOTH, "too small")
 {
-    s->fovy = 0;
-    stage_look(s);
+    stage_lens(s, 3, s->aspect, s->z_near, s->z_far);
 }
-MISTAKE(fovy_made_radians_twice)
-{
-    s->fovy = shade_radians(s->fovy);
-    stage_look(s);
-}
-MISTAKE(fovy_of_half_a_turn)
-{
-    s->fovy = 3;
-    stage_look(s);
-}
-MISTAKE(aspect_of_integers)
+MISTAKE(aspect_of_integers, BOTH, "aspect")
 {
     if (s->target.height) s->aspect = (float)(s->target.width / s->target.height);
     stage_look(s);
 }
-MISTAKE(aspect_upside_down)
+MISTAKE(aspect_upside_down, BOTH, "aspect")
 {
-    s->aspect = 1 / s->aspect;
-    stage_look(s);
+    stage_lens(s, s->fovy, 1 / s->aspect, s->z_near, s->z_far);
 }
-MISTAKE(aspect_zero)
+MISTAKE(aspect_zero, BOTH, "aspect") { stage_lens(s, s->fovy, 0, s->z_near, s->z_far); }
+MISTAKE(near_zero, BOTH, "near") { stage_lens(s, s->fovy, s->aspect, 0, s->z_far); }
+MISTAKE(near_negative, BOTH, "near and far above 0")
 {
-    s->aspect = 0;
-    stage_look(s);
+    stage_lens(s, s->fovy, s->aspect, -1, s->z_far);
 }
-MISTAKE(near_zero)
+MISTAKE(near_is_far, BOTH, "different") { stage_lens(s, s->fovy, s->aspect, s->z_far, s->z_far); }
+MISTAKE(near_and_far_exchanged, BOTH, "depth_test")
 {
-    s->z_near = 0;
-    stage_look(s);
+    stage_lens(s, s->fovy, s->aspect, s->z_far, s->z_near);
 }
-MISTAKE(near_negative)
+MISTAKE(near_tiny, BOTH_STATS, "near") { stage_lens(s, s->fovy, s->aspect, 1e-7f, s->z_far); }
+MISTAKE(far_too_near, BOTH, "beyond the far plane")
 {
-    s->z_near = -1;
-    stage_look(s);
+    stage_lens(s, s->fovy, s->aspect, s->z_near, 2 * s->z_near);
 }
-MISTAKE(near_is_far)
+MISTAKE(near_too_far, BOTH, "nearer than the near plane")
 {
-    s->z_near = s->z_far;
-    stage_look(s);
+    stage_lens(s, s->fovy, s->aspect, s->z_far / 2, s->z_far);
 }
-MISTAKE(near_and_far_exchanged)
-{
-    const float z = s->z_near;
-    s->z_near = s->z_far;
-    s->z_far = z;
-    stage_look(s);
-}
-MISTAKE(near_tiny)
-{
-    s->z_near = 1e-7f;
-    stage_look(s);
-}
-MISTAKE(far_too_near)
-{
-    s->z_far = 2 * s->z_near;
-    stage_look(s);
-}
-MISTAKE(near_too_far)
-{
-    s->z_near = s->z_far / 2;
-    stage_look(s);
-}
-MISTAKE(projection_by_rows)
+MISTAKE(projection_by_rows, BOTH, "state.projection looks transposed")
 {
     s->state.projection = shade_mat4_transpose(s->state.projection);
 }
-MISTAKE(all_by_rows)
+MISTAKE(all_by_rows, BOTH, "transposed")
 {
     s->state.view = shade_mat4_transpose(s->state.view);
     s->state.projection = shade_mat4_transpose(s->state.projection);
 }
-MISTAKE(view_and_projection_exchanged)
+MISTAKE(view_and_projection_exchanged, BOTH, "swapped")
 {
     const shade_mat4 view = s->state.view;
     s->state.view = s->state.projection;
     s->state.projection = view;
 }
-MISTAKE(projection_times_view_as_view)
+MISTAKE(projection_times_view_as_view, BOTH, "state.view")
 {
     s->state.view = shade_mat4_mul(s->state.projection, s->state.view);
     memset(&s->state.projection, 0, sizeof s->state.projection);
 }
-MISTAKE(projection_times_view_as_projection)
+MISTAKE(projection_times_view_as_projection, BOTH, "state.view")
 {
     s->state.projection = shade_mat4_mul(s->state.projection, s->state.view);
     memset(&s->state.view, 0, sizeof s->state.view);
 }
-MISTAKE(view_times_projection_as_projection)
+MISTAKE(view_times_projection_as_projection, BOTH, "state.projection|state.view")
 {
     s->state.projection = shade_mat4_mul(s->state.view, s->state.projection);
     memset(&s->state.view, 0, sizeof s->state.view);
 }
-MISTAKE(all_in_model)
+MISTAKE(all_in_model, POT, "")
 {
     s->state.model = shade_mat4_mul(s->state.projection, s->state.view);
     memset(&s->state.view, 0, sizeof s->state.view);
     memset(&s->state.projection, 0, sizeof s->state.projection);
 }
-MISTAKE(projection_left_handed)
+MISTAKE(projection_left_handed, BOTH, "behind the eye|inverse")
 {
     s->state.projection.col[2].w = 1;
     s->state.projection.col[2].z = -s->state.projection.col[2].z;
 }
-MISTAKE(projection_upside_down)    /* as Vulkan has it */
+MISTAKE(projection_upside_down, BOTH, "inside out|state.projection")    /* as Vulkan has it */
 {
     s->state.projection.col[1].y = -s->state.projection.col[1].y;
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(ortho_in_pixels)
+MISTAKE(ortho_in_pixels, BOTH, "small|pixel|near plane|beyond|beside|state.projection")
 {
     s->state.projection = shade_mat4_ortho(0, (float)s->target.width, (float)s->target.height, 0,
                                            -1, 1);
 }
-MISTAKE(ortho_too_short)
+MISTAKE(ortho_too_short, BOTH, "near plane|far plane|before near")
 {
     s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, -1, 1);
 }
-MISTAKE(ortho_empty) { s->state.projection = shade_mat4_ortho(1, 1, -1, 1, 0.1f, 9); }
+MISTAKE(ortho_empty, BOTH, "left not equal to right|left")
+{
+    s->state.projection = shade_mat4_ortho(1, 1, -1, 1, 0.1f, 9);
+}
 
 /* the model */
-MISTAKE(model_scaled_to_nothing) { s->state.model = STAGE_SCALE(0); }
-MISTAKE(model_in_millimetres) { s->state.model = STAGE_SCALE(1e3f); }
-MISTAKE(model_far_too_small) { s->state.model = STAGE_SCALE(1e-5f); }
-MISTAKE(model_moved_away)
+MISTAKE(model_scaled_to_nothing, BOTH, "state.model") { s->state.model = STAGE_SCALE(0); }
+MISTAKE(model_in_millimetres, BOTH, "eye|state.model") { s->state.model = STAGE_SCALE(1e3f); }
+MISTAKE(model_far_too_small, BOTH, "small") { s->state.model = STAGE_SCALE(1e-5f); }
+MISTAKE(model_moved_away, BOTH, "state.model")
 {
     s->state.model = shade_mat4_translation(shade_v3(70, 0, 0));
 }
-MISTAKE(model_by_rows)
+MISTAKE(model_by_rows, BOTH, "state.model looks transposed")
 {
     s->state.model = shade_mat4_transpose(shade_mat4_translation(shade_v3(1, 0, 0)));
 }
-MISTAKE(model_nan) { s->state.model = STAGE_SCALE(NAN); }
-MISTAKE(model_without_its_last_one)
+MISTAKE(model_nan, BOTH, "state.model") { s->state.model = STAGE_SCALE(NAN); }
+MISTAKE(model_without_its_last_one, BOTH, "state.model")
 {
     s->state.model = shade_mat4_translation(shade_v3(0.2f, 0, 0));
     s->state.model.col[3].w = 0;
 }
-MISTAKE(mirrored)
+MISTAKE(mirrored, BOTH, "inside out|mirrors")
 {
     s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(model_turned_by_degrees)
+MISTAKE(model_turned_by_degrees, BOTH, "")
 {
     s->state.model = shade_mat4_rotation(90, shade_v3(0, 1, 0));
 }
-MISTAKE(moved_before_scaled)    /* scale * translation, not translation * scale */
+MISTAKE(moved_before_scaled, BOTH, "")    /* scale * translation, not translation * scale */
 {
     s->state.model = shade_mat4_mul(STAGE_SCALE(0.5f), shade_mat4_translation(shade_v3(1, 0, 0)));
 }
 
 /* the call */
-MISTAKE(target_null) { s->no_target = 1; }
-MISTAKE(mesh_null) { s->no_mesh = 1; }
-MISTAKE(state_null) { s->no_state = 1; }
-MISTAKE(stats_of_another_mesh) { s->other_stats = 1; }
+MISTAKE(target_null, BOTH, "target is NULL") { s->no_target = 1; }
+MISTAKE(mesh_null, BOTH, "mesh is NULL") { s->no_mesh = 1; }
+MISTAKE(state_null, BOTH, "state is NULL") { s->no_state = 1; }
+MISTAKE(stats_of_another_mesh, BOTH_STATS, "stats") { s->other_stats = 1; }
 
 /* ---- of the ball */
 
-MISTAKE(clip_negative) { s->target.clip_width = -1; }
-MISTAKE(vertex_count_negative) { s->mesh.vertex_count = -3; }
-MISTAKE(index_count_negative) { s->mesh.index_count = -3; }
-MISTAKE(chunk_outside)
+MISTAKE(clip_negative, BALL, "clip_width") { s->target.clip_width = -1; }
+MISTAKE(vertex_count_negative, BALL, "mesh.vertex_count") { s->mesh.vertex_count = -3; }
+MISTAKE(index_count_negative, BALL, "mesh.index_count") { s->mesh.index_count = -3; }
+/* One chunk of all triangles, with this box. */
+static inline shade_chunk *stage_chunk(stage *s, shade_vec3 low, shade_vec3 high)
 {
     s->mesh.chunks = &s->chunk;
     s->mesh.chunk_count = 1;
-    s->chunk.first = 1;
+    s->chunk.low = low;
+    s->chunk.high = high;
+    return &s->chunk;
 }
-MISTAKE(chunks_of_another_mesh)
+MISTAKE(chunk_outside, BALL, "chunk") { stage_chunk(s, BLACK, BLACK)->first = 1; }
+MISTAKE(chunks_of_another_mesh, BALL, "mesh.chunks")
 {
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(9, 9, 9);
-    s->chunk.high = shade_v3(10, 10, 10);
+    stage_chunk(s, shade_v3(9, 9, 9), shade_v3(10, 10, 10));
 }
-MISTAKE(index_beyond) { s->index[77] = STAGE_VERTICES; }
-MISTAKE(vertices_not_in_threes)
+MISTAKE(index_beyond, BALL, "mesh.vertex_count") { s->index[77] = STAGE_VERTICES; }
+MISTAKE(vertices_not_in_threes, BALL, "mesh.vertex_count")
 {
     s->mesh.indices = NULL;
     s->mesh.vertex_count = 100;
 }
-MISTAKE(vertex_count_forgotten_without_indices)
+MISTAKE(vertex_count_forgotten_without_indices, BALL, "mesh.vertex_count")
 {
     s->mesh.indices = NULL;
     s->mesh.vertex_count = 0;
 }
-MISTAKE(swapped_ortho)
+MISTAKE(swapped_ortho, BALL, "swapped")
 {
     s->state.projection = s->state.view;
     s->state.view = shade_mat4_ortho(-2, 2, -2, 2, 0.1f, 100);
 }
-MISTAKE(ortho_by_rows)
+MISTAKE(ortho_by_rows, BALL, "state.projection")
 {
     s->state.projection = shade_mat4_transpose(shade_mat4_ortho(-3, 1, -1, 1, 0.01f, 0.1f));
 }
-MISTAKE(beyond_far_where_the_inverse_looks)
+MISTAKE(beyond_far_where_the_inverse_looks, BALL, "beyond the far plane")
 {
     s->state.view = shade_mat4_translation(shade_v3(0, 0, -4));
     s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0.1f, 20);
     s->state.model = shade_mat4_translation(shade_v3(0, 0, -20));
 }
-MISTAKE(left_handed) { s->state.model = shade_mat4_translation(shade_v3(0, 0, 8)); }
-MISTAKE(view_infinite) { s->state.view.col[3].x = INFINITY; }
-MISTAKE(projection_nan) { s->state.projection.col[0].x = NAN; }
-MISTAKE(wound_clockwise_quad)
+MISTAKE(left_handed, BALL, "behind the eye")
 {
-    static const uint32_t clockwise[6] = { 0, 2, 1, 0, 3, 2 };
+    s->state.model = shade_mat4_translation(shade_v3(0, 0, 8));
+}
+MISTAKE(view_infinite, BALL, "state.view") { s->state.view.col[3].x = INFINITY; }
+MISTAKE(projection_nan, BALL, "state.projection") { s->state.projection.col[0].x = NAN; }
+static inline void stage_quad(stage *s)
+{
+    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
     static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
     memcpy(s->position, quad, sizeof quad);
-    memcpy(s->index, clockwise, sizeof clockwise);
+    memcpy(s->index, corners, sizeof corners);
     s->mesh.index_count = 6;
+}
+MISTAKE(wound_clockwise_quad, BALL, "counter-clockwise")
+{
+    stage_quad(s);
+    stage_turn(s, 0);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(culled_by_mirror)
+MISTAKE(culled_by_mirror, BALL, "state.model that mirrors")
 {
-    mistake_wound_clockwise_quad(s);
-    s->index[1] = 1;
-    s->index[2] = 2;
-    s->index[4] = 2;
-    s->index[5] = 3;
+    stage_quad(s);
+    s->state.raster.cull = SHADE_CULL_BACK;
     s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
 }
-MISTAKE(culled_front)
+MISTAKE(culled_front, BALL, "SHADE_CULL_FRONT")
 {
-    mistake_wound_clockwise_quad(s);
-    s->index[1] = 1;
-    s->index[2] = 2;
-    s->index[4] = 2;
-    s->index[5] = 3;
+    stage_quad(s);
     s->state.raster.cull = SHADE_CULL_FRONT;
 }
-MISTAKE(culled_inside)
+MISTAKE(culled_inside, BALL, "the eye lies inside")
 {
     s->state.raster.cull = SHADE_CULL_BACK;
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 0), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
 }
-MISTAKE(culled_inside_with_chunks)
+MISTAKE(culled_inside_with_chunks, BALL, "the eye lies inside")
 {
     mistake_culled_inside(s);
-    s->mesh.chunks = &s->chunk;
-    s->mesh.chunk_count = 1;
-    s->chunk.low = shade_v3(-1, -1, -1);
-    s->chunk.high = shade_v3(1, 1, 1);
+    stage_chunk(s, shade_v3(-1, -1, -1), shade_v3(1, 1, 1));
 }
 /* Rings from the far one to the near one, and the other way: fronts are drawn first, or last. */
-MISTAKE(inside_out_from_below)
+MISTAKE(inside_out_from_below, BALL, "inside out")
 {
     s->state.view = shade_mat4_look_at(shade_v3(0, -4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
     mistake_inside_out(s);
 }
-MISTAKE(inside_out_from_above)
+MISTAKE(inside_out_from_above, BALL, "inside out")
 {
     s->state.view = shade_mat4_look_at(shade_v3(0, 4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
     mistake_inside_out(s);
 }
-MISTAKE(inside_out_with_a_bias)
+MISTAKE(inside_out_with_a_bias, BALL, "inside out")
 {
     mistake_inside_out(s);
     s->state.raster.depth_bias = -1;
 }
-MISTAKE(inside_out_open)
+MISTAKE(inside_out_open, BALL, "inside out")
 {
     s->mesh.index_count = STAGE_INDICES * 2 / 3;
     mistake_inside_out(s);
 }
-MISTAKE(mirrored_open)
+MISTAKE(mirrored_open, BALL, "inside out")
 {
     s->mesh.index_count = STAGE_INDICES * 2 / 3;
     s->state.model = shade_mat4_scaling(shade_v3(1, 1, -1));
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-MISTAKE(inside_out_without_normals)
+MISTAKE(inside_out_without_normals, BALL, "inside out")
 {
     s->mesh.normals = NULL;
     mistake_inside_out(s);
@@ -1067,7 +1054,7 @@ static inline void stage_leave_depth(stage *s, int byte)
     s->clear = NAN;
 }
 /* nobody draws outside the clip rectangle, so that depth there says nothing */
-MISTAKE(clear_forgotten_where_it_draws)
+MISTAKE(clear_forgotten_where_it_draws, BALL, "holds 0")
 {
     s->target.clip_width = STAGE_WIDTH / 2;
     s->target.clip_height = STAGE_HEIGHT / 2;
@@ -1077,7 +1064,7 @@ MISTAKE(clear_forgotten_where_it_draws)
             s->target.depth[y * STAGE_STRIDE + x] =
                 x < STAGE_WIDTH / 2 && y < STAGE_HEIGHT / 2 ? 0 : 1;
 }
-MISTAKE(depth_full_of_nan) { stage_leave_depth(s, 255); }
+MISTAKE(depth_full_of_nan, BALL, "shade_clear") { stage_leave_depth(s, 255); }
 /* The rectangle alone is cleared to 0, and depth beside it is fit for a picture. */
 static inline void clear_to_zero_in(stage *s, int x, int y, int width, int height)
 {
@@ -1088,57 +1075,59 @@ static inline void clear_to_zero_in(stage *s, int x, int y, int width, int heigh
     s->target.clip_height = height;
     s->clear = 0;
 }
-MISTAKE(zero_on_the_left) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH / 2, STAGE_HEIGHT); }
-MISTAKE(zero_on_the_right)
+MISTAKE(zero_on_the_left, BALL, "holds 0")
+{
+    clear_to_zero_in(s, 0, 0, STAGE_WIDTH / 2, STAGE_HEIGHT);
+}
+MISTAKE(zero_on_the_right, BALL, "holds 0")
 {
     clear_to_zero_in(s, STAGE_WIDTH / 2, 0, STAGE_WIDTH / 2, STAGE_HEIGHT);
 }
-MISTAKE(zero_above) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH, STAGE_HEIGHT / 2); }
-MISTAKE(zero_below)
+MISTAKE(zero_above, BALL, "holds 0") { clear_to_zero_in(s, 0, 0, STAGE_WIDTH, STAGE_HEIGHT / 2); }
+MISTAKE(zero_below, BALL, "holds 0")
 {
     clear_to_zero_in(s, 0, STAGE_HEIGHT / 2, STAGE_WIDTH, STAGE_HEIGHT / 2);
 }
-MISTAKE(hidden_by_the_frame_before) { s->clear = 0.5f; }
-MISTAKE(greater_cleared_to_zero)
+MISTAKE(hidden_by_the_frame_before, BALL_STATS, "shade_clear") { s->clear = 0.5f; }
+MISTAKE(greater_cleared_to_zero, BALL, "SHADE_COMPARE_LESS")
 {
     s->clear = 0;
     mistake_test_greater(s);
 }
-MISTAKE(clip_empty)
+MISTAKE(clip_empty, BALL, "clip_width")
 {
     s->target.clip_x = 10;
     s->target.clip_height = 20;
 }
-MISTAKE(clip_beside)
+MISTAKE(clip_beside, BALL, "clip_x")
 {
     s->target.clip_x = STAGE_WIDTH;
     s->target.clip_width = s->target.clip_height = 20;
 }
-MISTAKE(smaller_than_a_pixel)
+MISTAKE(smaller_than_a_pixel, BALL_STATS, "covers no pixel centre")
 {
     s->state.model = shade_mat4_scaling(shade_v3(5e-3f, 5e-3f, 5e-3f));
 }
-MISTAKE(map_cut_by_alpha)
+MISTAKE(map_cut_by_alpha, BALL_STATS, "alpha_cutoff")
 {
     for (int k = 3; k < 16; k += 4) s->texel[k] = 100;
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     s->state.alpha_cutoff = 0.5f;
 }
-MISTAKE(no_depth_with_culling)
+MISTAKE(no_depth_with_culling, BALL, "target.depth is NULL")
 {
     s->target.depth = NULL;
     s->state.raster.cull = SHADE_CULL_BACK;
     for (int i = 0; i < STAGE_VERTICES; i += 3) s->position[i] = shade_scale(s->position[i], 0.5f);
 }
 
-MISTAKE(no_light)
+MISTAKE(no_light, BALL, "no light")
 {
     s->state.lighting.lights = NULL;
     s->state.lighting.light_count = 0;
 }
 /* a triangle at the right edge of the picture, with a corner behind the eye on the left */
-MISTAKE(no_light_beside_the_eye)
+MISTAKE(no_light_beside_the_eye, BALL, "light_count")
 {
     s->position[0] = shade_v3(2.28f, -0.8f, 0);
     s->position[1] = shade_v3(2.28f, 0.8f, 0);
@@ -1148,22 +1137,18 @@ MISTAKE(no_light_beside_the_eye)
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     s->state.lighting.light_count = 0;
 }
-MISTAKE(normals_inward_of_a_quad)
+MISTAKE(normals_inward_of_a_quad, BALL, "mesh.normals")
 {
-    static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
-    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
-    memcpy(s->position, quad, sizeof quad);
-    memcpy(s->index, corners, sizeof corners);
-    s->mesh.index_count = 6;
+    stage_quad(s);
     for (int i = 0; i < 4; i++) s->normal[i] = shade_v3(0, 0, -1);
 }
-MISTAKE(attenuated_away)
+MISTAKE(attenuated_away, BALL, "Attenuation")
 {
     s->lamps[0].constant = 1;
     s->lamps[0].quadratic = 50;
     s->state.lighting.light_count = 1;
 }
-MISTAKE(spot_attenuated_away)
+MISTAKE(spot_attenuated_away, BALL, "Attenuation")
 {
     s->lamps[0] = shade_spot_light(shade_v3(0, 1, 4), shade_v3(0, -1, -4), 0.5f, 1,
                                    shade_v3(1, 1, 1));
@@ -1172,11 +1157,10 @@ MISTAKE(spot_attenuated_away)
 }
 /* The mesh lies in the cone, and far from its axis. */
 /* Seen from afar and lit at a flat angle: R.V is 0.08 at most and shows nothing, N.H would. */
-MISTAKE(mirror_turned_away)
+MISTAKE(mirror_turned_away, BALL, "grazes")
 {
-    static const uint32_t two[6] = { 0, 1, 2, 0, 2, 3 };
-    mistake_wound_clockwise_quad(s);
-    memcpy(s->index, two, sizeof two);
+    stage_quad(s);
+    s->state.raster.cull = SHADE_CULL_BACK;
     for (int k = 0; k < 4; k++) s->normal[k] = shade_v3(0, 0, 1);
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 40), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     s->state.projection = shade_mat4_perspective(0.08f, 1.5f, 0.1f, 100);
@@ -1188,42 +1172,42 @@ MISTAKE(mirror_turned_away)
     s->material.shininess = 4;
 }
 /* What the questions ask for beside the mistake itself: other projections, no depth, few lamps. */
-MISTAKE(view_of_w_two) { s->state.view.col[3].w = 2; }
-MISTAKE(left_handed_projection_by_rows)
+MISTAKE(view_of_w_two, BALL, "state.view") { s->state.view.col[3].w = 2; }
+MISTAKE(left_handed_projection_by_rows, BALL, "state.projection looks transposed")
 {
     const shade_mat4 turn = shade_mat4_scaling(shade_v3(1, 1, -1));
     s->state.view = shade_mat4_mul(turn, s->state.view);
     s->state.projection = shade_mat4_mul(s->state.projection, turn);
     mistake_projection_by_rows(s);
 }
-MISTAKE(projection_onto_a_point)
+MISTAKE(projection_onto_a_point, BALL, "fovy")
 {
     memset(&s->state.projection, 0, sizeof s->state.projection);
     s->state.projection.col[3] = shade_v4(0, 0, 2, 3);
 }
-MISTAKE(small_one_beside_without_depth)
+MISTAKE(small_one_beside_without_depth, BALL, "beside the picture")
 {
     s->target.depth = NULL;
     s->state.model = shade_mat4_scaling(shade_v3(0.1f, 0.1f, 0.1f));
     s->state.model.col[3].x = 5;
 }
-MISTAKE(tall_one_beside)
+MISTAKE(tall_one_beside, BALL, "beside the picture")
 {
     s->state.model = shade_mat4_scaling(shade_v3(0.1f, 1.5f, 0.1f));
     s->state.model.col[3].x = 5;
 }
-MISTAKE(doubled_looks_away)
+MISTAKE(doubled_looks_away, BALL, "behind the eye")
 {
     float *p = (float *)&s->state.projection;
     mistake_looks_the_other_way(s);
     for (int k = 0; k < 16; k++) p[k] *= 2;
 }
-MISTAKE(beside_in_parallel)
+MISTAKE(beside_in_parallel, BALL, "beside the picture")
 {
     s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 20);
     mistake_model_moved_away(s);
 }
-MISTAKE(beside_in_a_view_that_scales)
+MISTAKE(beside_in_a_view_that_scales, BALL, "beside the picture")
 {
     s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, 2, 2)), s->state.view);
     mistake_model_moved_away(s);
@@ -1241,7 +1225,7 @@ static inline void stage_two_triangles(stage *s, shade_vec3 a, shade_vec3 b)
 }
 /* The left one faces the lamp, and its texels are holes; the right one turns away.  Stored depth
    would tell which pixels are drawn. */
-MISTAKE(lamp_behind_what_the_map_leaves)
+MISTAKE(lamp_behind_what_the_map_leaves, BALL, "Every lamp is behind")
 {
     stage_two_triangles(s, shade_v3(-1.2f, 0, 0), shade_v3(0.2f, 0, 0));
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
@@ -1250,63 +1234,68 @@ MISTAKE(lamp_behind_what_the_map_leaves)
         s->texcoord[i] = shade_v2(i < 3 ? 0.25f : 0.75f, 0.25f);
     }
     s->texel[3] = s->texel[11] = 0;
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     s->state.alpha_cutoff = 0.5f;
     s->state.lighting.light_count = 1;
     s->target.depth = NULL;
 }
-MISTAKE(lamp_behind_what_the_map_leaves_in_ambient_light)
+MISTAKE(lamp_behind_what_the_map_leaves_in_ambient_light, BALL, "Every lamp is behind")
 {
     mistake_lamp_behind_what_the_map_leaves(s);
     s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.1f);
 }
-MISTAKE(on_both_sides) { stage_two_triangles(s, shade_v3(-99, 0, -4), shade_v3(99, 0, -4)); }
-MISTAKE(before_and_beyond) { stage_two_triangles(s, shade_v3(0, 0, -0.01f), shade_v3(0, 0, -999)); }
-MISTAKE(all_discarded_of_depth)
+MISTAKE(on_both_sides, BALL, "beside the picture")
+{
+    stage_two_triangles(s, shade_v3(-99, 0, -4), shade_v3(99, 0, -4));
+}
+MISTAKE(before_and_beyond, BALL, "beyond far")
+{
+    stage_two_triangles(s, shade_v3(0, 0, -0.01f), shade_v3(0, 0, -999));
+}
+MISTAKE(all_discarded_of_depth, BALL_STATS, "state.fragment")
 {
     s->target.color = NULL;
     s->state.alpha_cutoff = 0.5f;
     mistake_shader_discards_all(s);
 }
-MISTAKE(small_depth_of_a_shader)
+MISTAKE(small_depth_of_a_shader, BALL_STATS, "covers no pixel centre")
 {
     s->target.color = NULL;
     mistake_shader_discards_all(s);
     mistake_smaller_than_a_pixel(s);
 }
-MISTAKE(no_light_on_floats)
+MISTAKE(no_light_on_floats, BALL, "no light")
 {
     s->target.format = SHADE_FORMAT_RGBA32F;
     mistake_no_light(s);
 }
-MISTAKE(no_light_on_the_default)
+MISTAKE(no_light_on_the_default, BALL, "no light")
 {
     s->state.material = NULL;
     mistake_no_light(s);
 }
-MISTAKE(no_light_on_a_mirror)
+MISTAKE(no_light_on_a_mirror, BALL, "no light")
 {
     s->material.diffuse = s->material.ambient = shade_v3(0, 0, 0);
     mistake_no_light(s);
 }
-MISTAKE(lamp_of_highlights_behind)
+MISTAKE(lamp_of_highlights_behind, BALL, "no colour")
 {
     mistake_lamp_behind(s);
     s->lamps[0].diffuse = shade_v3(0, 0, 0);
 }
-MISTAKE(highlights_alone_on_a_matte_material)
+MISTAKE(highlights_alone_on_a_matte_material, BALL, "state.material")
 {
     for (int i = 0; i < 2; i++) s->lamps[i].diffuse = shade_v3(0, 0, 0);
     s->material.specular = shade_v3(0, 0, 0);
 }
 /* The light is missed first, and the map once there is light. */
-MISTAKE(map_black_and_lamp_behind)
+MISTAKE(map_black_and_lamp_behind, BALL, "behind")
 {
     mistake_map_black(s);
     mistake_lamp_behind(s);
 }
-MISTAKE(many_cones_elsewhere)
+MISTAKE(many_cones_elsewhere, BALL, "spot_direction")
 {
     enum { COUNT = 17 };    /* one more than shade_explain tries without their cone */
     static shade_light many[COUNT];
@@ -1317,17 +1306,17 @@ MISTAKE(many_cones_elsewhere)
 }
 
 /* What a mistake is under every blend. */
-MISTAKE(no_light_over)
+MISTAKE(no_light_over, BALL, "no light")
 {
     s->state.raster.blend = SHADE_BLEND_OVER;
     mistake_no_light(s);
 }
-MISTAKE(no_light_added)
+MISTAKE(no_light_added, BALL, "no light")
 {
     s->state.raster.blend = SHADE_BLEND_ADD;
     mistake_no_light(s);
 }
-MISTAKE(overlay_without_light)
+MISTAKE(overlay_without_light, BALL, "no light")
 {
     s->state.material = NULL;
     s->state.transparency = 0.5f;
@@ -1335,17 +1324,17 @@ MISTAKE(overlay_without_light)
     s->state.raster.cull = SHADE_CULL_BACK;
     mistake_no_light_over(s);
 }
-MISTAKE(material_zero_added)
+MISTAKE(material_zero_added, BALL, "state.material")
 {
     s->state.raster.blend = SHADE_BLEND_ADD;
     mistake_material_never_filled(s);
 }
-MISTAKE(lamp_behind_over)
+MISTAKE(lamp_behind_over, BALL, "behind")
 {
     s->state.raster.blend = SHADE_BLEND_OVER;
     mistake_lamp_behind(s);
 }
-MISTAKE(almost_invisible)
+MISTAKE(almost_invisible, BALL, "transparency")
 {
     s->state.transparency = 0.9999f;
     s->state.raster.blend = SHADE_BLEND_OVER;
@@ -1355,95 +1344,92 @@ static inline void stage_ambient(stage *s)
 {
     s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
 }
-MISTAKE(ambient_and_lamp_behind)
+MISTAKE(ambient_and_lamp_behind, BALL, "Every lamp is behind")
 {
     stage_ambient(s);
     mistake_lamp_behind(s);
 }
-MISTAKE(ambient_and_no_lamps)
+MISTAKE(ambient_and_no_lamps, BALL, "Only ambient light")
 {
     stage_ambient(s);
     mistake_no_light(s);
 }
-MISTAKE(ambient_and_light_count_forgotten)
+MISTAKE(ambient_and_light_count_forgotten, BALL, "light_count")
 {
     stage_ambient(s);
     mistake_light_count_forgotten(s);
 }
-MISTAKE(ambient_and_normals_zero)
+MISTAKE(ambient_and_normals_zero, BALL, "mesh.normals are zero or NaN")
 {
     stage_ambient(s);
     mistake_normals_never_filled(s);
 }
-MISTAKE(ambient_and_normals_nan)
+MISTAKE(ambient_and_normals_nan, BALL, "mesh.normals are zero or NaN")
 {
     stage_ambient(s);
     for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i].x = NAN;
 }
-MISTAKE(bad_map_without_texcoords)
+MISTAKE(bad_map_without_texcoords, BALL, "pixels are NULL")
 {
     s->map.pixels = NULL;
     mistake_map_without_texcoords(s);
 }
-MISTAKE(mipmap_count_without_mipmaps)
-{
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
-    s->map.mipmap_count = 1;
-}
-MISTAKE(mipmaps_not_counted)
+MISTAKE(mipmap_count_without_mipmaps, BALL, "no mipmaps") { stage_map(s)->mipmap_count = 1; }
+MISTAKE(mipmaps_not_counted, BALL, "no mipmaps")
 {
     mistake_trilinear_without_mipmaps(s);
     s->map.mipmaps = &s->map;
 }
 /* Its last column, (0, 0, 1, 0), is also that of a transposed matrix. */
-MISTAKE(reversed_beside)
+MISTAKE(reversed_beside, BALL, "beside")
 {
     mistake_model_moved_away(s);
     stage_reverse(s, 1);
 }
 /* Everything has z = near > w: behind the eye, w < 0, or before the near plane. */
-MISTAKE(reversed_looks_away)
+MISTAKE(reversed_looks_away, BALL, "behind the eye")
 {
     mistake_looks_the_other_way(s);
     stage_reverse(s, 1);
 }
-MISTAKE(reversed_before_near) { stage_reverse(s, 50); }
-MISTAKE(reversed_beyond_far)
+MISTAKE(reversed_before_near, BALL, "nearer than the near") { stage_reverse(s, 50); }
+MISTAKE(reversed_beyond_far, BALL, "beyond the far plane")
 {
     s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 2, 0.1f);
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
 /* as they are where shade_mesh_chunks had too little room */
-MISTAKE(aspect_of_a_square) { s->state.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 100); }
-MISTAKE(aspect_a_little_wide)
+MISTAKE(aspect_of_a_square, BALL, "aspect")
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 100);
+}
+MISTAKE(aspect_a_little_wide, BALL, "aspect")
 {
     s->state.projection = shade_mat4_perspective(0.8f, 1.56f, 0.1f, 100);
 }
-MISTAKE(view_that_shears) { s->state.view.col[1].x += 0.4f; }
-MISTAKE(beside_the_clip_rectangle)
+MISTAKE(view_that_shears, BALL, "state.view scales or shears") { s->state.view.col[1].x += 0.4f; }
+MISTAKE(beside_the_clip_rectangle, BALL, "beside the clip rectangle")
 {
     s->target.clip_x = s->target.clip_y = 2;
     s->target.clip_width = s->target.clip_height = 9;
 }
 
 /* What sentences were false of: the words are those of the true cause. */
-MISTAKE(attenuation_of_far_lamps)
+MISTAKE(attenuation_of_far_lamps, BALL, "Attenuation")
 {
     s->lamps[0] = shade_point_light(shade_v3(0, 7, 27), shade_v3(1, 1, 1));
     s->lamps[0].quadratic = 1;
     s->state.lighting.light_count = 1;
 }
-MISTAKE(attenuation_of_far_lamps_with_a_map)
+MISTAKE(attenuation_of_far_lamps_with_a_map, BALL, "Attenuation")
 {
     mistake_attenuation_of_far_lamps(s);
-    s->mesh.texcoords = &s->texcoord[0].x;
-    s->state.diffuse_map = &s->map;
+    stage_map(s);
     for (int k = 0; k < 16; k++) s->texel[k] = 140;
 }
 /* corners right of the picture, below it and far beyond: outside, but of no plane with all three */
-MISTAKE(around_a_corner_of_the_picture)
+MISTAKE(around_a_corner_of_the_picture, BALL, "covers no pixel centre")
 {
     stage_two_triangles(s, shade_v3(0, 0, 0), shade_v3(0, 0, 0));
     s->position[0] = shade_v3(5.4f, 0, -4);
@@ -1451,196 +1437,7 @@ MISTAKE(around_a_corner_of_the_picture)
     s->position[2] = shade_v3(5.4f, 4.2f, -4);
     s->mesh.index_count = 3;
 }
+MISTAKE_IN(lamp_negative, lamp_negative_of_the_ball, BALL, "diffuse|several of them")
+MISTAKE_IN(all_in_model, all_in_model_of_the_ball, BALL, "behind|state.model")
 
-typedef struct mistake {
-    const char *name, *words;    /* "": nothing is said, since it may be meant; a|b: a or b */
-    void (*make)(stage *);
-    int scenes;                  /* of enum scenes */
-} mistake;
-enum scenes { ON_BALL = 1, ON_TEAPOT = 2, WITH_STATS = 4 };
-#define BOTH(name, words) { #name, words, mistake_##name, ON_BALL | ON_TEAPOT }
-#define BALL(name, words) { #name, words, mistake_##name, ON_BALL }
-#define BOTH_STATS(name, words) { #name, words, mistake_##name, ON_BALL | ON_TEAPOT | WITH_STATS }
-#define POT(name, words) { #name, words, mistake_##name, ON_TEAPOT }
-#define BALL_STATS(name, words) { #name, words, mistake_##name, ON_BALL | WITH_STATS }
-static const mistake mistakes[] = {
-    BOTH(width_and_height_exchanged, "aspect"), BOTH(width_forgotten, "target.width"),
-    BOTH(height_forgotten, "target.height"), BOTH(no_buffers, "target.color"),
-    BOTH(color_forgotten, ""), BOTH(depth_forgotten, "target.depth is NULL"),
-    BOTH(srgb_forgotten, ""), BOTH(red_and_blue_exchanged, ""),
-    BOTH(format_of_masks, "target.format"), BOTH(stride_of_a_row_too_few, "target.stride"),
-    BOTH(clip_of_a_corner_to_draw_in_all, "clip rectangle"), BOTH(clip_by_two_corners, "clip"),
-    BOTH(clip_width_alone, "clip_height"),
-    BOTH(clip_beside_the_mesh, "beside the clip rectangle"),
-    BOTH(strip_without_rows, "row_count"), BOTH(clear_forgotten, "shade_clear"),
-    BOTH(cleared_to_zero, "shade_clear"), BOTH_STATS(cleared_once_for_two_frames, "shade_clear"),
-    BOTH(test_greater, "SHADE_COMPARE_LESS"), BOTH_STATS(test_equal, "depth_test|target.depth"),
-    BOTH(test_always, "depth_test"), BOTH(depth_never_written, "depth_read_only"),
-    BOTH_STATS(bias_of_one, "depth_bias"), BOTH(bias_of_minus_one, "depth_bias"),
-    BOTH(bias_nan, "raster.depth_bias"), BOTH(reversed_camera_in_half, "depth_zero_to_one"),
-    BOTH(reversed_without_its_test, "depth_test"),
-    BOTH(reversed_without_its_test_cleared_to_zero, "depth_test|shade_clear"),
-    BOTH(reversed_without_its_clear, "shade_clear"),
-    BOTH(reversed_without_its_flag, "depth_zero_to_one"), BOTH(flag_of_vulkan_alone, ""),
-    BOTH(positions_forgotten, "mesh.positions"), BOTH(normals_forgotten, ""),
-    BOTH(vertex_count_forgotten, "mesh.vertex_count"),
-    BOTH(vertex_count_of_another_mesh, "mesh.vertex_count"),
-    BOTH(indices_forgotten, "mesh.indices|mesh.normals|mesh.vertex_count|"),
-    BOTH(index_count_forgotten, "mesh.index_count"),
-    BOTH(index_count_of_triangles, ""), BOTH(index_count_less_one, "multiple of 3"),
-    BOTH(indices_of_16_bits, "32 bits"), BOTH(indices_from_one, "mesh.vertex_count"),
-    BOTH(indices_never_filled, "mesh.indices"), BOTH(stride_in_floats, "bytes"),
-    BOTH(stride_of_eight_floats, "position_stride"),
-    BOTH(normal_stride_in_floats, "normal_stride"), BOTH(positions_of_doubles, "mesh.positions"),
-    BOTH(positions_of_integers, "mesh.positions|state.model|small"),
-    BOTH(positions_interleaved_without_stride, "mesh.normals|mesh.positions|"),
-    BOTH(positions_never_filled, "mesh.indices|mesh.positions|area"),
-    BOTH(positions_nan, "mesh.positions"), BOTH(one_position_infinite, "mesh.positions"),
-    BOTH(normals_never_filled, "mesh.normals"), BOTH(normals_against_the_winding, "mesh.normals"),
-    BOTH(normals_nan, "mesh.normals"), BOTH(normals_as_colours, "mesh.normals"),
-    BOTH(normals_in_reverse_order, ""), BOTH(normals_with_z_up, "mesh.normals|"),
-    POT(positions_as_normals, "mesh.normals|"), BOTH(inside_out, "inside out|winding"),
-    BOTH(wound_clockwise_without_normals, "wound|winding"),
-    BOTH(half_wound_clockwise, "mesh.normals|"),
-    BOTH(fronts_left_out, ""), BOTH(colors_zero, "mesh.colors"), BOTH(colors_of_255, "255"),
-    BOTH(colors_of_bytes, "mesh.colors"), BOTH(map_without_texcoords, "mesh.texcoords is NULL"),
-    BOTH(texcoords_without_map, ""), BOTH(texcoords_in_texels, "mesh.texcoords"),
-    BOTH(texcoords_never_filled, ""), BOTH(map_without_pixels, "pixels"),
-    BOTH(map_black, "diffuse_map"), BOTH(map_never_filled_and_cut, "alpha_cutoff"),
-    BOTH(map_invisible, "Alpha|alpha"), BOTH(map_not_marked_srgb, ""),
-    BOTH(trilinear_without_mipmaps, "mipmaps"), BOTH(map_of_no_size, "texture"),
-    BOTH(chunk_count_forgotten, "chunk_count"), BOTH(chunks_null, "mesh.chunks"),
-    BOTH(chunks_of_half_the_triangles, "mesh.chunks"), BOTH(chunks_never_filled, "mesh.chunks"),
-    BOTH(chunks_of_a_mesh_that_has_moved, "mesh.chunks"),
-    BOTH(lamp_never_filled, "no colour|diffuse"), BOTH(lamp_black, "no colour|diffuse"),
-    BOTH(light_of_255, "255"), BOTH(lamp_of_a_hundredth, "diffuse|light"),
-    BOTH(lamp_behind, "behind|away"), BOTH(lamp_inside, "behind|inside|away"),
-    BOTH(lamp_in_eye_space, "behind|away|inside"), BOTH(lamp_under_the_ground, "behind|away"),
-    BOTH(lamp_far_away_that_falls_off, "Attenuation"),
-    BOTH(lamp_that_falls_off_by_the_square, "Attenuation"),
-    BOTH(attenuation_negative, "negative|attenuation|constant"),
-    BOTH(sun_toward_the_light, "behind|away"), BOTH(sun_as_a_point, "behind|inside|away"),
-    BOTH(point_as_a_sun, ""), BOTH(cutoff_in_degrees, "cosine|radians"),
-    BOTH(cosine_in_degrees, "cosine|radians"), BOTH(angle_for_its_cosine, ""),
-    BOTH(cone_toward_the_eye, "spot_direction"), BOTH(cone_at_a_point, "spot_direction"),
-    BOTH(cone_of_a_hair, ""), BOTH(exponent_of_thousands, ""),
-    BOTH(lights_forgotten, "lighting.lights"), BOTH(light_count_forgotten, "light_count"),
-    BOTH(light_count_negative, "light_count"), BOTH(lighting_forgotten, "There is no light"),
-    BOTH(lighting_of_ambient_alone, "Only ambient light"), BOTH(ambient_of_one, ""),
-    BOTH(ambient_of_255, "255"), BOTH(lamp_without_specular, ""),
-    BOTH(lamp_of_ambient_light, "Only ambient|diffuse"), BOTH(lamp_nan, "NaN"),
-    POT(lamp_negative, ""), BOTH(terms_of_nothing, "lighting.terms"),
-    BOTH(terms_of_highlights, ""), BOTH(terms_unknown, "lighting.terms"),
-    BOTH(model_of_emission, "lighting.model"), BOTH(model_of_ambient_light, "lighting.model"),
-    BOTH(model_unknown, "lighting.model"), BOTH(shading_unknown, "state.shading"),
-    BOTH(a_pool_of_light_by_vertices, ""), BOTH(material_forgotten, ""),
-    BOTH(material_never_filled, "state.material"), BOTH(material_of_255, "255"),
-    BOTH(material_of_ambient_light, "state.material|material.diffuse"),
-    BOTH(ambient_without_k_a, "material.ambient"), BOTH(material_of_highlights, ""),
-    BOTH(material_dark, "state.material|diffuse"),
-    BOTH(material_negative, "state.material|negative"), BOTH(shininess_forgotten, "shininess"),
-    BOTH(shininess_of_a_table, "shininess"), BOTH(emission_of_the_diffuse_colour, ""),
-    BOTH(emission_white, "emission"), BOTH(invisible, "transparency"),
-    BOTH(opacity_for_transparency, "transparency|alpha_cutoff"),
-    BOTH(transparency_in_percent, "state.transparency"),
-    BOTH(transparency_without_blend, "raster.blend"), BOTH(cutoff_of_128, "state.alpha_cutoff"),
-    BOTH(cutoff_above_the_alpha, "alpha_cutoff"), BOTH(cull_unknown, "raster.cull"),
-    BOTH(blend_unknown, "raster.blend"), BOTH(depth_test_unknown, "raster.depth_test"),
-    BOTH_STATS(shader_discards_all, "state.fragment"),
-    BOTH(shader_leaves_black, "state.fragment"), BOTH(shader_by_vertices, "state.shading"),
-    BOTH(view_forgotten, "state.view|the eye"), BOTH(eye_and_center_exchanged, ""),
-    BOTH(looks_the_other_way, "behind the eye"), BOTH(looks_to_the_side, "beside|out of view"),
-    BOTH(eye_at_its_center, "eye|state.view"), BOTH(up_along_the_view, ""),
-    BOTH(view_inverted, "inverse"), BOTH(view_by_rows, "state.view looks transposed"),
-    BOTH(view_nan, "NaN"), BOTH(view_moves_the_camera, "behind the eye|inverse"),
-    BOTH(view_without_translation, "eye|state.view|area"),
-    BOTH(view_without_its_last_one, "state.view"), BOTH(view_that_scales, "state.view"),
-    BOTH(view_twice, ""), BOTH(eye_a_thousand_away, "beyond the far plane"),
-    BOTH(eye_inside, "inside|the eye"), BOTH(projection_forgotten, "state.projection"),
-    POT(both_cameras_forgotten, "state.view|state.projection"), BOTH(fovy_in_degrees, "radians"),
-    BOTH(fovy_zero, "fovy"), BOTH(fovy_made_radians_twice, ""),
-    BOTH(fovy_of_half_a_turn, "too small"), BOTH(aspect_of_integers, "aspect"),
-    BOTH(aspect_upside_down, "aspect"), BOTH(aspect_zero, "aspect"), BOTH(near_zero, "near"),
-    BOTH(near_negative, "near and far above 0"), BOTH(near_is_far, "different"),
-    BOTH(near_and_far_exchanged, "depth_test"), BOTH_STATS(near_tiny, "near"),
-    BOTH(far_too_near, "beyond the far plane"), BOTH(near_too_far, "nearer than the near plane"),
-    BOTH(projection_by_rows, "state.projection looks transposed"),
-    BOTH(all_by_rows, "transposed"), BOTH(view_and_projection_exchanged, "swapped"),
-    BOTH(projection_times_view_as_view, "state.view"),
-    BOTH(projection_times_view_as_projection, "state.view"),
-    BOTH(view_times_projection_as_projection, "state.projection|state.view"),
-    POT(all_in_model, ""), BOTH(projection_left_handed, "behind the eye|inverse"),
-    BOTH(projection_upside_down, "inside out|state.projection"),
-    BOTH(ortho_in_pixels, "small|pixel|near plane|beyond|beside|state.projection"),
-    BOTH(ortho_too_short, "near plane|far plane|before near"),
-    BOTH(ortho_empty, "left not equal to right|left"),
-    BOTH(model_scaled_to_nothing, "state.model"), BOTH(model_in_millimetres, "eye|state.model"),
-    BOTH(model_far_too_small, "small"), BOTH(model_moved_away, "state.model"),
-    BOTH(model_by_rows, "state.model looks transposed"), BOTH(model_nan, "state.model"),
-    BOTH(model_without_its_last_one, "state.model"), BOTH(mirrored, "inside out|mirrors"),
-    BOTH(model_turned_by_degrees, ""), BOTH(moved_before_scaled, ""),
-    BOTH(target_null, "target is NULL"), BOTH(mesh_null, "mesh is NULL"),
-    BOTH(state_null, "state is NULL"), BOTH_STATS(stats_of_another_mesh, "stats"),
-    BALL(clip_negative, "clip_width"), BALL(vertex_count_negative, "mesh.vertex_count"),
-    BALL(index_count_negative, "mesh.index_count"), BALL(chunk_outside, "chunk"),
-    BALL(chunks_of_another_mesh, "mesh.chunks"), BALL(index_beyond, "mesh.vertex_count"),
-    BALL(vertices_not_in_threes, "mesh.vertex_count"),
-    BALL(vertex_count_forgotten_without_indices, "mesh.vertex_count"),
-    BALL(swapped_ortho, "swapped"), BALL(ortho_by_rows, "state.projection"),
-    BALL(beyond_far_where_the_inverse_looks, "beyond the far plane"),
-    BALL(left_handed, "behind the eye"), BALL(view_infinite, "state.view"),
-    BALL(projection_nan, "state.projection"), BALL(wound_clockwise_quad, "counter-clockwise"),
-    BALL(culled_by_mirror, "state.model that mirrors"), BALL(culled_front, "SHADE_CULL_FRONT"),
-    BALL(culled_inside, "the eye lies inside"),
-    BALL(culled_inside_with_chunks, "the eye lies inside"),
-    BALL(inside_out_from_below, "inside out"), BALL(inside_out_from_above, "inside out"),
-    BALL(inside_out_with_a_bias, "inside out"), BALL(inside_out_open, "inside out"),
-    BALL(mirrored_open, "inside out"), BALL(inside_out_without_normals, "inside out"),
-    BALL(clear_forgotten_where_it_draws, "holds 0"), BALL(depth_full_of_nan, "shade_clear"),
-    BALL(zero_on_the_left, "holds 0"), BALL(zero_on_the_right, "holds 0"),
-    BALL(zero_above, "holds 0"), BALL(zero_below, "holds 0"),
-    BALL_STATS(hidden_by_the_frame_before, "shade_clear"),
-    BALL(greater_cleared_to_zero, "SHADE_COMPARE_LESS"), BALL(clip_empty, "clip_width"),
-    BALL(clip_beside, "clip_x"), BALL_STATS(smaller_than_a_pixel, "centre of a pixel"),
-    BALL_STATS(map_cut_by_alpha, "alpha_cutoff"),
-    BALL(no_depth_with_culling, "target.depth is NULL"), BALL(no_light, "no light"),
-    BALL(no_light_beside_the_eye, "light_count"), BALL(normals_inward_of_a_quad, "mesh.normals"),
-    BALL(attenuated_away, "Attenuation"), BALL(spot_attenuated_away, "Attenuation"),
-    BALL(mirror_turned_away, "grazes"), BALL(view_of_w_two, "state.view"),
-    BALL(left_handed_projection_by_rows, "state.projection looks transposed"),
-    BALL(projection_onto_a_point, "fovy"),
-    BALL(small_one_beside_without_depth, "beside the picture"),
-    BALL(tall_one_beside, "beside the picture"), BALL(doubled_looks_away, "behind the eye"),
-    BALL(beside_in_parallel, "beside the picture"),
-    BALL(beside_in_a_view_that_scales, "beside the picture"),
-    BALL(lamp_behind_what_the_map_leaves, "Every lamp is behind"),
-    BALL(lamp_behind_what_the_map_leaves_in_ambient_light, "Every lamp is behind"),
-    BALL(on_both_sides, "beside the picture"), BALL(before_and_beyond, "beyond far"),
-    BALL_STATS(all_discarded_of_depth, "state.fragment"),
-    BALL_STATS(small_depth_of_a_shader, "centre of a pixel"),
-    BALL(no_light_on_floats, "no light"), BALL(no_light_on_the_default, "no light"),
-    BALL(no_light_on_a_mirror, "no light"), BALL(lamp_of_highlights_behind, "no colour"),
-    BALL(highlights_alone_on_a_matte_material, "state.material"),
-    BALL(map_black_and_lamp_behind, "behind"), BALL(many_cones_elsewhere, "spot_direction"),
-    BALL(no_light_over, "no light"), BALL(no_light_added, "no light"),
-    BALL(overlay_without_light, "no light"), BALL(material_zero_added, "state.material"),
-    BALL(lamp_behind_over, "behind"), BALL(almost_invisible, "transparency"),
-    BALL(ambient_and_lamp_behind, "Every lamp is behind"),
-    BALL(ambient_and_no_lamps, "Only ambient light"),
-    BALL(ambient_and_light_count_forgotten, "light_count"),
-    BALL(ambient_and_normals_zero, "mesh.normals are zero or NaN"),
-    BALL(ambient_and_normals_nan, "mesh.normals are zero or NaN"),
-    BALL(bad_map_without_texcoords, "pixels are NULL"),
-    BALL(mipmap_count_without_mipmaps, "no mipmaps"), BALL(mipmaps_not_counted, "no mipmaps"),
-    BALL(reversed_beside, "beside"), BALL(reversed_looks_away, "behind the eye"),
-    BALL(reversed_before_near, "nearer than the near"),
-    BALL(reversed_beyond_far, "beyond the far plane"), BALL(aspect_of_a_square, "aspect"),
-    BALL(aspect_a_little_wide, "aspect"), BALL(view_that_shears, "state.view scales or shears"),
-    BALL(beside_the_clip_rectangle, "beside the clip rectangle"),
-    BALL(attenuation_of_far_lamps, "Attenuation"),
-    BALL(attenuation_of_far_lamps_with_a_map, "Attenuation"),
-    BALL(around_a_corner_of_the_picture, "covers the centre of a pixel nowhere"),
-    BALL(lamp_negative, "diffuse|several of them"),
-    BALL(all_in_model, "behind|state.model"),
-};
 #endif

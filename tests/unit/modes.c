@@ -43,8 +43,7 @@ static int modes_set(int mode)
 static void modes_check_texels(int mode, int width, float u)
 {
     static float texel[64 * 4 + 64];
-    shade_texture t;
-    memset(&t, 0, sizeof t);
+    shade_texture t = { 0 };
     for (int i = 0; i < 64 * 4 + 64; i++)
         texel[i] = i / 4 < width ? (float)(i / 4) : 1e30f;
     t.pixels = texel;
@@ -195,16 +194,4 @@ TEST(modes, programs_that_trap_may_draw)
     modes_ordinary(modes_arm, modes_disarm);
     signal(SIGFPE, before);
 }
-#define MODES_CASE_TRAPS CASE(modes, programs_that_trap_may_draw),
-#else
-#define MODES_CASE_TRAPS
 #endif
-
-static const test_case modes_cases[] = {
-    CASE(modes, no_rounding_reads_a_texel_beyond_the_row),
-    CASE(modes, no_mode_writes_outside_a_picture),
-    CASE(modes, what_is_finite_and_in_range_raises_no_flag),
-    MODES_CASE_TRAPS
-};
-
-SECTION(modes);

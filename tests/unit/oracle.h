@@ -78,8 +78,7 @@ typedef struct dmat {
 
 static inline dmat dmat_zero(void)
 {
-    dmat r;
-    memset(&r, 0, sizeof r);
+    dmat r = { 0 };
     return r;
 }
 
@@ -295,9 +294,7 @@ static inline d3 ref_to_light(const shade_light *light, d3 P, double *r)
 static inline ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3 P, d3 N,
                                 d3 eye, d3 albedo)
 {
-    ref_lit out;
-    memset(&out, 0, sizeof out);
-    out.bound = 5e-5;
+    ref_lit out = { .bound = 5e-5 };
     if (!li) return out;
     unsigned terms = li->terms ? li->terms : 15u;
     d3 ke = d3_of(0, 0, 0), ka = d3_of(1, 1, 1), kd = ka, ks = ke;

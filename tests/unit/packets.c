@@ -496,8 +496,7 @@ static void packets_check_lanes(packets_view *v, int each)
 /* All kinds, each at all places of a batch, between others. */
 TEST(packets, every_lane_sets_up_every_kind_of_triangle)
 {
-    packets_view v;
-    memset(&v, 0, sizeof v);
+    packets_view v = { 0 };
     v.c = canvas_open(PACKETS_WIDTH, PACKETS_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
     packets_check_lanes(&v, 1);
     canvas_close(&v.c);
@@ -610,15 +609,12 @@ static void packets_check_order(const packets_queue *q, const shade_pipeline *p)
 static void packets_check_runs(packets_queue *q, int with_depth)
 {
     static const unsigned char texel[4];
-    shade_texture map;
     shade_vec4 clip[3 * PACKETS_ROWS], color[PACKETS_ROWS];
     float attribute[3 * PACKETS_VALUES * PACKETS_ROWS];
     scene s = { clip, attribute, PACKETS_VALUES, color, &q->record };
     shade_pipeline p = scene_pipeline(&s);
     float *depth = q->view.c.target.depth;
-    memset(&map, 0, sizeof map);
-    map.pixels = texel;
-    map.width = map.height = 256;
+    shade_texture map = { .pixels = texel, .width = 256, .height = 256 };
     for (int k = 0; k < q->count; k++) {
         memcpy(clip + 3 * k, q->triangle[k].clip, sizeof q->triangle[k].clip);
         memcpy(attribute + 3 * PACKETS_VALUES * k, q->triangle[k].value,
@@ -700,12 +696,3 @@ TEST(packets, packets_of_many_triangles_end_at_every_pixel_of_a_run)
         }
     packets_queue_close(q);
 }
-
-static const test_case packets_cases[] = {
-    CASE(packets, every_lane_sets_up_every_kind_of_triangle),
-    CASE(packets, every_lane_sets_up_triangles_as_big_as_there_are),
-    CASE(packets, runs_of_every_length_meet_the_queue_at_every_fill),
-    CASE(packets, packets_of_many_triangles_end_at_every_pixel_of_a_run),
-};
-
-SECTION(packets);

@@ -108,15 +108,3 @@ TEST(power, never_falls_far_as_its_base_grows) /* no seams between octaves */
         }
     }
 }
-
-static const test_case power_cases[] = {
-    CASE(power, is_within_two_millionths_of_pow),
-    CASE(power, holds_at_the_ends_of_its_range),
-    CASE(power, of_one_is_one_and_to_the_zero_is_one),
-    CASE(power, clamps_its_base_and_negative_exponents),
-    CASE(power, stays_in_the_unit_interval_and_is_never_nan),
-    CASE(power, whole_exponents_equal_repeated_squaring),
-    CASE(power, never_falls_far_as_its_base_grows),
-};
-
-SECTION(power);

@@ -4,8 +4,7 @@
 
 static ray_camera random_camera(int kind)
 {
-    ray_camera c;
-    memset(&c, 0, sizeof c);
+    ray_camera c = { 0 };
     c.width = rnd_int(1, 400);
     c.height = rnd_int(1, 300);
     d3 eye = d3_scale(rnd_direction(), (double)rnd_log(0.5, 10));
@@ -356,10 +355,9 @@ TEST(ray, of_triangles_met_at_one_place_the_first_is_picked)
 {
     for (int i = 0; i < 2000; i++) {
         shade_vec3 p[24], near[3];
-        shade_mesh m;
         int first = rnd_int(0, 7), count = 0;
         float z = (float)rnd_int(-4, 4), t;
-        memset(&m, 0, sizeof m);
+        shade_mesh m = { 0 };
         for (int k = 0; k < 8; k++) { /* from first on, every other time at z, else behind */
             float at = k == first || (k > first && rnd_one_in(2)) ? z : z - (float)rnd_int(1, 3);
             near[0] = shade_v3(-8, -8, at);
@@ -487,8 +485,7 @@ TEST(ray, pick_finds_nothing_where_points_or_the_matrix_are_not_finite_or_flat)
     /* seen edge-on; but a matrix of zeros is the identity */
     check_pick(0, &c.m, shade_mat4_scaling(shade_v3(1, 0, 1)), c.ray, -1);
     check_pick(0, &c.m, shade_mat4_scaling(shade_v3(0, 0, 0)), c.ray, -1);
-    shade_mat4 zeros;
-    memset(&zeros, 0, sizeof zeros);
+    shade_mat4 zeros = { 0 };
     check_pick(0, &c.m, zeros, c.ray, 0);
 }
 
@@ -554,7 +551,7 @@ TEST(ray, pick_says_what_is_drawn_at_every_pixel)
     static picked_screen screen;
     long compared = 0, hits = 0;
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c = canvas_ready(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
         shade_mat4 view = shade_mat4_look_at(d3_round(d3_scale(rnd_direction(), 12)),
                                              random_vector(0.5), d3_round(rnd_direction()));
         shade_mat4 projection = i % 3 ? shade_mat4_perspective(0.6f, (float)W / H, 1, 40)
@@ -566,7 +563,6 @@ TEST(ray, pick_says_what_is_drawn_at_every_pixel)
         scene flat = { screen.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&flat);
         p.fragment = pick_ids;
-        canvas_clear(&c, 1);
         CHECK_INT(shade_draw(&c.target, &p, s.mesh.indices, 3 * screen.triangles, PICK_VERTICES,
                              NULL), SHADE_OK);
         for (int k = 0; k < W * H; k++) {
@@ -860,37 +856,3 @@ TEST(ray, a_flat_triangle_is_met_however_far_it_is)
     }
     CHECK_SAY(met > 4000, "%d met", met);
 }
-
-static const test_case ray_cases[] = {
-    CASE(ray, perspective_rays_leave_the_eye_through_the_pixel),
-    CASE(ray, off_centre_frustums_bend_their_rays),
-    CASE(ray, rays_of_an_infinite_reversed_projection_point_forward),
-    CASE(ray, orthographic_rays_are_parallel_and_leave_the_near_plane),
-    CASE(ray, the_middle_of_a_picture_is_straight_ahead),
-    CASE(ray, any_matrices_give_a_ray_without_a_crash),
-    CASE(ray, a_degenerate_camera_has_rays_without_direction),
-    CASE(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say),
-    CASE(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle),
-    CASE(ray, triangles_without_area_are_never_hit),
-    CASE(ray, corners_in_a_line_to_the_bit_are_never_hit),
-    CASE(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at),
-    CASE(ray, no_numbers_meet_nothing_or_something_finite),
-    CASE(ray, pick_is_the_nearest_triangle_of_all),
-    CASE(ray, pick_places_the_mesh_by_its_model),
-    CASE(ray, of_triangles_met_at_one_place_the_first_is_picked),
-    CASE(ray, the_length_of_a_direction_scales_t),
-    CASE(ray, pick_finds_nothing_in_bad_meshes_and_on_bad_rays),
-    CASE(ray, pick_finds_nothing_where_points_or_the_matrix_are_not_finite_or_flat),
-    CASE(ray, a_triangle_of_any_bits_hides_no_other_from_pick),
-    CASE(ray, pick_never_meets_a_triangle_without_area),
-    CASE(ray, pick_says_what_is_drawn_at_every_pixel),
-    CASE(ray, cast_and_drawn_pictures_agree_in_perspective),
-    CASE(ray, cast_and_drawn_pictures_agree_off_centre),
-    CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
-    CASE(ray, cast_and_drawn_pictures_agree_without_perspective),
-    CASE(ray, a_model_whose_w_is_two_is_picked_at_half_its_size),
-    CASE(ray, a_flat_triangle_is_met_however_far_it_is),
-    CASE(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all),
-};
-
-SECTION(ray);

@@ -237,11 +237,3 @@ TEST(reads, the_table_of_the_readme_has_every_call)
     free(readme);
     free(header);
 }
-
-static const test_case reads_cases[] = {
-    CASE(reads, the_table_of_the_readme_has_every_call),
-    CASE(reads, depth_that_is_only_read_may_lie_in_read_only_memory),
-    CASE(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else),
-};
-
-SECTION(reads);

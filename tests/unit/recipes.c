@@ -266,15 +266,11 @@ TEST(recipes, an_orthographic_camera_has_a_viewer_at_infinity)
     enum { SIDE = 80 };
     static const float corners[18] = { -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0 };
     static unsigned char rgba[SIDE * SIDE][4];
-    shade_target target;
-    shade_mesh mesh;
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
-    shade_material mirror;
-    shade_draw_state state;
-    memset(&mirror, 0, sizeof mirror);
-    memset(&state, 0, sizeof state);
-    memset(&target, 0, sizeof target);
-    memset(&mesh, 0, sizeof mesh);
+    shade_material mirror = { 0 };
+    shade_draw_state state = { 0 };
+    shade_target target = { 0 };
+    shade_mesh mesh = { 0 };
     mirror.specular = shade_v3(1, 1, 1);
     mirror.shininess = 60;
     target.width = target.height = SIDE;
@@ -308,17 +304,3 @@ TEST(recipes, headlight_and_w)
     shade_light_at(&lamp, shade_v3(5, 5, 5), &L, NULL);
     CHECK_VEC(L, V, 1e-6);
 }
-
-static const test_case recipes_cases[] = {
-    CASE(recipes, uw_iteration_four_is_the_default),
-    CASE(recipes, massey_phong_and_blinn_phong),
-    CASE(recipes, shirley_10_3_to_10_9),
-    CASE(recipes, berkeley_sum_over_lights),
-    CASE(recipes, massey_printed_r_is_minus_the_mirror_direction),
-    CASE(recipes, a_vec4_made_unit_is_too_short_a_view_vector),
-    CASE(recipes, half_the_angle_in_one_plane_only),
-    CASE(recipes, an_orthographic_camera_has_a_viewer_at_infinity),
-    CASE(recipes, headlight_and_w),
-};
-
-SECTION(recipes);

@@ -117,8 +117,7 @@ static shade_result whole_result(whole_call *w, char call)
     case 'M': return shade_draw_mesh(w->target, w->mesh, w->state, &w->stats);
     case 'L': return shade_draw_lines(w->target, w->points, w->point_count, w->lines, &w->stats);
     case 'N': return shade_mesh_normals(w->mesh, w->normals);
-    case 'C':
-        return shade_mesh_corner_normals(w->mesh, w->crease, w->normals, w->memory, w->bytes);
+    case 'C': return shade_mesh_corner_normals(w->mesh, w->crease, w->normals, w->memory, w->bytes);
     case 'E': return shade_mesh_edges(w->mesh, w->edges, w->capacity, &count);
     case 'B':
         return shade_mesh_chunks(w->mesh, w->triangles, w->chunks, w->capacity,
@@ -402,12 +401,3 @@ TEST(refusals, every_result_names_its_fields_in_a_text_of_its_own)
         CHECK(text && text[0] && strcmp(text, shade_result_string(SHADE_OK)) != 0);
     }
 }
-
-static const test_case refusals_cases[] = {
-    CASE(refusals, of_any_two_faults_the_first_category_is_told),
-    CASE(refusals, sizes_that_do_not_fit_are_arguments_behind_good_targets),
-    CASE(refusals, alpha_alone_is_no_format_of_a_target),
-    CASE(refusals, every_result_names_its_fields_in_a_text_of_its_own),
-};
-
-SECTION(refusals);

@@ -431,12 +431,11 @@ TEST(resolve, factors_of_one_to_eight_are_taken)
 /* The edge of a half plane drawn at 4 x 4 comes out as the covered share of each pixel. */
 TEST(resolve, supersampled_edges_are_shares_of_sixteenths)
 {
-    canvas in = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
+    canvas in = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
     canvas out = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
     shade_vec4 clip[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { -1, 1, 0, 1 } };
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    canvas_clear(&in, 1);
     canvas_draw(&in, &p, 3);
     CHECK_INT(shade_resolve(&out.target, &in.target, 4), SHADE_OK);
     for (int k = 0; k < 16 * 16; k++) {
@@ -536,24 +535,3 @@ TEST(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit)
         canvas_close(&whole);
     }
 }
-
-static const test_case resolve_cases[] = {
-    CASE(resolve, pixels_are_means_in_linear_light),
-    CASE(resolve, one_colour_stays_itself),
-    CASE(resolve, only_the_clip_rectangle_of_out_is_written),
-    CASE(resolve, strips_give_the_bits_of_the_whole),
-    CASE(resolve, nan_and_infinity_store_as_they_do_elsewhere),
-    CASE(resolve, what_does_not_fit_is_refused_before_a_pixel_changes),
-    CASE(resolve, factor_one_converts_between_all_formats),
-    CASE(resolve, codes_come_back_from_formats_that_hold_them),
-    CASE(resolve, bytes_change_places_between_rgba8_and_bgra8),
-    CASE(resolve, floats_stay_what_they_are),
-    CASE(resolve, pixels_of_one_size_are_converted_in_place),
-    CASE(resolve, a_picture_resolved_into_itself_stays),
-    CASE(resolve, conversion_is_refused_where_sizes_or_strips_differ),
-    CASE(resolve, factors_of_one_to_eight_are_taken),
-    CASE(resolve, supersampled_edges_are_shares_of_sixteenths),
-    CASE(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit),
-};
-
-SECTION(resolve);

@@ -10,20 +10,13 @@ static inline shade_vec3 random_color(double most)
 static inline float random_exponent(void)
 {
     switch (rnd_int(0, 7)) {
-    case 0:
-        return 0;
-    case 1:
-        return rnd_float(0, 1);
-    case 2:
-        return rnd_float(1, 10);
-    case 3:
-        return (float)(1 << rnd_int(0, 8));
-    case 4:
-        return rnd_log(100, 1e4);
-    case 5:
-        return 1e4f;
-    default:
-        return rnd_float(1, 128);
+    case 0: return 0;
+    case 1: return rnd_float(0, 1);
+    case 2: return rnd_float(1, 10);
+    case 3: return (float)(1 << rnd_int(0, 8));
+    case 4: return rnd_log(100, 1e4);
+    case 5: return 1e4f;
+    default: return rnd_float(1, 128);
     }
 }
 
@@ -42,8 +35,7 @@ static inline shade_material random_material(void)
    origin, for xyz/w is rounded once and a farther one would lose its direction to that rounding. */
 static inline shade_light random_light(shade_vec3 P, double size)
 {
-    shade_light light;
-    memset(&light, 0, sizeof light);
+    shade_light light = { 0 };
     double bright = rnd_one_in(3) ? (double)rnd_log(1e-3, 1e6) : 2;
     light.diffuse = random_color(bright);
     light.specular = rnd_one_in(2) ? light.diffuse : random_color(bright);
@@ -61,8 +53,7 @@ static inline shade_light random_light(shade_vec3 P, double size)
         light.position = shade_v4(p.x * w, p.y * w, p.z * w, w);
     }
     switch (rnd_int(0, 6)) {
-    case 0:
-        break;
+    case 0: break;
     case 1:
         light.constant = 1;
         break;
@@ -136,6 +127,12 @@ static inline void random_sample(light_sample *s)
     s->eye = d3_round(d3_add(from, d3_scale(V, size * (double)rnd_log(1e-2, 1))));
 }
 
+static inline ref_lit ref_of_sample(const light_sample *s)
+{
+    return ref_light(&s->lighting, &s->material, d3_from(s->P), d3_from(s->N), d3_from(s->eye),
+                     d3_of(1, 1, 1));
+}
+
 static inline void print_lights(const light_sample *s)
 {
     if (test_now.failures > TEST_MAX_PRINTED) return;
@@ -195,9 +192,8 @@ typedef struct ref_arrival {
 
 static inline ref_arrival ref_arriving(const shade_light *light, d3 P)
 {
-    ref_arrival a;
     double e = (double)light->spot_exponent;
-    memset(&a, 0, sizeof a);
+    ref_arrival a = { 0 };
     a.L = ref_to_light(light, P, &a.distance);
     a.amount = 1;
     if (light->position.w != 0)

@@ -157,7 +157,7 @@ TEST(shaders, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on)
     long pixels = 0, detailed = 0;
     if (!own_fits()) return;
     for (int i = 0; i < 300; i++) {
-        canvas c = canvas_open(OWN_W, OWN_H, 0, rnd_format(), 1);
+        canvas c = canvas_ready(OWN_W, OWN_H, 0, rnd_format(), 1);
         own_random_scene(&s);
         own_pipeline u = { &s, &want };
         shade_pipeline p = own_pipeline_of(&u);
@@ -165,7 +165,6 @@ TEST(shaders, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on)
         memset(want, 0, sizeof want);
         s.state.uniforms = &got;
         int corners = s.mesh.indices ? OWN_INDICES : OWN_VERTICES;
-        canvas_clear(&c, 1);
         canvas_draw_mesh(&c, &s.mesh, &s.state);
         canvas_draw(&c, &p, corners);
         for (int at = 0; at < OWN_W * OWN_H; at++) {
@@ -264,11 +263,10 @@ TEST(shaders, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else)
     long holes = 0;
     if (!own_fits()) return;
     for (int i = 0; i < 40; i++) {
-        canvas c = canvas_open(OWN_W, OWN_H, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(OWN_W, OWN_H, 0, SHADE_FORMAT_RGBA8, 1);
         shade_draw_state s;
         own_random_colors(&u, &s);
         if (i % 2) s.alpha_cutoff = 0;
-        canvas_clear(&c, 1);
         c.target.color = NULL;
         canvas_draw_mesh(&c, &m, &s);
         CHECK_INT(u.calls > 0, s.alpha_cutoff > 0);
@@ -531,16 +529,3 @@ TEST(shaders, those_of_pipelines_have_no_eye)
     }
     canvas_close(&c);
 }
-
-static const test_case shaders_cases[] = {
-    CASE(shaders, it_is_handed_the_eye_of_the_view),
-    CASE(shaders, those_of_pipelines_have_no_eye),
-    CASE(shaders, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on),
-    CASE(shaders, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply),
-    CASE(shaders, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else),
-    CASE(shaders, one_that_sets_nothing_draws_opaque_black),
-    CASE(shaders, one_that_lights_as_the_library_does_draws_its_bits),
-    CASE(shaders, colours_of_vertices_cut_holes_into_depth_alone),
-};
-
-SECTION(shaders);

@@ -316,9 +316,8 @@ typedef struct shape_soup {
 
 static shape_soup shape_soup_open(int triangles)
 {
-    shape_soup s;
     size_t bytes = (size_t)triangles * 3 * sizeof(shade_vec3);
-    memset(&s, 0, sizeof s);
+    shape_soup s = { 0 };
     s.position = test_memory(bytes);
     s.out = test_memory(bytes);
     s.triangles = triangles;
@@ -999,35 +998,3 @@ TEST(shape, nothing_to_fit_gives_the_identity)
         CHECK(finite_mat4(shade_mat4_fit(any, v[0], v[1], v[2], v[3])));
     }
 }
-
-static const test_case shape_cases[] = {
-    CASE(shape, an_edge_of_exactly_the_threshold_is_smooth),
-    CASE(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above),
-    CASE(shape, corner_normals_are_the_weighted_mean_of_the_near_faces),
-    CASE(shape, vertices_of_equal_position_are_one_whatever_the_sign_of_zero),
-    CASE(shape, faces_without_area_change_no_neighbour),
-    CASE(shape, any_positions_give_finite_corner_normals),
-    CASE(shape, strides_and_missing_indices_give_the_same_corner_normals),
-    CASE(shape, a_hundred_thousand_triangles_apart_are_told_apart_whatever_their_bits_are),
-    CASE(shape, corners_that_meet_find_each_other_among_a_hundred_thousand),
-    CASE(shape, positions_that_differ_in_one_byte_differ),
-    CASE(shape, positions_that_are_no_numbers_equal_nothing),
-    CASE(shape, corner_normals_say_how_much_memory_they_take),
-    CASE(shape, bad_corner_normal_calls_are_refused),
-    CASE(shape, corner_normals_of_bad_meshes_are_refused_and_take_no_bytes),
-    CASE(shape, edges_are_those_that_the_triangles_have_sorted_each_once),
-    CASE(shape, a_closed_mesh_has_two_triangles_at_every_edge),
-    CASE(shape, a_third_triangle_at_an_edge_makes_a_further_entry),
-    CASE(shape, doubled_and_degenerate_triangles_keep_edges_single),
-    CASE(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes),
-    CASE(shape, bad_edge_calls_are_refused),
-    CASE(shape, silhouettes_part_front_from_back_and_creases_bend_enough),
-    CASE(shape, bounds_are_those_of_the_finite_corners_of_triangles),
-    CASE(shape, a_fitted_view_is_as_near_as_all_corners_of_the_box_stay_in_the_picture),
-    CASE(shape, a_view_fitted_without_perspective_is_one_diagonal_away),
-    CASE(shape, nothing_to_fit_gives_the_identity),
-    CASE(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal),
-    CASE(shape, a_triangle_without_area_in_a_junction_turns_no_normal),
-};
-
-SECTION(shape);

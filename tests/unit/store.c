@@ -561,8 +561,7 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
 TEST(store, a_failed_write_stops_the_ppm)
 {
     static ppm_sink sink;
-    canvas c = canvas_open(50, 40, 0, SHADE_FORMAT_RGBA8, 0);
-    canvas_clear(&c, 1);
+    canvas c = canvas_ready(50, 40, 0, SHADE_FORMAT_RGBA8, 0);
     memset(&sink, 0, sizeof sink);
     CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
     int calls = sink.calls;
@@ -624,9 +623,8 @@ TEST(store, a_full_disk_is_an_error)
     snprintf(path, sizeof path, "%.200s/shade_full_%08x.ppm", folder ? folder : "/tmp",
              (unsigned)(uintptr_t)path);
     for (int big = 0; big < 2; big++) {
-        canvas c = canvas_open(big ? 600 : 4, big ? 400 : 3, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas c = canvas_ready(big ? 600 : 4, big ? 400 : 3, 0, SHADE_FORMAT_RGBA8, 0);
         struct rlimit limit, none;
-        canvas_clear(&c, 1);
         fflush(stdout);
         CHECK_INT(getrlimit(RLIMIT_FSIZE, &limit), 0);
         void (*before)(int) = signal(SIGXFSZ, SIG_IGN);
@@ -662,29 +660,3 @@ TEST(store, a_ppm_of_nothing_is_refused)
     CHECK_INT(sink.calls, 0);
     canvas_close(&c);
 }
-
-static const test_case store_cases[] = {
-    CASE(store, bytes_are_clamped_and_rounded_to_nearest),
-    CASE(store, the_bytes_of_srgb_are_those_of_the_curve),
-    CASE(store, rgb565_is_clamped_and_rounded_to_nearest),
-    CASE(store, floats_are_stored_as_they_come),
-    CASE(store, nan_is_stored_as_zero_and_infinity_clamped),
-    CASE(store, bytes_lie_in_the_order_that_formats_name),
-    CASE(store, every_srgb_byte_comes_back_from_linear_light),
-    CASE(store, the_srgb_code_is_within_half_a_step_everywhere),
-    CASE(store, colours_follow_the_srgb_curve_within_zero_and_one),
-    CASE(store, nan_is_no_light_and_infinity_is_full),
-    CASE(store, rgb_is_the_linear_colour_of_its_codes),
-    CASE(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels),
-    CASE(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more),
-    CASE(store, clear_needs_only_one_of_the_buffers),
-    CASE(store, a_ppm_holds_the_stored_colours_of_every_row),
-    CASE(store, a_failed_write_stops_the_ppm),
-    CASE(store, a_ppm_of_nothing_is_refused),
-#ifndef SHADE_NO_STDIO
-    CASE(store, a_ppm_file_holds_the_same_bytes),
-    CASE(store, a_full_disk_is_an_error),
-#endif
-};
-
-SECTION(store);

@@ -1,12 +1,13 @@
 /* test.h - a small test runner.
 
-   A case is a function TEST(section, name) named by the property it holds, listed in the section's
-   table with CASE(section, name).  A check that fails prints its place, both values and the seed; a
-   case that checked nothing counts as failed.  Random numbers start anew for each case, from the
-   run's seed and the case's name, so a case gives the same numbers alone as in the whole run. */
+   A case is a function TEST(section, name) named by the property it holds; the section is the name
+   of its file.  A check that fails prints its place, both values and the seed; a case that checked
+   nothing counts as failed.  Random numbers start anew for each case, from the run's seed and the
+   case's name, so a case gives the same numbers alone as in the whole run. */
 #ifndef TEST_H
 #define TEST_H
 
+#include "listed.h"
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>
@@ -17,27 +18,23 @@
 #include <string.h>
 
 typedef struct test_case {
-    const char *name;
+    const char *section, *name;
     void (*run)(void);
+    struct test_case *next;
 } test_case;
-typedef struct test_section {
-    const char *name;
-    const test_case *cases;
-    int count;
-} test_section;
 
-/* Opens a case: the function section__name, whose name is the property that it asserts. */
-#define TEST(section, name) static void section##__##name(void)
+/* Adds a case to the list of all. */
+void test_list(test_case *item);
 
-/* An entry of the table section_cases: the case's name for messages, and its function. */
-#define CASE(section, name)                                                    \
-    { #name, section##__##name }
-
-/* Ends a file: the section's name, its cases and their number, for the table of main.c. */
-#define SECTION(section)                                                       \
-    const test_section section##_section = {                                   \
-        #section, section##_cases, TEST_COUNT(section##_cases)                 \
-    }
+/* Opens a case, whose name is the property that it asserts, and lists it. */
+#define TEST(section, name)                                                                        \
+    static void section##__##name(void);                                                           \
+    BEFORE_MAIN(section##__##name##_is_listed)                                                     \
+    {                                                                                              \
+        static test_case item = { #section, #name, section##__##name, NULL };                      \
+        test_list(&item);                                                                          \
+    }                                                                                              \
+    static void section##__##name(void)
 
 /* The number of elements of an array. */
 #define TEST_COUNT(array) ((int)(sizeof(array) / sizeof(array)[0]))
@@ -199,8 +196,7 @@ static inline float rnd_nasty(void)
 
 /* ----------------------------------------------------------------------------------- the runner */
 
-static inline void test_run_case(const test_section *section, const test_case *item, int *passed,
-                                 int *failed)
+static inline void test_run_case(const test_case *item, int *passed, int *failed)
 {
     uint64_t hash = 14695981039346656037u;
     for (const char *c = item->name; *c; c++)
@@ -208,16 +204,16 @@ static inline void test_run_case(const test_section *section, const test_case *i
     test_now.state = test_now.seed ^ hash;
     test_now.checks = test_now.failures = 0;
     test_now.skipped = 0;
-    test_now.section = section->name;
+    test_now.section = item->section;
     test_now.name = item->name;
     item->run();
     if (test_now.skipped) return;
     if (test_now.checks == 0) {
-        printf("%s.%s: checked nothing\n", section->name, item->name);
+        printf("%s.%s: checked nothing\n", item->section, item->name);
         test_now.failures = 1;
     }
     if (test_now.failures > TEST_MAX_PRINTED) {
-        printf("%s.%s: %ld of %ld checks failed\n", section->name, item->name, test_now.failures,
+        printf("%s.%s: %ld of %ld checks failed\n", item->section, item->name, test_now.failures,
                test_now.checks);
     }
     if (test_now.failures) {

@@ -198,12 +198,8 @@ TEST(texture, nearest_takes_nothing_from_other_texels)
     static const float odd[] = { NAN, INFINITY, -INFINITY, 3e38f };
     for (int k = 0; k < 4; k++) {
         float pixels[3][3][4];
-        shade_texture t;
-        memset(&t, 0, sizeof t);
-        t.pixels = pixels;
-        t.width = t.height = 3;
-        t.format = SHADE_FORMAT_RGBA32F;
-        t.filter = SHADE_FILTER_NEAREST;
+        shade_texture t = { .pixels = pixels, .width = 3, .height = 3,
+                            .format = SHADE_FORMAT_RGBA32F, .filter = SHADE_FILTER_NEAREST };
         for (int i = 0; i < 36; i++) (&pixels[0][0][0])[i] = odd[k];
         for (int n = 0; n < 4; n++) pixels[1][1][n] = k == 3 ? -3e38f : 0.25f * (float)n;
         for (int n = 0; n < 100; n++) {
@@ -222,13 +218,8 @@ TEST(texture, full_texels_are_exactly_one_and_empty_ones_zero)
 {
     for (int i = 0; i < 2 * 3 * SHADE_FORMAT_RGBA32F; i++) {
         unsigned char pixels[4 * 4 * 4];
-        shade_texture t;
-        memset(&t, 0, sizeof t);
-        t.pixels = pixels;
-        t.width = t.height = 4;
-        t.srgb = i & 1;
-        t.filter = (shade_filter)(i / 2 % 3);
-        t.format = (shade_format)(i / 6);
+        shade_texture t = { .pixels = pixels, .width = 4, .height = 4, .srgb = i & 1,
+                            .filter = (shade_filter)(i / 2 % 3), .format = (shade_format)(i / 6) };
         for (int full = 0; full < 2; full++) {
             memset(pixels, full ? 255 : 0, sizeof pixels);
             for (int k = 0; k < 30; k++) {
@@ -248,12 +239,7 @@ TEST(texture, full_texels_are_exactly_one_and_empty_ones_zero)
 TEST(texture, srgb_texels_are_decoded_before_they_are_blended)
 {
     unsigned char pixels[2][4] = { { 0, 0, 0, 0 }, { 255, 255, 255, 255 } };
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = pixels;
-    t.width = 2;
-    t.height = 1;
-    t.srgb = 1;
+    shade_texture t = { .pixels = pixels, .width = 2, .height = 1, .srgb = 1 };
     shade_vec4 c = shade_sample(&t, 0.5f, 0.5f, 0);
     CHECK_NEAR(c.x, 0.5, 2e-6);
     CHECK_NEAR(c.w, 0.5, 1e-7);
@@ -278,13 +264,8 @@ TEST(texture, light_of_an_srgb_code_has_the_bits_of_the_curve)
         uint16_t half = (uint16_t)((code & 31) << 11 | (code & 63) << 5 | (code & 31));
         const float c8 = (float)code * eighth;
         shade_vec3 want = shade_v3(c8, c8, c8);
-        shade_texture t;
-        memset(&t, 0, sizeof t);
-        t.pixels = pixels;
-        t.width = t.height = 1;
-        t.srgb = 1;
-        t.format = formats[n / 256 % 4];
-        t.filter = (shade_filter)(n / 1024);
+        shade_texture t = { .pixels = pixels, .width = 1, .height = 1, .srgb = 1,
+                            .format = formats[n / 256 % 4], .filter = (shade_filter)(n / 1024) };
         if (t.format == SHADE_FORMAT_RGB565_SWAPPED) half = (uint16_t)(half << 8 | half >> 8);
         memset(pixels, code, sizeof pixels);
         if (!wide) {
@@ -306,13 +287,8 @@ TEST(texture, light_of_an_srgb_code_has_the_bits_of_the_curve)
 TEST(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule)
 {
     float pixels[4][4];
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.pixels = pixels;
-    t.width = 4;
-    t.height = 1;
-    t.format = SHADE_FORMAT_RGBA32F;
-    t.wrap_v = SHADE_WRAP_CLAMP;
+    shade_texture t = { .pixels = pixels, .width = 4, .height = 1, .format = SHADE_FORMAT_RGBA32F,
+                        .wrap_v = SHADE_WRAP_CLAMP };
     for (int i = 0; i < 16; i++) pixels[i / 4][i % 4] = (float)(i / 4);
     static const struct {
         float u, repeat, clamp, mirror;
@@ -390,12 +366,8 @@ TEST(texture, any_address_and_any_stride_give_the_same_bits)
     }
     for (int row = 0; row < 8; row++) memcpy(bytes + 1 + 32 * row, aligned + (row & 1) * WIDE, 32);
     for (int i = 0; i < 300; i++) {
-        shade_texture near_rows, far_rows, odd;
-        memset(&near_rows, 0, sizeof near_rows);
-        near_rows.pixels = aligned;
-        near_rows.width = 8;
-        near_rows.height = 2;
-        near_rows.stride = WIDE;
+        shade_texture far_rows, odd;
+        shade_texture near_rows = { .pixels = aligned, .width = 8, .height = 2, .stride = WIDE };
         far_rows = odd = near_rows;
         far_rows.height = 16384; /* rows * stride beyond 2^31: only the first two are there */
         odd.pixels = bytes + 1;
@@ -416,9 +388,8 @@ TEST(texture, a_bad_texture_is_white)
     for (int i = 0; i < 64; i++) pixels[i] = 0.25f;
     for (int i = 0; i < SHADE_LANES; i++) u[i] = v[i] = 0.3f;
     for (int k = -2; k < TEXTURE_FAULTS; k++) {
-        shade_texture t;
         const shade_texture *p;
-        memset(&t, 0, sizeof t);
+        shade_texture t = { 0 };
         p = k == -1 ? NULL : &t;
         t.pixels = pixels;
         t.width = t.height = 4;
@@ -442,8 +413,7 @@ TEST(texture, no_texel_outside_the_picture_is_read)
         int w = rnd_int(1, 12), h = rnd_int(1, 12), stride = w + rnd_int(1, 6);
         size_t cells = (size_t)(stride * h + 2 * FRAME);
         float *all = test_memory(16 * cells);
-        shade_texture t;
-        memset(&t, 0, sizeof t);
+        shade_texture t = { 0 };
         for (size_t k = 0; k < 4 * cells; k++) all[k] = (float)NAN;
         for (int y = 0; y < h; y++)
             for (int x = 0; x < w; x++)
@@ -817,8 +787,7 @@ typedef struct lod_planes {
 
 static lod_planes lod_planes_of(const lod_scene *s, const ref_triangle *t)
 {
-    lod_planes p;
-    memset(&p, 0, sizeof p);
+    lod_planes p = { 0 };
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 3; j++) {
             double e = t->e[k][j]; /* barycentric over w */
@@ -880,12 +849,8 @@ static void check_lod(shade_interpolation interpolation, int flat, double scale)
         s.first = rnd_int(0, 3);
         s.lod = lod;
         for (int k = 0; k < 48 * 64; k++) lod[k / 64][k % 64] = (float)NAN;
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = &s,
+                             .varyings = 5 };
         shade_texture map = lod_map(rnd_int(1, 600), rnd_int(1, 600));
         p.interpolation = interpolation;
         p.lod_texture = &map;
@@ -934,15 +899,9 @@ TEST(texture, lod_is_the_same_in_scenes_of_any_size)
 static void draw_lod(const lod_scene *s, const shade_texture *map, shade_interpolation how)
 {
     canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
-    shade_pipeline p;
-    memset(&p, 0, sizeof p);
-    p.vertex = lod_vertex;
-    p.fragment = lod_fragment;
-    p.uniforms = s;
-    p.varyings = 5;
-    p.interpolation = how;
-    p.lod_texture = map;
-    p.lod_varying = s->first;
+    shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = s,
+                         .varyings = 5, .interpolation = how, .lod_texture = map,
+                         .lod_varying = s->first };
     for (int k = 0; k < 48 * 64; k++) s->lod[k / 64][k % 64] = (float)NAN;
     canvas_draw(&c, &p, 3);
     canvas_close(&c);
@@ -1041,24 +1000,17 @@ TEST(texture, the_lod_oracle_agrees_with_finite_differences)
 TEST(texture, a_bad_lod_texture_is_refused)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 1);
-    lod_scene s;
     static float lod[48][64];
-    memset(&s, 0, sizeof s);
+    lod_scene s = { 0 };
     for (int k = 0; k < 3; k++) s.clip[k] = clip_corners[k];
     s.lod = lod;
     for (int k = 0; k <= 2 * TEXTURE_FAULTS; k++) {
         shade_texture map = lod_map(4, 4);
-        shade_pipeline p;
         shade_stats stats;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = k % 2 ? NULL : lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
-        p.lod_texture = &map;
-        p.lod_varying = 1;
-        p.interpolation = (shade_interpolation)(k % 3);
-        p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = k % 2 ? NULL : lod_fragment,
+                             .uniforms = &s, .varyings = 5, .lod_texture = &map, .lod_varying = 1,
+                             .interpolation = (shade_interpolation)(k % 3),
+                             .raster.depth_test = SHADE_COMPARE_ALWAYS };
         if (k < 2 * TEXTURE_FAULTS) spoil_texture(&map, k / 2);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats),
                   k < 2 * TEXTURE_FAULTS ? SHADE_ERROR_TEXTURE : SHADE_OK);
@@ -1074,20 +1026,12 @@ TEST(texture, a_bad_lod_texture_is_refused)
 TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
-    lod_scene s;
     static float lod[48][64];
-    memset(&s, 0, sizeof s);
-    s.lod = lod;
+    lod_scene s = { .lod = lod };
     for (int k = -2; k < 8; k++) {
         shade_texture map = lod_map(4, 4);
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
-        p.lod_texture = &map;
-        p.lod_varying = k;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = &s,
+                             .varyings = 5, .lod_texture = &map, .lod_varying = k };
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
                   k < 0 || k > 3 ? SHADE_ERROR_TEXTURE : SHADE_OK);
         p.lod_varying = 2147483647 - (k + 2);
@@ -1103,20 +1047,15 @@ TEST(texture, coordinates_that_stand_still_have_no_detail) /* and no NaN */
     static float lod[48][64];
     for (int i = 0; i < 20; i++) {
         canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
-        lod_scene s;
-        memset(&s, 0, sizeof s);
+        lod_scene s = { 0 };
         for (int k = 0; k < 3; k++) {
             s.clip[k] = clip_of_fx8((double)rnd_int(0, 64 * 256), (double)rnd_int(0, 48 * 256), 64,
                                     48, 0, 1);
         }
         for (int k = 0; k < 48 * 64; k++) lod[k / 64][k % 64] = -1;
         s.lod = lod;
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
-        p.vertex = lod_vertex;
-        p.fragment = lod_fragment;
-        p.uniforms = &s;
-        p.varyings = 5;
+        shade_pipeline p = { .vertex = lod_vertex, .fragment = lod_fragment, .uniforms = &s,
+                             .varyings = 5 };
         shade_texture map = lod_map(256, 256);
         p.lod_texture = &map;
         p.lod_varying = 1;
@@ -1300,11 +1239,10 @@ static void check_maps(shade_shading shading)
     static map_scene s;
     long checked = 0;
     for (int i = 0; i < 120; i++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 0);
+        canvas c = canvas_ready(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 0);
         ref_triangle t;
         shade_vec4 clip[3];
         random_map_scene(&s, shading);
-        canvas_clear(&c, 1);
         canvas_draw_mesh(&c, &s.mesh, &s.state);
         for (int k = 0; k < 3; k++) {
             clip[k] = shade_v4((float)s.snapped[k][0], (float)s.snapped[k][1],
@@ -1405,11 +1343,10 @@ TEST(texture, bad_texture_coordinates_draw_a_defined_texel)
 {
     static map_scene s;
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c = canvas_ready(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         random_map_scene(&s, (shade_shading)(i % 3));
         for (int k = 0; k < 6; k++)
             if (rnd_one_in(2)) s.uv[k / 2][k % 2] = rnd_nasty();
-        canvas_clear(&c, 1);
         canvas_draw_mesh(&c, &s.mesh, &s.state);
         close_map_scene(&s);
         canvas_close(&c);
@@ -1559,51 +1496,3 @@ TEST(texture, without_lamps_a_mesh_has_the_bits_of_one_under_a_black_lamp)
     if (SHADE_MAX_VARYINGS >= 11)
         CHECK_SAY(fragments > 20000 && mapped > 20, "%ld, %ld maps", fragments, mapped);
 }
-
-static const test_case texture_cases[] = {
-    CASE(texture, a_texel_of_alpha_is_white_and_never_srgb),
-    CASE(texture, mipmaps_of_alpha_are_means_in_one_byte_a_texel),
-    CASE(texture, a_map_of_alpha_masks_what_is_lit),
-    CASE(texture, a_bad_level_is_replaced_by_the_full_size),
-    CASE(texture, sampling_a_packet_needs_coordinates_and_a_place),
-    CASE(texture, texcoords_of_any_stride_give_the_same_bits),
-    CASE(texture, bilinear_blends_the_four_nearest_texels),
-    CASE(texture, trilinear_blends_the_two_nearest_levels),
-    CASE(texture, nearest_is_the_texel_that_the_point_lies_in),
-    CASE(texture, nearest_and_whole_texel_centres_are_exact),
-    CASE(texture, nearest_takes_nothing_from_other_texels),
-    CASE(texture, full_texels_are_exactly_one_and_empty_ones_zero),
-    CASE(texture, srgb_texels_are_decoded_before_they_are_blended),
-    CASE(texture, light_of_an_srgb_code_has_the_bits_of_the_curve),
-    CASE(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule),
-    CASE(texture, any_address_and_any_stride_give_the_same_bits),
-    CASE(texture, a_bad_texture_is_white),
-    CASE(texture, no_texel_outside_the_picture_is_read),
-    CASE(texture, lanes_are_the_scalar_samples_bit_for_bit),
-    CASE(texture, lanes_stay_apart_when_texels_are_not_finite),
-    CASE(texture, mipmaps_are_read_by_trilinear_alone_and_only_where_there_are_some),
-    CASE(texture, mipmap_counts_and_bytes_are_those_of_halving_downward),
-    CASE(texture, mipmaps_are_means_by_area_in_linear_light),
-    CASE(texture, mipmaps_of_one_colour_are_that_colour),
-    CASE(texture, mipmaps_take_nothing_from_beyond_the_picture),
-    CASE(texture, bad_mipmap_calls_are_refused_and_change_nothing),
-    CASE(texture, one_pixel_takes_no_mipmaps_and_no_memory_for_them),
-    CASE(texture, lod_is_the_log_of_the_longer_step_under_perspective),
-    CASE(texture, lod_is_that_of_the_perspective_interpolation_whatever_is_interpolated),
-    CASE(texture, lod_is_the_same_in_scenes_of_any_size),
-    CASE(texture, lod_without_perspective_is_one_number),
-    CASE(texture, lod_of_cut_triangles_is_that_of_the_whole),
-    CASE(texture, the_lod_oracle_agrees_with_finite_differences),
-    CASE(texture, a_bad_lod_texture_is_refused),
-    CASE(texture, a_lod_varying_beyond_the_varyings_is_refused),
-    CASE(texture, coordinates_that_stand_still_have_no_detail),
-    CASE(texture, a_map_multiplies_the_diffuse_and_ambient_terms_per_fragment),
-    CASE(texture, a_map_varies_per_pixel_under_gouraud_light),
-    CASE(texture, a_map_varies_per_pixel_on_flat_faces),
-    CASE(texture, a_bad_map_is_refused_before_a_pixel_changes),
-    CASE(texture, a_map_without_texcoords_is_ignored),
-    CASE(texture, without_lamps_a_mesh_has_the_bits_of_one_under_a_black_lamp),
-    CASE(texture, bad_texture_coordinates_draw_a_defined_texel),
-};
-
-SECTION(texture);

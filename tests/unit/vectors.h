@@ -122,14 +122,10 @@ static inline shade_mat4 degenerate_camera(int k)
 {
     const float *v = degenerate_cameras[k].v;
     switch (degenerate_cameras[k].kind) {
-    case 'p':
-        return shade_mat4_perspective(v[0], v[1], v[2], v[3]);
-    case 'r':
-        return shade_mat4_perspective_reversed(v[0], v[1], v[2]);
-    case 'f':
-        return shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], v[5]);
-    default:
-        return shade_mat4_ortho(v[0], v[1], v[2], v[3], v[4], v[5]);
+    case 'p': return shade_mat4_perspective(v[0], v[1], v[2], v[3]);
+    case 'r': return shade_mat4_perspective_reversed(v[0], v[1], v[2]);
+    case 'f': return shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], v[5]);
+    default: return shade_mat4_ortho(v[0], v[1], v[2], v[3], v[4], v[5]);
     }
 }
 

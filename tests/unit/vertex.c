@@ -35,15 +35,13 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
     static const int sizes[] = { 1, 3, 10, 30, 64, 100 };
     for (int k = 0; k < 6; k++) {
         int n = sizes[k], vertices = (n + 1) * (n + 1), count = grid_of(n, clip, indices);
-        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
-        recorder r;
-        memset(&r, 0, sizeof r);
+        canvas c = canvas_ready(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
+        recorder r = { 0 };
         memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         shade_stats stats;
-        canvas_clear(&c, 1);
         CHECK_INT(shade_draw(&c.target, &p, indices, count, vertices, &stats), SHADE_OK);
         int most = (n <= 10 ? vertices + vertices / 4 : vertices * 21 / 10) + 2;
         if (SHADE_LANES < 128) most = SHADE_LANES < 64 ? count : vertices * 22 / 10 + 2;
@@ -66,8 +64,7 @@ TEST(vertex, without_indices_each_vertex_is_shaded_once_in_order)
     static unsigned char seen[3000];
     for (int i = 0; i < 3000; i++) clip[i] = clip_corners[i % 3];
     for (int count = 3; count <= 3000; count += 333) {
-        recorder r;
-        memset(&r, 0, sizeof r);
+        recorder r = { 0 };
         memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
@@ -91,9 +88,7 @@ TEST(vertex, only_referenced_vertices_are_shaded)
         memset(wanted, 0, sizeof wanted);
         for (int i = 0; i < 1000; i++) clip[i] = clip_corners[rnd_int(0, 2)];
         for (int i = 0; i < 300; i++) wanted[indices[i] = (uint32_t)rnd_int(0, 999)] = 1;
-        recorder r;
-        memset(&r, 0, sizeof r);
-        r.vertex_seen = seen;
+        recorder r = { .vertex_seen = seen };
         canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
@@ -224,13 +219,12 @@ TEST(vertex, indices_reach_up_to_the_greatest_count)
 
 TEST(vertex, a_position_behind_the_eye_is_survived) /* w = -1 */
 {
-    canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas c = canvas_ready(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 clip[3];
     for (int k = 0; k < 3; k++) clip[k] = shade_v4(1, -1, 0, -1);
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
     shade_stats stats;
-    canvas_clear(&c, 1);
     stats = canvas_draw(&c, &p, 3);
     CHECK_INT(stats.drawn, 0);
     clip[0] = clip_corners[0];
@@ -239,15 +233,3 @@ TEST(vertex, a_position_behind_the_eye_is_survived) /* w = -1 */
     CHECK_INT(stats.drawn, 1);
     canvas_close(&c);
 }
-
-static const test_case vertex_cases[] = {
-    CASE(vertex, vertices_of_a_grid_are_shaded_once_per_batch),
-    CASE(vertex, without_indices_each_vertex_is_shaded_once_in_order),
-    CASE(vertex, only_referenced_vertices_are_shaded),
-    CASE(vertex, every_triangle_gets_its_own_three_vertices),
-    CASE(vertex, what_a_shader_leaves_alone_is_zero),
-    CASE(vertex, indices_reach_up_to_the_greatest_count),
-    CASE(vertex, a_position_behind_the_eye_is_survived),
-};
-
-SECTION(vertex);

@@ -74,8 +74,7 @@ TEST(work, diagonals_take_the_tiles_that_they_cross)
     enum { HEIGHT = 2048 };
     for (int i = 0; i < 4; i++) {
         const int width = widths[i];
-        canvas c = canvas_open(width, HEIGHT, 0, SHADE_FORMAT_RGB565, 1);
-        canvas_clear(&c, 1);
+        canvas c = canvas_ready(width, HEIGHT, 0, SHADE_FORMAT_RGB565, 1);
         for (int mode = 0; mode < WORK_MODES; mode++) {
             for (int turned = 0; turned < 4; turned++) {
                 int64_t x[3] = { 0, width * 256, width * 256 - 200 };
@@ -100,9 +99,8 @@ TEST(work, diagonals_take_the_tiles_that_they_cross)
 /* G4 */
 TEST(work, triangles_take_their_rows_and_the_tiles_that_they_cross)
 {
-    canvas c = canvas_open(1200, 700, 0, SHADE_FORMAT_RGB565, 1);
+    canvas c = canvas_ready(1200, 700, 0, SHADE_FORMAT_RGB565, 1);
     double most = 0;
-    canvas_clear(&c, 1);
     for (int i = 0; i < 700; i++) {
         int64_t x[3], y[3];
         double bound, tiles;
@@ -149,11 +147,3 @@ TEST(work, what_lies_behind_a_big_triangle_takes_no_tiles)
     }
     canvas_close(&c);
 }
-
-static const test_case work_cases[] = {
-    CASE(work, diagonals_take_the_tiles_that_they_cross),
-    CASE(work, triangles_take_their_rows_and_the_tiles_that_they_cross),
-    CASE(work, what_lies_behind_a_big_triangle_takes_no_tiles),
-};
-
-SECTION(work);
