@@ -61,11 +61,16 @@ assert (f"off by {most:.0e}".replace("e-0", "e-") + " max(1, |x|)" if most else 
 END
     check "$name: its page has points and tolerance" test ! -s "$T/log"
 done
-for wrong in "01_lambert" "no_task LICENSE" "01_lambert LICENSE --mistake half"; do
+for wrong in "01_lambert" "no_task LICENSE" "11 LICENSE" "01_lambert LICENSE --mistake half"; do
     check "grade.py refuses $wrong" sh -c "python3 $A/grade.py $wrong 2>/dev/null; [ \$? -eq 2 ]"
 done
 check "without nm or a compiler C is refused in words" sh -c \
     "CC=no_such_cc python3 $A/grade.py 01_lambert $A/01_lambert/starter.c | grep -q 'There is no no_such_cc'"
+for number in 01 1 10; do
+    check "grade.py takes $number for the name of a task" python3 $A/grade.py $number tests/assignments/by_hand.c
+done
+check "a file that is not there is told" sh -c \
+    "python3 $A/grade.py 01 no_such.c | grep -qx 'There is no file no_such.c.'"
 check "Python needs no compiler" sh -c \
     "CC=no_such_cc python3 $A/grade.py 01_lambert tests/assignments/by_hand.py"
 
@@ -80,7 +85,7 @@ assert $3, r" "$T/gs/results/results.json"
 none="all(x['score'] == 0 and"
 if there zip; then
     mkdir -p "$T/gs/source"
-    check "gradescope.sh packs a task" sh $A/gradescope.sh 03_highlight 4711 "$T/gs.zip"
+    check "gradescope.sh packs a task" sh $A/gradescope.sh 3 4711 "$T/gs.zip"
     python3 -m zipfile -e "$T/gs.zip" "$T/gs/source"
     check "what Gradescope starts lies at the root" test -s "$T/gs/source/setup.sh"
     for file in by_hand.c by_hand.py; do
@@ -96,7 +101,7 @@ if there zip; then
     check "nothing handed in says so" hands_in "" "" "$none 'there are 0' in x['output'] for x in t)"
     printf 'def phong(N, L, V, n):\n    import os\n    os._exit(0)\n' >"$T/cheat.py"
     check "a cheat leaves results" hands_in "$T/cheat.py" my.py "$none 'imports os' in x['output'] for x in t)"
-    for wrong in "03_highlight x" "04_nothing 5"; do
+    for wrong in "03_highlight x" "04_nothing 5" "judge 5" "student 5"; do
         check "gradescope.sh refuses $wrong" sh -c "! sh $A/gradescope.sh $wrong '$T/no.zip' 2>/dev/null"
     done
 else left_out "gradescope.sh: no zip"; fi

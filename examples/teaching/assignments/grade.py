@@ -68,8 +68,10 @@ def from_judge(answer):
 def arguments():
     """Returns the arguments of the command line."""
     names = sorted(CALLS)
+    numbers = {name.split("_")[0]: name for name in names}
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("task", choices=names, metavar="TASK", help=", ".join(names))
+    parser.add_argument("task", choices=names, metavar="TASK", help=", ".join(names),
+                        type=lambda text: numbers.get(text.zfill(2), text))
     add = parser.add_argument
     add("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
     add("--seed", default="1", help="of the inputs; teachers keep theirs to themselves")
