@@ -90,6 +90,8 @@ def right_answers(task):
     for name in ("by_hand.c", "by_hand.py"):
         score, says = judged(task, HERE / name, 5)
         check(f"{task.name}: {name} has full points", score == full(task), says)
+        notes = Student(task.name, HERE / name, task.sent, task.outputs, 5).notes()
+        check(f"{task.name}: nothing is told of {name}", not notes, notes)
     for name in ("starter.c", "starter.py"):
         score, says = judged(task, ASSIGNMENTS / task.name / name)
         check(f"{task.name}: {name} has less than half", score < full(task) / 2 and says, says)
@@ -198,8 +200,39 @@ def cheats():
             head = '#include "shade.h"\n' if language == "c" else ""
             path = handed_in(f"cheat.{language}", head + text.replace("LAMBERT", LAMBERT) + "\n")
             score, said = judged(TASKS["01_lambert"], path, seconds=2)
-            good = score == 0 and says in said
+            good = score == 0 and says.replace("\\n", "\n") in said
             check(f"{language} that {name} gets a sentence", good, (score, said))
+
+
+ALLOWED = {  # what a student may do: the language, the code, what is told beside the points
+    "prints to both of its streams": ("c", "#include <stdio.h>\n" + LAMBERT + """ {
+        fprintf(stderr, "N %g\\n", N.x); fprintf(stderr, "one\\n"); fputs("two\\n", stderr);
+        perror("three"); puts("four"); printf("five\\n"); fflush(stdout); putchar('6');
+        return fmaxf(0, shade_dot(N, L)); }""", "N [-0-9].*\none\ntwo\nthree.*\nfour\nfive\n6N "),
+    "prints what looks like an answer": ("c", "#include <stdio.h>\n" + LAMBERT + """ {
+        for (int k = 0; k < 16; k++) putc("\\0\\0\\0\\0\\0\\0\\360?"[k % 8], stderr);
+        return fmaxf(0, shade_dot(N, L)); }""", "Your file prints"),
+    "has a variable that is not used": ("c", LAMBERT + """ {
+        int light;\n  return fmaxf(0, shade_dot(N, L)); }""",
+        r"^Your compiler warns:\nallowed.c:4:13: warning: unused variable .light."),
+    "has many warnings": ("c", LAMBERT + " {" + "\nint " + "; int ".join("abcdefgh") + """;
+        return fmaxf(0, shade_dot(N, L)); }""", r"(\nallowed.c:4.*){3}\nand 5 more\.$"),
+    "prints": ("py", "def lambert(N, L):\n    print('one')\n    return max(0, sum(n * l for n, l "
+               "in zip(N, L)))\n", "Your file prints, which the grader does not read: one\none"),
+}
+
+
+def allowed():
+    """What a student may do costs no points, and is told."""
+    lambert = TASKS["01_lambert"]
+    for name, (language, code, told) in ALLOWED.items():
+        head = '#include "shade.h"\n#include <math.h>\n' if language == "c" else ""
+        path = handed_in(f"allowed.{language}", head + code)
+        score, says = judged(lambert, path)
+        one = Student(lambert.name, path, lambert.sent, lambert.outputs, 20)
+        one.ask(lambert.inputs(lambert.cases[0], 1))
+        good = score == full(lambert) and re.search(told, one.notes(), re.M)
+        check(f"{language} that {name} has full points, and is told", good, (says, one.notes()))
 
 
 def links():
@@ -257,6 +290,8 @@ def main():
         check("wrong.txt has each known mistake", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
     cheats()
+    if wanted("allowed"):
+        allowed()
     if wanted("links"):
         links()
     if wanted("process"):

@@ -69,6 +69,14 @@ check "without nm or a compiler C is refused in words" sh -c \
 for number in 01 1 10; do
     check "grade.py takes $number for the name of a task" python3 $A/grade.py $number tests/assignments/by_hand.c
 done
+printf '#include "shade.h"\nfloat lambert(shade_vec3 N, shade_vec3 L)\n{\n    int k;\n    return 1;\n}\n' >"$T/my own.c"
+python3 $A/grade.py 01 "$T/my own.c" --json "$T/results.json" >"$T/said"
+check "a warning names the student's file" grep -q '^my own.c:4:9: warning: .*k' "$T/said"
+check "a warning stands in results too" grep -q 'my own.c:4:9: warning' "$T/results.json"
+printf 'float lambert(shade_vec3 N, shade_vec3 L)\n{\n    return 1\n}\n' >"$T/my own.c"
+python3 $A/grade.py 01 "$T/my own.c" >"$T/said"
+check "an error names the student's file" grep -q '^my own.c:[34]:.*error: ' "$T/said"
+check "no name of the judge stands beside an error" no grep -qE 'answer|warning|/' "$T/said"
 check "a file that is not there is told" sh -c \
     "python3 $A/grade.py 01 no_such.c | grep -qx 'There is no file no_such.c.'"
 check "Python needs no compiler" sh -c \

@@ -107,8 +107,8 @@ def main():
             student = Student(task.name, options.answer, task.sent, task.outputs, options.seconds)
             ask = student.ask
         scores = [(r.score, r.says) for r in Judge(task, options.seed).judge(ask)]
-        if student and student.printed:
-            output = f"Your file prints, which the grader does not read: {student.printed[:500]}"
+        if student:
+            output = student.notes()
         if options.picture:
             write_png(options.picture, [a + b for a, b in zip(
                 pixels(task, ask), pixels(task, from_judge(task.answerer())))])
