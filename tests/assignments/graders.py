@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -66,7 +67,8 @@ class Trusted(Student):
     """A C program that no rule has looked at: what bounds it is its process alone."""
 
     def __init__(self, task, name, text, *flags):
-        self.inputs, self.outputs, self.seconds, self.printed = task.sent, task.outputs, 3, ""
+        self.inputs, self.outputs, self.seconds, self.late = task.sent, task.outputs, 3, False
+        self.printed = ""
         self.bound, program = (lambda: student.limit(3)), FOLDER / name
         path = handed_in(f"{name}.c", text)
         subprocess.run([*os.environ.get("CC", "cc").split(), "-std=gnu99", "-O1", "-w", f"-I{ROOT}",
@@ -155,13 +157,17 @@ def in_python(task, mistake):
 
 
 def known_mistakes(task):
-    """Each known mistake loses points and is named alone, in each case in which it loses them."""
+    """Each known mistake loses points and is named alone, in the first case that loses points; the
+    other cases point to that one."""
     for mistake in task.mistakes:
         name = f"{task.name}: the mistake {mistake[0]}"
         answer = task.answerer(mistake)
         results = Judge(task, 11).judge(lambda v, a=answer: ([a(x) for x in v], "raises"))
-        says = [r.says for r in results if r.score < r.case.points]
-        check(f"{name} is named", says and all(mistake[3] in text for text in says), says)
+        lost = [r for r in results if r.score < r.case.points]
+        says = [r.says for r in lost]
+        check(f"{name} is named", lost and mistake[3] in says[0], says)
+        first = f" inputs. See the case '{lost[0].case.name}' first."
+        check(f"{name} is named once", all(s.endswith(first) for s in says[1:]), says)
         others = [m[0] for m in task.mistakes if m[3] in " ".join(says) and m[3] != mistake[3]]
         check(f"{name} is told from the others", not others, others)
     for mistake in (task.mistakes[0], task.mistakes[-1]):
@@ -235,6 +241,62 @@ def allowed():
         check(f"{language} that {name} has full points, and is told", good, (says, one.notes()))
 
 
+ONCE = {  # what is told in one case alone: the task, the language, the code, the sentence
+    "a name that is not there": ("01", "py", "def lambert(N, L):\n    return foo\n",
+                                 "yours raises NameError: name 'foo' is not defined.\n"),
+    "a parameter too few": ("01", "py", "def lambert(N):\n    return 1\n",
+                            "takes 1 positional argument but 2 were given.\n"),
+    "nothing that is returned": ("01", "py", "def lambert(N, L):\n    N[0]\n",
+                                 "yours returns nothing: is a return missing?\n"),
+    "a text that is returned": ("03", "py", "def halfway(L, V):\n    return ['a', 0, 0]\n"
+                                            "def phong(N, L, V, n):\n    return 0\n",
+                                "yours returns a str, which is no number.\n"),
+    "a complex number": ("01", "py", "def lambert(N, L):\n    return (-N[0] ** 2) ** .5\n",
+                         "yours returns a complex number, a power or a root of a negative one.\n"),
+    "a crash": ("01", "c", LAMBERT + " { return *(volatile float *)0; }",
+                "The program crashed: an index beyond an array"),
+    "a NaN": ("01", "c", LAMBERT + " { return (L.x - L.x) / 0 + N.x; }", "A NaN comes from 0 / 0"),
+}
+
+
+def once():
+    """What is wrong in all cases is told in the first one, and the others point to it."""
+    for name, (number, language, code, told) in ONCE.items():
+        task = next(task for task in TASKS.values() if task.name.startswith(number))
+        head = '#include "shade.h"\n' if language == "c" else ""
+        score, says = judged(task, handed_in(f"once.{language}", head + code))
+        first = f"Wrong for 100 of 100 inputs. See the case '{task.cases[0].name}' first."
+        good = told in f"{says}\n" and says.count(told.strip()) == 1
+        check(f"once: {name}", good and says.count(first) == len(task.cases) - 1, (score, says))
+
+
+def bases():
+    """Iteration four with a lamp that is wrong: no case gives a hint but that of one lamp."""
+    text, _ = changed([("arrives * lobe", "2 * r * arrives * lobe"),
+                       ("m->ambient, l->ambient", "m->diffuse, l->ambient")])
+    task = TASKS["10_iteration_four"]
+    _, says = judged(task, handed_in("bases.c", text))
+    base, *others = says.split("\n")
+    good = base.endswith(task.cases[1].hint) and len(others) == 3
+    check("bases: see one lamp first", good and all(text.endswith(
+        "of 100 inputs. See the case 'one lamp' first.") for text in others), says)
+
+
+def loops():
+    """A loop that does not end takes the time of one case, whatever the language."""
+    for language, code in (("c", f'#include "shade.h"\n{LAMBERT} {{ for (;;) {{ }} }}'),
+                           ("py", "def lambert(N, L):\n    while True:\n        pass\n")):
+        start = time.monotonic()
+        path = handed_in(f"loop.{language}", code)
+        with tempfile.NamedTemporaryFile() as picture:
+            run = subprocess.run([sys.executable, ASSIGNMENTS / "grade.py", "01", path, "--picture",
+                                  picture.name], stdout=subprocess.PIPE, check=False)
+        took, said = time.monotonic() - start, " ".join(run.stdout.decode().split())
+        good = took < 20 and said.count("look for a loop that does not end") == 1
+        check(f"loops: {language} costs the time of one case, and the others say so", good and
+              said.count("Not run: the program took too long before.") == 2, (took, said))
+
+
 def links():
     """A link is not read: what a compiler says of its lines would tell them, as those with the
     seed."""
@@ -290,10 +352,9 @@ def main():
         check("wrong.txt has each known mistake", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
     cheats()
-    if wanted("allowed"):
-        allowed()
-    if wanted("links"):
-        links()
+    for checks in (allowed, once, bases, loops, links):
+        if wanted(checks.__name__):
+            checks()
     if wanted("process"):
         broken_out()
     subprocess.run(["rm", "-rf", str(FOLDER)], check=True)

@@ -78,7 +78,7 @@ def arguments():
     add("--json", metavar="RESULTS", help="writes results as Gradescope reads them")
     add("--picture", metavar="PNG", help="draws your answers, and beside them the right ones")
     add("--mistake", metavar="NAME", help="judges a known mistake in place of a file")
-    add("--seconds", type=int, default=10, help="of the processor, for the inputs of a case")
+    add("--seconds", type=int, default=5, help="of the processor, for the inputs of a case")
     options = parser.parse_args()
     if bool(options.answer) == bool(options.mistake):
         parser.error("give a FILE, or --mistake NAME")

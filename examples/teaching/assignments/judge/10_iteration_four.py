@@ -10,6 +10,7 @@ INPUTS = "eye3 P3 N3 k_e3 k_a3 k_d3 k_s3 n1 I_a3 lamps1" + "".join(
     f" lights[{k}].{LAMP}" for k in range(LAMPS))
 OUTPUTS, TOLERANCE = "3", 1e-4
 PARTS = ["red", "green", "blue"]
+BASES = 3  # cases whose terms the cases after them have too
 TERMS = [  # numbers of the inputs that make a term, and what to say where it alone is wrong
     (9, 12, "All is right but k_e."),
     (22, 25, "All is right but k_a I_a, the ambient light of the scene."),

@@ -177,7 +177,7 @@ class Student:
 
     def __init__(self, task, path, inputs, outputs, seconds):
         self.inputs, self.outputs, self.seconds = inputs, outputs, seconds
-        self.warnings, self.printed = [], ""
+        self.warnings, self.printed, self.late = [], "", False
         self.folder, self.bound, path = tempfile.TemporaryDirectory(), None, one_file(Path(path))
         if path.suffix == ".py":
             self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task,
@@ -210,7 +210,10 @@ class Student:
 
     def ask(self, inputs):
         """Returns the answers of a new process to inputs, None where the function raised, and a
-        sentence: what it raised, or why the process ended before the last answer."""
+        sentence: what it raised, or why the process ended before the last answer.  After a process
+        that takes too long it starts no other and returns nothing."""
+        if self.late:
+            return [], ""
         answers, frame = [], struct.Struct(f"{1 + self.outputs}d")
         with tempfile.TemporaryFile() as printed:
             child = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -240,6 +243,7 @@ class Student:
             return answers, raised[0] if raised else ""
         if ended == student.REFUSED and not answers:
             raise Refused(said.strip() or "The program ended before its first answer.")
+        self.late = ended in (None, -signal.SIGXCPU)
         return answers, self.why(ended)
 
     def end(self, child, until):

@@ -83,12 +83,20 @@ class Functions:
         raise NameError(f"the file has no function {name}")
 
 
+class NoNumber(TypeError):
+    """A function returns something else than numbers."""
+
+
 def flat(answer):
     """Returns the numbers of an answer, which may be lists in lists."""
     if isinstance(answer, (list, tuple)):
         return [x for part in answer for x in flat(part)]
     if answer is None:
-        raise TypeError("the function returns nothing: is a return missing?")
+        raise NoNumber("returns nothing: is a return missing?")
+    if isinstance(answer, complex):
+        raise NoNumber("returns a complex number, a power or a root of a negative one")
+    if not isinstance(answer, (int, float)):
+        raise NoNumber(f"returns a {type(answer).__name__}, which is no number")
     return [float(answer)]
 
 
@@ -156,7 +164,9 @@ def reply(call, functions, numbers, outputs):
         answer = flat(call(functions, numbers))
         if len(answer) == outputs:
             return [1, *answer]
-        says = f"returns {len(answer)} numbers; right are {outputs}"
+        says = f"returns {len(answer)} numbers, not {outputs}"
+    except NoNumber as error:
+        says = str(error)
     except BaseException as error:  # whatever a student's function raises
         says = f"raises {type(error).__name__}: {str(error)[:200]}"
         says += ": a power is **" if "for ^" in says else ""
