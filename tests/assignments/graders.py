@@ -297,6 +297,16 @@ def loops():
               said.count("Not run: the program took too long before.") == 2, (took, said))
 
 
+def names():
+    """Inputs are shown by the names of the page and of the fields, vectors one by one."""
+    for task in TASKS.values():
+        long = [name for name, count in task.names if count > 4]
+        check(f"names: {task.name} shows vectors one by one", not long, long)
+    fields = set(re.findall(r"(\w+)=", inspect.getsource(student.scene))) - {"lights"}
+    shown = {name.split(".")[-1] for name, _ in TASKS["10_iteration_four"].names}
+    check("names: iteration four shows the names of fields", fields <= shown, fields - shown)
+
+
 def links():
     """A link is not read: what a compiler says of its lines would tell them, as those with the
     seed."""
@@ -352,7 +362,7 @@ def main():
         check("wrong.txt has each known mistake", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
     cheats()
-    for checks in (allowed, once, bases, loops, links):
+    for checks in (allowed, once, bases, loops, names, links):
         if wanted(checks.__name__):
             checks()
     if wanted("process"):
