@@ -26,10 +26,16 @@ python3 $A/grade.py 02_mirror --mistake as_printed >"$T/said"
 check "README shows what a mistake is told" same "$(shown $A/README.md 1)" "$(head -n 5 "$T/said")"
 check "README tells how many mistakes are known" grep -qF "one of the $(for task in $A/[0-9]*; do
     python3 $A/grade.py "${task##*/}" --mistake list 2>&1 | tr ',' '\n'; done | wc -l | tr -d ' ') that" $A/README.md
+check "README says where vectors are" grep -q '`>>math`' $A/README.md
+for place in $(sed -n 's/.*`>>\([a-z]*\)`.*/\1/p' $A/README.md $A/*/README.md); do
+    check "shade.h has the place >>$place" grep -q "^/\*-* >>$place\$" shade.h
+done
 for task in $A/[0-9]*; do
     page=$task/README.md name=${task##*/}
+    tr '\n' ' ' <"$page" >"$T/page"
     walk "$page" >"$T/said" 2>&1
     check "$name: a starter in C gets points as its page says" no grep -qvE '^(ok  |FAIL|      |[0-9])' "$T/said"
+    check "$name: its page says what colours mean" grep -qE 'In the picture of right answers,? [a-z]+ ' "$T/page"
     check "$name: full points after the same steps" solved "$page"
     check "$name: the picture of right answers is that of the page" python3 -c "
 import sys, zlib
@@ -48,7 +54,6 @@ assert all(map(near, got, want)) and [row[480:] for row in got] == want" "$T/tre
     walk "$T/python.md" >"$T/said" 2>&1
     check "$name: a starter in Python gets points too" no grep -qvE '^(ok  |FAIL|      |[0-9])' "$T/said"
     check "$name: full points in Python" solved "$T/python.md"
-    tr '\n' ' ' <"$page" >"$T/page"
     python3 - "$name" "$T/page" <<'END' >"$T/log" 2>&1
 import sys
 sys.path.insert(0, "examples/teaching/assignments")
