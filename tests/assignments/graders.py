@@ -221,6 +221,9 @@ ALLOWED = {  # what a student may do: the language, the code, what is told besid
     "has a variable that is not used": ("c", LAMBERT + """ {
         int light;\n  return fmaxf(0, shade_dot(N, L)); }""",
         r"^Your compiler warns:\nallowed.c:4:13: warning: unused variable .light."),
+    "includes shade.h as a header of the system": (
+        "c", "#include <shade.h>\n#include <stdio.h>\n" + LAMBERT +
+        " { puts(\"one\"); return fmaxf(0, shade_dot(N, L)); }", "Your file prints"),
     "has many warnings": ("c", LAMBERT + " {" + "\nint " + "; int ".join("abcdefgh") + """;
         return fmaxf(0, shade_dot(N, L)); }""", r"(\nallowed.c:4.*){3}\nand 5 more\.$"),
     "prints": ("py", "def lambert(N, L):\n    print('one')\n    return max(0, sum(n * l for n, l "

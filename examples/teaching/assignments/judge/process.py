@@ -123,7 +123,7 @@ def build_c(task, path, folder):
     (folder / "shade.h").write_text("/* Stands before the file already. */\n", encoding="utf-8")
     poison = folder / "poison.h"
     poison.write_text(f"#undef TASK\n#pragma GCC poison {POISON}\n", encoding="utf-8")
-    before = [f"-include{file}" for file in (ROOT / "shade.h", PROTOTYPES, poison)]
+    before = [f"-I{folder}", *(f"-include{h}" for h in (ROOT / "shade.h", PROTOTYPES, poison))]
     status, said = run_tool(*cc, "-Wall", "-Wextra", *before, "-c", str(copy), "-o", str(made))
     said = said.replace(f"{folder}/", "").replace(f"{HERE}/", "")
     if status:
