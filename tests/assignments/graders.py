@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -66,7 +67,8 @@ class Trusted(Student):
     """A C program that no rule has looked at: what bounds it is its process alone."""
 
     def __init__(self, task, name, text, *flags):
-        self.inputs, self.outputs, self.seconds, self.printed = task.sent, task.outputs, 3, ""
+        self.inputs, self.outputs, self.seconds, self.late = task.sent, task.outputs, 3, False
+        self.printed = ""
         self.bound, program = (lambda: student.limit(3)), FOLDER / name
         path = handed_in(f"{name}.c", text)
         subprocess.run([*os.environ.get("CC", "cc").split(), "-std=gnu99", "-O1", "-w", f"-I{ROOT}",
@@ -90,6 +92,8 @@ def right_answers(task):
     for name in ("by_hand.c", "by_hand.py"):
         score, says = judged(task, HERE / name, 5)
         check(f"{task.name}: {name} has full points", score == full(task), says)
+        notes = Student(task.name, HERE / name, task.sent, task.outputs, 5).notes()
+        check(f"{task.name}: nothing is told of {name}", not notes, notes)
     for name in ("starter.c", "starter.py"):
         score, says = judged(task, ASSIGNMENTS / task.name / name)
         check(f"{task.name}: {name} has less than half", score < full(task) / 2 and says, says)
@@ -153,13 +157,17 @@ def in_python(task, mistake):
 
 
 def known_mistakes(task):
-    """Each known mistake loses points and is named alone, in each case in which it loses them."""
+    """Each known mistake loses points and is named alone, in the first case that loses points; the
+    other cases point to that one."""
     for mistake in task.mistakes:
         name = f"{task.name}: the mistake {mistake[0]}"
         answer = task.answerer(mistake)
         results = Judge(task, 11).judge(lambda v, a=answer: ([a(x) for x in v], "raises"))
-        says = [r.says for r in results if r.score < r.case.points]
-        check(f"{name} is named", says and all(mistake[3] in text for text in says), says)
+        lost = [r for r in results if r.score < r.case.points]
+        says = [r.says for r in lost]
+        check(f"{name} is named", lost and mistake[3] in says[0], says)
+        first = f" inputs. See the case '{lost[0].case.name}' first."
+        check(f"{name} is named once", all(s.endswith(first) for s in says[1:]), says)
         others = [m[0] for m in task.mistakes if m[3] in " ".join(says) and m[3] != mistake[3]]
         check(f"{name} is told from the others", not others, others)
     for mistake in (task.mistakes[0], task.mistakes[-1]):
@@ -198,8 +206,108 @@ def cheats():
             head = '#include "shade.h"\n' if language == "c" else ""
             path = handed_in(f"cheat.{language}", head + text.replace("LAMBERT", LAMBERT) + "\n")
             score, said = judged(TASKS["01_lambert"], path, seconds=2)
-            good = score == 0 and says in said
+            good = score == 0 and says.replace("\\n", "\n") in said
             check(f"{language} that {name} gets a sentence", good, (score, said))
+
+
+ALLOWED = {  # what a student may do: the language, the code, what is told beside the points
+    "prints to both of its streams": ("c", "#include <stdio.h>\n" + LAMBERT + """ {
+        fprintf(stderr, "N %g\\n", N.x); fprintf(stderr, "one\\n"); fputs("two\\n", stderr);
+        perror("three"); puts("four"); printf("five\\n"); fflush(stdout); putchar('6');
+        return fmaxf(0, shade_dot(N, L)); }""", "N [-0-9].*\none\ntwo\nthree.*\nfour\nfive\n6N "),
+    "prints what looks like an answer": ("c", "#include <stdio.h>\n" + LAMBERT + """ {
+        for (int k = 0; k < 16; k++) putc("\\0\\0\\0\\0\\0\\0\\360?"[k % 8], stderr);
+        return fmaxf(0, shade_dot(N, L)); }""", "Your file prints"),
+    "has a variable that is not used": ("c", LAMBERT + """ {
+        int light;\n  return fmaxf(0, shade_dot(N, L)); }""",
+        r"^Your compiler warns:\nallowed.c:4:13: warning: unused variable .light."),
+    "includes shade.h as a header of the system": (
+        "c", "#include <shade.h>\n#include <stdio.h>\n" + LAMBERT +
+        " { puts(\"one\"); return fmaxf(0, shade_dot(N, L)); }", "Your file prints"),
+    "has many warnings": ("c", LAMBERT + " {" + "\nint " + "; int ".join("abcdefgh") + """;
+        return fmaxf(0, shade_dot(N, L)); }""", r"(\nallowed.c:4.*){3}\nand 5 more\.$"),
+    "prints": ("py", "def lambert(N, L):\n    print('one')\n    return max(0, sum(n * l for n, l "
+               "in zip(N, L)))\n", "Your file prints, which the grader does not read: one\none"),
+}
+
+
+def allowed():
+    """What a student may do costs no points, and is told."""
+    lambert = TASKS["01_lambert"]
+    for name, (language, code, told) in ALLOWED.items():
+        head = '#include "shade.h"\n#include <math.h>\n' if language == "c" else ""
+        path = handed_in(f"allowed.{language}", head + code)
+        score, says = judged(lambert, path)
+        one = Student(lambert.name, path, lambert.sent, lambert.outputs, 20)
+        one.ask(lambert.inputs(lambert.cases[0], 1))
+        good = score == full(lambert) and re.search(told, one.notes(), re.M)
+        check(f"{language} that {name} has full points, and is told", good, (says, one.notes()))
+
+
+ONCE = {  # what is told in one case alone: the task, the language, the code, the sentence
+    "a name that is not there": ("01", "py", "def lambert(N, L):\n    return foo\n",
+                                 "yours raises NameError: name 'foo' is not defined.\n"),
+    "a parameter too few": ("01", "py", "def lambert(N):\n    return 1\n",
+                            "takes 1 positional argument but 2 were given.\n"),
+    "nothing that is returned": ("01", "py", "def lambert(N, L):\n    N[0]\n",
+                                 "yours returns nothing: is a return missing?\n"),
+    "a text that is returned": ("03", "py", "def halfway(L, V):\n    return ['a', 0, 0]\n"
+                                            "def phong(N, L, V, n):\n    return 0\n",
+                                "yours returns a str, which is no number.\n"),
+    "a complex number": ("01", "py", "def lambert(N, L):\n    return (-N[0] ** 2) ** .5\n",
+                         "yours returns a complex number, a power or a root of a negative one.\n"),
+    "a crash": ("01", "c", LAMBERT + " { return *(volatile float *)0; }",
+                "The program crashed: an index beyond an array"),
+    "a NaN": ("01", "c", LAMBERT + " { return (L.x - L.x) / 0 + N.x; }", "A NaN comes from 0 / 0"),
+}
+
+
+def once():
+    """What is wrong in all cases is told in the first one, and the others point to it."""
+    for name, (number, language, code, told) in ONCE.items():
+        task = next(task for task in TASKS.values() if task.name.startswith(number))
+        head = '#include "shade.h"\n' if language == "c" else ""
+        score, says = judged(task, handed_in(f"once.{language}", head + code))
+        first = f"Wrong for 100 of 100 inputs. See the case '{task.cases[0].name}' first."
+        good = told in f"{says}\n" and says.count(told.strip()) == 1
+        check(f"once: {name}", good and says.count(first) == len(task.cases) - 1, (score, says))
+
+
+def bases():
+    """Iteration four with a lamp that is wrong: no case gives a hint but that of one lamp."""
+    text, _ = changed([("arrives * lobe", "2 * r * arrives * lobe"),
+                       ("m->ambient, l->ambient", "m->diffuse, l->ambient")])
+    task = TASKS["10_iteration_four"]
+    _, says = judged(task, handed_in("bases.c", text))
+    base, *others = says.split("\n")
+    good = base.endswith(task.cases[1].hint) and len(others) == 3
+    check("bases: see one lamp first", good and all(text.endswith(
+        "of 100 inputs. See the case 'one lamp' first.") for text in others), says)
+
+
+def loops():
+    """A loop that does not end takes the time of one case, whatever the language."""
+    for language, code in (("c", f'#include "shade.h"\n{LAMBERT} {{ for (;;) {{ }} }}'),
+                           ("py", "def lambert(N, L):\n    while True:\n        pass\n")):
+        start = time.monotonic()
+        path = handed_in(f"loop.{language}", code)
+        with tempfile.NamedTemporaryFile() as picture:
+            run = subprocess.run([sys.executable, ASSIGNMENTS / "grade.py", "01", path, "--picture",
+                                  picture.name], stdout=subprocess.PIPE, check=False)
+        took, said = time.monotonic() - start, " ".join(run.stdout.decode().split())
+        good = took < 20 and said.count("look for a loop that does not end") == 1
+        check(f"loops: {language} costs the time of one case, and the others say so", good and
+              said.count("Not run: the program took too long before.") == 2, (took, said))
+
+
+def names():
+    """Inputs are shown by the names of the page and of the fields, vectors one by one."""
+    for task in TASKS.values():
+        long = [name for name, count in task.names if count > 4]
+        check(f"names: {task.name} shows vectors one by one", not long, long)
+    fields = set(re.findall(r"(\w+)=", inspect.getsource(student.scene))) - {"lights"}
+    shown = {name.split(".")[-1] for name, _ in TASKS["10_iteration_four"].names}
+    check("names: iteration four shows the names of fields", fields <= shown, fields - shown)
 
 
 def links():
@@ -257,8 +365,9 @@ def main():
         check("wrong.txt has each known mistake", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
     cheats()
-    if wanted("links"):
-        links()
+    for checks in (allowed, once, bases, loops, names, links):
+        if wanted(checks.__name__):
+            checks()
     if wanted("process"):
         broken_out()
     subprocess.run(["rm", "-rf", str(FOLDER)], check=True)

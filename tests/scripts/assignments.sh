@@ -26,10 +26,16 @@ python3 $A/grade.py 02_mirror --mistake as_printed >"$T/said"
 check "README shows what a mistake is told" same "$(shown $A/README.md 1)" "$(head -n 5 "$T/said")"
 check "README tells how many mistakes are known" grep -qF "one of the $(for task in $A/[0-9]*; do
     python3 $A/grade.py "${task##*/}" --mistake list 2>&1 | tr ',' '\n'; done | wc -l | tr -d ' ') that" $A/README.md
+check "README says where vectors are" grep -q '`>>math`' $A/README.md
+for place in $(sed -n 's/.*`>>\([a-z]*\)`.*/\1/p' $A/README.md $A/*/README.md); do
+    check "shade.h has the place >>$place" grep -q "^/\*-* >>$place\$" shade.h
+done
 for task in $A/[0-9]*; do
     page=$task/README.md name=${task##*/}
+    tr '\n' ' ' <"$page" >"$T/page"
     walk "$page" >"$T/said" 2>&1
     check "$name: a starter in C gets points as its page says" no grep -qvE '^(ok  |FAIL|      |[0-9])' "$T/said"
+    check "$name: its page says what colours mean" grep -qE 'In the picture of right answers,? [a-z]+ ' "$T/page"
     check "$name: full points after the same steps" solved "$page"
     check "$name: the picture of right answers is that of the page" python3 -c "
 import sys, zlib
@@ -48,7 +54,6 @@ assert all(map(near, got, want)) and [row[480:] for row in got] == want" "$T/tre
     walk "$T/python.md" >"$T/said" 2>&1
     check "$name: a starter in Python gets points too" no grep -qvE '^(ok  |FAIL|      |[0-9])' "$T/said"
     check "$name: full points in Python" solved "$T/python.md"
-    tr '\n' ' ' <"$page" >"$T/page"
     python3 - "$name" "$T/page" <<'END' >"$T/log" 2>&1
 import sys
 sys.path.insert(0, "examples/teaching/assignments")
@@ -61,11 +66,24 @@ assert (f"off by {most:.0e}".replace("e-0", "e-") + " max(1, |x|)" if most else 
 END
     check "$name: its page has points and tolerance" test ! -s "$T/log"
 done
-for wrong in "01_lambert" "no_task LICENSE" "01_lambert LICENSE --mistake half"; do
+for wrong in "01_lambert" "no_task LICENSE" "11 LICENSE" "01_lambert LICENSE --mistake half"; do
     check "grade.py refuses $wrong" sh -c "python3 $A/grade.py $wrong 2>/dev/null; [ \$? -eq 2 ]"
 done
 check "without nm or a compiler C is refused in words" sh -c \
     "CC=no_such_cc python3 $A/grade.py 01_lambert $A/01_lambert/starter.c | grep -q 'There is no no_such_cc'"
+for number in 01 1 10; do
+    check "grade.py takes $number for the name of a task" python3 $A/grade.py $number tests/assignments/by_hand.c
+done
+printf '#include "shade.h"\nfloat lambert(shade_vec3 N, shade_vec3 L)\n{\n    int k;\n    return 1;\n}\n' >"$T/my own.c"
+python3 $A/grade.py 01 "$T/my own.c" --json "$T/results.json" >"$T/said"
+check "a warning names the student's file" grep -q '^my own.c:4:9: warning: .*k' "$T/said"
+check "a warning stands in results too" grep -q 'my own.c:4:9: warning' "$T/results.json"
+printf 'float lambert(shade_vec3 N, shade_vec3 L)\n{\n    return 1\n}\n' >"$T/my own.c"
+python3 $A/grade.py 01 "$T/my own.c" >"$T/said"
+check "an error names the student's file" grep -q '^my own.c:[34]:.*error: ' "$T/said"
+check "no name of the judge stands beside an error" no grep -qE 'answer|warning|/' "$T/said"
+check "a file that is not there is told" sh -c \
+    "python3 $A/grade.py 01 no_such.c | grep -qx 'There is no file no_such.c.'"
 check "Python needs no compiler" sh -c \
     "CC=no_such_cc python3 $A/grade.py 01_lambert tests/assignments/by_hand.py"
 
@@ -80,7 +98,7 @@ assert $3, r" "$T/gs/results/results.json"
 none="all(x['score'] == 0 and"
 if there zip; then
     mkdir -p "$T/gs/source"
-    check "gradescope.sh packs a task" sh $A/gradescope.sh 03_highlight 4711 "$T/gs.zip"
+    check "gradescope.sh packs a task" sh $A/gradescope.sh 3 4711 "$T/gs.zip"
     python3 -m zipfile -e "$T/gs.zip" "$T/gs/source"
     check "what Gradescope starts lies at the root" test -s "$T/gs/source/setup.sh"
     for file in by_hand.c by_hand.py; do
@@ -96,7 +114,7 @@ if there zip; then
     check "nothing handed in says so" hands_in "" "" "$none 'there are 0' in x['output'] for x in t)"
     printf 'def phong(N, L, V, n):\n    import os\n    os._exit(0)\n' >"$T/cheat.py"
     check "a cheat leaves results" hands_in "$T/cheat.py" my.py "$none 'imports os' in x['output'] for x in t)"
-    for wrong in "03_highlight x" "04_nothing 5"; do
+    for wrong in "03_highlight x" "04_nothing 5" "judge 5" "student 5"; do
         check "gradescope.sh refuses $wrong" sh -c "! sh $A/gradescope.sh $wrong '$T/no.zip' 2>/dev/null"
     done
 else left_out "gradescope.sh: no zip"; fi

@@ -68,15 +68,17 @@ def from_judge(answer):
 def arguments():
     """Returns the arguments of the command line."""
     names = sorted(CALLS)
+    numbers = {name.split("_")[0]: name for name in names}
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("task", choices=names, metavar="TASK", help=", ".join(names))
+    parser.add_argument("task", choices=names, metavar="TASK", help=", ".join(names),
+                        type=lambda text: numbers.get(text.zfill(2), text))
     add = parser.add_argument
     add("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
     add("--seed", default="1", help="of the inputs; teachers keep theirs to themselves")
     add("--json", metavar="RESULTS", help="writes results as Gradescope reads them")
     add("--picture", metavar="PNG", help="draws your answers, and beside them the right ones")
     add("--mistake", metavar="NAME", help="judges a known mistake in place of a file")
-    add("--seconds", type=int, default=10, help="of the processor, for the inputs of a case")
+    add("--seconds", type=int, default=5, help="of the processor, for the inputs of a case")
     options = parser.parse_args()
     if bool(options.answer) == bool(options.mistake):
         parser.error("give a FILE, or --mistake NAME")
@@ -105,8 +107,8 @@ def main():
             student = Student(task.name, options.answer, task.sent, task.outputs, options.seconds)
             ask = student.ask
         scores = [(r.score, r.says) for r in Judge(task, options.seed).judge(ask)]
-        if student and student.printed:
-            output = f"Your file prints, which the grader does not read: {student.printed[:500]}"
+        if student:
+            output = student.notes()
         if options.picture:
             write_png(options.picture, [a + b for a, b in zip(
                 pixels(task, ask), pixels(task, from_judge(task.answerer())))])

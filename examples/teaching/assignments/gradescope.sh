@@ -1,6 +1,6 @@
 #!/bin/sh
 # gradescope.sh - packs the grader of a task for Gradescope: "Configure Autograder" takes the zip.
-#     sh examples/teaching/assignments/gradescope.sh 01_lambert 4711 lambert.zip
+#     sh examples/teaching/assignments/gradescope.sh 01 4711 lambert.zip
 # The second argument is the seed of the class, which makes its inputs.  Students hand in one file, a .c
 # or a .py.
 [ $# -eq 3 ] || { echo "usage: gradescope.sh TASK SEED OUT.zip" >&2; exit 2; }
@@ -9,7 +9,9 @@ case $3 in /*) zip=$3 ;; *) zip=$PWD/$3 ;; esac
 case $seed in *[!0-9]* | '') echo "gradescope.sh: the seed $seed is not a number" >&2; exit 2 ;; esac
 cd "$(dirname "$0")/../../.." || exit 1
 A=examples/teaching/assignments
-[ -f "$A/judge/$task.py" ] || { echo "gradescope.sh: there is no task $task" >&2; exit 2; }
+for file in "$A/$task" "$A/$task"_* "$A/0$task"_*; do [ -d "$file" ] && break; done
+task=${file##*/}
+[ -f "$A/judge/$task.py" ] || { echo "gradescope.sh: there is no task $1" >&2; exit 2; }
 command -v zip >/dev/null || { echo "gradescope.sh: there is no zip (apt install zip)" >&2; exit 1; }
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM

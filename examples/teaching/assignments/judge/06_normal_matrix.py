@@ -4,7 +4,8 @@ import math
 from .points import Case
 from .tools import cross, dot, length, scale, unit
 
-INPUTS, OUTPUTS, TOLERANCE = "model16 normal3", "9", 1e-4
+INPUTS = "model.col[0]4 model.col[1]4 model.col[2]4 model.col[3]4 normal3"
+OUTPUTS, TOLERANCE = "9", 1e-4
 SENT = 16  # the normal stays with the judge
 
 

@@ -25,9 +25,12 @@ FUNCTIONS = [covers]
 
 
 def anywhere(draw):
-    """Corners anywhere, of both windings; large enough to cover pixels."""
+    """Corners anywhere, of both windings; large enough to cover pixels.  One triangle in ten has a
+    corner at (0, 0), where answers in pixels show."""
     while True:
         v = [draw.randint(0, 2048) for _ in range(6)]
+        if draw.random() < 0.1:
+            v[0] = v[3] = 0
         if abs((v[1] - v[0]) * (v[5] - v[3]) - (v[4] - v[3]) * (v[2] - v[0])) > 400000:
             return v
 
@@ -57,6 +60,11 @@ CASES = [
     Case(1, "triangles without area", no_area,
          "With the corners in a line the area is 0, and the triangle covers nothing."),
 ]
+CENTRE, RULE = "256 * i + 128, 256 * j + 128", "dy == 0 and dx > 0, dy < 0"
+UNITS = ("i and j count pixels, and corners are in 1/256 pixel: the centre of the pixel is at (256 i "
+         "+ 128, 256 j + 128).")
+WINDING = ("Top and left edges are right for one winding alone. In the other one each edge runs the "
+           "other way: turn the signs of dx and dy as you turn that of the edge function.")
 MISTAKES = [
     ("with_edges", "edge < 0 or edge == 0 and not (top or left)", "edge < 0",
      "Pixels on an edge that two triangles share are drawn twice: an edge owns them only where it "
@@ -87,12 +95,12 @@ MISTAKES = [
     ("textbook", "edge < 0 or edge == 0 and not (top or left)", "turn * edge < 0",
      "This draws triangles of one winding alone, and pixels on a shared edge twice. Look at the "
      "sign of the area first, and on an edge whether it is a top or a left one."),
-    ("corner_of_pixel", "256 * i + 128, 256 * j + 128", "256 * i, 256 * j",
+    ("corner_of_pixel", CENTRE, "256 * i, 256 * j",
      "The pixel is tested at its corner. Its centre is half a pixel on, at (256 i + 128, 256 j + "
      "128)."),
-    ("other_corner", "256 * i + 128, 256 * j + 128", "256 * i + 256, 256 * j + 256",
+    ("other_corner", CENTRE, "256 * i + 256, 256 * j + 256",
      "The pixel is tested at its far corner: its centre is at (256 i + 128, 256 j + 128)."),
-    ("exchanged", "256 * i + 128, 256 * j + 128", "256 * j + 128, 256 * i + 128",
+    ("exchanged", CENTRE, "256 * j + 128, 256 * i + 128",
      "i and j are exchanged: i counts pixels to the right, j downward."),
     ("box", "if edge < 0 or edge == 0 and not (top or left):",
      "if not (min(x) <= px < max(x) and min(y) <= py < max(y)):",
@@ -107,6 +115,10 @@ MISTAKES = [
                                    "in y]\n    px, py",
      "Corners are cut to whole pixels: leave them in 1/256 pixel, and give the centre of the pixel "
      "in the same unit."),
+    ("pixels_alone", CENTRE, "i, j", UNITS),
+    ("centres_in_pixels", CENTRE, "i + 0.5, j + 0.5", UNITS),
+    ("rule_of_one_winding", RULE, "dy == 0 and turn * dx > 0, turn * dy < 0", WINDING),
+    ("rule_of_other_winding", RULE, "dy == 0 and turn * dx < 0, turn * dy > 0", WINDING),
 ]
 
 

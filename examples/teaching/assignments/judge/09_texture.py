@@ -2,7 +2,7 @@
 from .points import Case
 from .tools import dot
 
-INPUTS, OUTPUTS, TOLERANCE = "w3 uv6 abc3", "2", 1e-5
+INPUTS, OUTPUTS, TOLERANCE = "w3 uv[0]2 uv[1]2 uv[2]2 abc3", "2", 1e-5
 PARTS = "uv"
 
 

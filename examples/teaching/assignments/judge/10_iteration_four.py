@@ -5,11 +5,13 @@ from .points import Case
 from .tools import add, ball, dot, length, mul, pow, scale, sub, unit
 
 LAMPS = 3
-LAMP = "position3 spot_direction3 cos_cutoff1 e1 I_La3 I_d3 I_s3 a1 b1 c1"
-INPUTS = "eye3 P3 N3 k_e3 k_a3 k_d3 k_s3 n1 I_a3 lamps1" + "".join(
-    f" lights[{k}].{LAMP}" for k in range(LAMPS))
+LAMP = ("position3 spot_direction3 spot_cos_cutoff1 spot_exponent1 ambient3 diffuse3 specular3 "
+        "constant1 linear1 quadratic1")
+INPUTS = ("eye3 P3 N3 m.emission3 m.ambient3 m.diffuse3 m.specular3 m.shininess1 lighting.ambient3 "
+          "light_count1") + "".join(f" lights[{k}].{LAMP}" for k in range(LAMPS))
 OUTPUTS, TOLERANCE = "3", 1e-4
 PARTS = ["red", "green", "blue"]
+BASES = 3  # cases whose terms the cases after them have too
 TERMS = [  # numbers of the inputs that make a term, and what to say where it alone is wrong
     (9, 12, "All is right but k_e."),
     (22, 25, "All is right but k_a I_a, the ambient light of the scene."),

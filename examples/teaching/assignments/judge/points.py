@@ -115,7 +115,7 @@ class Judge:
 
     def __init__(self, task, seed):
         self.task, self.seed, self.results = task, seed, []
-        self.right, self.wrong = task.answerer(), {}
+        self.right, self.wrong, self.told = task.answerer(), {}, {}
 
     def judge(self, ask):
         """Returns the results of all cases; ask takes inputs and returns answers and a sentence."""
@@ -178,19 +178,36 @@ class Judge:
         lost = TRIES - len(asked)
         if not wrong and not lost:
             return ""
-        text = ""
+        if lost and not end:
+            return "Not run: the program took too long before."
+        text = hint = ""
         if lost:
             v = self.task.inputs(case, self.seed)[len(asked)]
             text = f"The program {end}, with {self.shown(v)}. "
-        if not wrong:
-            return text.strip()
-        v, got, want, _ = min(wrong, key=lambda one: self.count(one[0]))
-        text += f"Wrong for {len(wrong)} of {len(asked)} inputs. For {self.shown(v)} "
-        if got is None:
-            text += f"yours {end if not lost else 'raises'}. "
-        else:
-            text += self.differ(case, got, want)
-        return (text + self.why(case, asked, got, known)).strip()
+        if wrong:
+            v, got, want, _ = min(wrong, key=lambda one: self.count(one[0]))
+            text += f"Wrong for {len(wrong)} of {len(asked)} inputs. For {self.shown(v)} "
+            if got is None:
+                raised = "raises" if lost else end
+                text += f"yours {raised}{'' if raised.endswith('?') else '.'} "
+            else:
+                text += self.differ(case, got, want)
+            hint = self.why(case, asked, got, known)
+            text += hint
+        first = self.first(result, hint or end)
+        if first is not result:
+            text = (f"Wrong for {lost + len(wrong)} of {TRIES} inputs. "
+                    f"See the case '{first.case.name}' first.")
+        return text.strip()
+
+    def first(self, result, reason):
+        """Returns the result to look at first: that of a case which is a part of this one and has
+        lost points, or else the first one that has lost them for the same reason."""
+        bases = self.results[:getattr(self.task.module, "BASES", 0)]
+        for base in bases[:self.results.index(result)]:
+            if base.score < base.case.points:
+                return base
+        return self.told.setdefault(reason, result)
 
     def differ(self, case, got, want):
         """Returns both answers as text, or of 64 pixels the first that differs."""
@@ -210,7 +227,7 @@ class Judge:
     def why(self, case, asked, got, known):
         """Returns the sentence of a known mistake, or what the numbers tell, or the hint."""
         if known:
-            return " ".join(m[3] for m in known)
+            return " ".join(dict.fromkeys(m[3] for m in known))
         if got is None:
             return ""
         alike = self.alike(asked)

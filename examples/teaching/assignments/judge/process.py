@@ -23,6 +23,8 @@ ROOT = next(folder for folder in HERE.parents if (folder / "shade.h").is_file())
 PATIENCE = 10  # a busy machine takes this many times the seconds of the processor that are allowed
 BUILD = 2048, 30, 16 << 20  # megabytes, seconds and bytes of a file, for a compiler
 TOO_MUCH = "Your file is too much for the compiler: large arrays with values, or macros in macros?"
+WARNINGS = 3  # of a compiler, that are shown
+PROTOTYPES = HERE / "prototypes.h"
 AT_ONCE = 50  # inputs in the pipe at a time: both pipes hold them, so neither side waits for ever
 
 HEADERS = "assert float inttypes limits math stdbool stddef stdint stdio stdlib string".split()
@@ -30,7 +32,7 @@ HEADERS = "assert float inttypes limits math stdbool stddef stdint stdio stdlib 
 CALLS = re.compile(r"""_*(?:(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:10|2|1p)?|pow|sqrt|cbrt
     |hypot|f?abs|fmod|remainder|floor|ceil|l?l?r(?:ound|int)|trunc|nearbyint|fm(?:in|ax|a)
     |fdim|copysign|nan|ldexp|frexp|modf|scalbl?n|isnan|isinf|finite|fpclassify|signbit)[fl]?
-    |mem(?:cpy|set|move|cmp)|f?printf|f?puts|f?putc|putchar|fflush|std(?:out|err)p?
+    |mem(?:cpy|set|move|cmp)|f?printf|f?puts|f?putc|putchar|fwrite|perror|fflush|std(?:out|err)p?
     |malloc|calloc|realloc|free|abort|exit|assert_fail|assert_rtn|stack_chk_\w+
     |GLOBAL_OFFSET_TABLE_|shade_mat[34]_(?!inverse_transpose)\w+)(?:_chk)?$""",
                    re.VERBOSE)
@@ -92,27 +94,41 @@ def run_tool(*command):
     except subprocess.TimeoutExpired as error:
         raise Refused(TOO_MUCH) from error
     said = done.stdout.decode(errors="replace")
-    if done.returncode and re.search(r"signal|Killed|too large|memory|limit exceeded", said):
+    beyond = r"signal|Killed|too large|memory|limit exceeded|Stack dump"
+    if done.returncode and re.search(beyond, said):
         raise Refused(TOO_MUCH)
     return done.returncode, said
 
 
+def not_compiled(said):
+    """Returns what to say where a compiler stops, from what it says."""
+    if poisoned := re.search(r"poisoned \W?(\w+)", said):
+        return f"Your file uses {poisoned.group(1)}: what it does is yours to write."
+    other = re.search(r"conflicting types for \W?(\w+)(?:(?!error:).)*prototypes\.h", said, re.S)
+    if other:
+        page = re.search(rf"^[\w ]+\b{other.group(1)}\(.*?\);", PROTOTYPES.read_text(), re.M | re.S)
+        return (f"Your function {other.group(1)} has other types than the page says: expected "
+                f"{' '.join(page.group()[:-1].split())}.")
+    errors = re.search(r"^[^\n]*error:.*?(?=^[^\n]*warning:|\Z)", said, re.M | re.S)
+    return f"Your file does not compile:\n{(errors.group() if errors else said)[:2000]}"
+
+
 def build_c(task, path, folder):
-    """Compiles a student's C file in a folder; returns the command that runs it."""
+    """Compiles a student's C file in a folder; returns the command that runs it, and warnings."""
     source = path.read_text(encoding="utf-8", errors="replace")
     check_c(source)
-    cc = [*shlex.split(os.environ.get("CC", "cc")), "-std=gnu99", "-O0", "-w"]
-    made, library = folder / "answer.o", []
-    (folder / "answer.c").write_text(source, encoding="utf-8")
+    cc = [*shlex.split(os.environ.get("CC", "cc")), "-std=gnu99", "-O0", f"-DTASK={int(task[:2])}"]
+    made, library, copy = folder / "answer.o", [], folder / path.name
+    copy.write_text(source, encoding="utf-8")
     (folder / "shade.h").write_text("/* Stands before the file already. */\n", encoding="utf-8")
-    (folder / "poison.h").write_text(f"#pragma GCC poison {POISON}\n", encoding="utf-8")
-    before = ["-include", str(ROOT / "shade.h"), "-include", str(folder / "poison.h")]
-    status, said = run_tool(*cc, *before, "-c", str(folder / "answer.c"), "-o", str(made))
-    said = said.replace(f"{folder}/", "")
-    if poisoned := re.search(r"poisoned \W?(\w+)", said):
-        raise Refused(f"Your file uses {poisoned.group(1)}: what it does is yours to write.")
+    poison = folder / "poison.h"
+    poison.write_text(f"#undef TASK\n#pragma GCC poison {POISON}\n", encoding="utf-8")
+    before = [f"-I{folder}", *(f"-include{h}" for h in (ROOT / "shade.h", PROTOTYPES, poison))]
+    status, said = run_tool(*cc, "-Wall", "-Wextra", *before, "-c", str(copy), "-o", str(made))
+    said = said.replace(f"{folder}/", "").replace(f"{HERE}/", "")
     if status:
-        raise Refused(f"Your file does not compile:\n{said[:2000]}")
+        raise Refused(not_compiled(said))
+    warnings = re.findall(rf"^{re.escape(path.name)}:\d+:\d+: warning: .*", said, re.M)
     symbols = re.findall(r"(\w) (\S+)$", run_tool("nm", str(made))[1], re.M)
     called = [name for kind, name in symbols if kind == "U"]
     for kind, name in symbols:
@@ -129,14 +145,14 @@ def build_c(task, path, folder):
             raise Refused(f"Your file calls {name}: {why}.")
     if any("shade_" in name for name in called):
         library = ["-DSHADE_IMPLEMENTATION", "-DSHADE_NO_DISPATCH"]
-    status, said = run_tool(*cc, f"-DTASK={int(task[:2])}", *library, f"-I{ROOT}",
-                            str(HERE / "student.c"), str(made), "-lm", "-o", str(folder / "answer"))
+    status, said = run_tool(*cc, "-w", *library, f"-I{ROOT}", str(HERE / "student.c"), str(made),
+                            "-lm", "-o", str(folder / "answer"))
     if status:
         missing = re.search(r"(?:undefined reference to|\"_)\W*(\w+)", said)
         raise Refused(f"Your file has no function {missing.group(1)}." if missing else
                       f"Your file cannot be linked:\n{said[:2000]}")
     folder.chmod(0o711)
-    return [str(folder / "answer")]
+    return [str(folder / "answer")], warnings
 
 
 def one_file(path):
@@ -160,14 +176,25 @@ class Student:
     """What a student handed in, ready to be given inputs."""
 
     def __init__(self, task, path, inputs, outputs, seconds):
-        self.inputs, self.outputs, self.seconds, self.printed = inputs, outputs, seconds, ""
+        self.inputs, self.outputs, self.seconds = inputs, outputs, seconds
+        self.warnings, self.printed, self.late = [], "", False
         self.folder, self.bound, path = tempfile.TemporaryDirectory(), None, one_file(Path(path))
         if path.suffix == ".py":
             self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task,
                             str(path), str(outputs), str(inputs), str(seconds)]
         else:
-            self.command = build_c(task, path, Path(self.folder.name))
+            self.command, self.warnings = build_c(task, path, Path(self.folder.name))
             self.bound = lambda: student.limit(seconds)
+
+    def notes(self):
+        """Returns what costs no points: warnings of the compiler, and what the file prints."""
+        said, more = self.warnings[:WARNINGS], len(self.warnings) - WARNINGS
+        said = ["Your compiler warns:", *said] if said else []
+        if more > 0:
+            said.append(f"and {more} more.")
+        if self.printed:
+            said.append(f"Your file prints, which the grader does not read: {self.printed[:500]}")
+        return "\n".join(said)
 
     def read(self, pipe, size, until):
         """Returns so many bytes, or fewer where the process ends or its time is up."""
@@ -183,7 +210,10 @@ class Student:
 
     def ask(self, inputs):
         """Returns the answers of a new process to inputs, None where the function raised, and a
-        sentence: what it raised, or why the process ended before the last answer."""
+        sentence: what it raised, or why the process ended before the last answer.  After a process
+        that takes too long it starts no other and returns nothing."""
+        if self.late:
+            return [], ""
         answers, frame = [], struct.Struct(f"{1 + self.outputs}d")
         with tempfile.TemporaryFile() as printed:
             child = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -213,6 +243,7 @@ class Student:
             return answers, raised[0] if raised else ""
         if ended == student.REFUSED and not answers:
             raise Refused(said.strip() or "The program ended before its first answer.")
+        self.late = ended in (None, -signal.SIGXCPU)
         return answers, self.why(ended)
 
     def end(self, child, until):

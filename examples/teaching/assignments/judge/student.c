@@ -2,6 +2,7 @@
    function, and writes numbers to another pipe: for each input a 1 and the answer.  The judge
    keeps the right answers; nothing of them is here.  TASK is the number of the task. */
 #include "shade.h"
+#include "prototypes.h"
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -17,18 +18,14 @@ static void put(double *out, shade_vec3 v)
 
 #if TASK == 1
 enum { INPUTS = 6, OUTPUTS = 1 };
-float lambert(shade_vec3 N, shade_vec3 L);
 static void answer(const float *in, double *out) { out[0] = (double)lambert(vec(in), vec(in + 3)); }
 
 #elif TASK == 2
 enum { INPUTS = 6, OUTPUTS = 3 };
-shade_vec3 mirror(shade_vec3 L, shade_vec3 N);
 static void answer(const float *in, double *out) { put(out, mirror(vec(in), vec(in + 3))); }
 
 #elif TASK == 3
 enum { INPUTS = 10, OUTPUTS = 4 };
-shade_vec3 halfway(shade_vec3 L, shade_vec3 V);
-float phong(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
 static void answer(const float *in, double *out)
 {
     put(out, halfway(vec(in + 3), vec(in + 6)));
@@ -37,7 +34,6 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 4
 enum { INPUTS = 4, OUTPUTS = 1 };
-float attenuation(float a, float b, float c, float r);
 static void answer(const float *in, double *out)
 {
     out[0] = (double)attenuation(in[0], in[1], in[2], in[3]);
@@ -45,7 +41,6 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 5
 enum { INPUTS = 8, OUTPUTS = 1 };
-float spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float e);
 static void answer(const float *in, double *out)
 {
     out[0] = (double)spot(vec(in), vec(in + 3), in[6], in[7]);
@@ -53,7 +48,6 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 6
 enum { INPUTS = 16, OUTPUTS = 9 };
-shade_mat3 normal_matrix(shade_mat4 model);
 static void answer(const float *in, double *out)
 {
     shade_mat4 model;
@@ -65,7 +59,6 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 7
 enum { INPUTS = 6, OUTPUTS = 64 };
-int covers(const int x[3], const int y[3], int i, int j);
 static void answer(const float *in, double *out)
 {
     for (int k = 0; k < OUTPUTS; k++) {
@@ -77,12 +70,10 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 8
 enum { INPUTS = 9, OUTPUTS = 1 };
-float depth_at(const float w[3], const float z[3], const float abc[3]);
 static void answer(const float *in, double *out) { out[0] = (double)depth_at(in, in + 3, in + 6); }
 
 #elif TASK == 9
 enum { INPUTS = 12, OUTPUTS = 2 };
-shade_vec2 texture_at(const float w[3], const shade_vec2 uv[3], const float abc[3]);
 static void answer(const float *in, double *out)
 {
     shade_vec2 uv[3], got;
@@ -94,8 +85,6 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 10
 enum { LAMP = 20, LAMPS = 3, AT_LAMPS = 26, INPUTS = AT_LAMPS + LAMP * LAMPS, OUTPUTS = 3 };
-shade_vec3 iteration_four(const shade_lighting *lighting, const shade_material *m, shade_vec3 eye,
-                          shade_vec3 P, shade_vec3 N);
 static void answer(const float *in, double *out)
 {
     shade_light lamps[LAMPS] = { 0 };

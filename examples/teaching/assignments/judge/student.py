@@ -73,6 +73,10 @@ CALLS = {  # what a task's functions are called with, f by name, from the number
 }
 
 
+class NoAnswer(TypeError):
+    """There is no answer, although the student's code raises nothing."""
+
+
 class Functions:
     """What a student's file defines."""
 
@@ -80,7 +84,7 @@ class Functions:
         self.__dict__.update(names)
 
     def __getattr__(self, name):
-        raise NameError(f"the file has no function {name}")
+        raise NoAnswer(f"has no function {name}")
 
 
 def flat(answer):
@@ -88,7 +92,11 @@ def flat(answer):
     if isinstance(answer, (list, tuple)):
         return [x for part in answer for x in flat(part)]
     if answer is None:
-        raise TypeError("the function returns nothing: is a return missing?")
+        raise NoAnswer("returns nothing: is a return missing?")
+    if isinstance(answer, complex):
+        raise NoAnswer("returns a complex number, a power or a root of a negative one")
+    if not isinstance(answer, (int, float)):
+        raise NoAnswer(f"returns a {type(answer).__name__}, which is no number")
     return [float(answer)]
 
 
@@ -131,10 +139,10 @@ def just_math(name, *_):
     return math
 
 
-def load(source):
+def load(source, file):
     """Runs a student's file and returns its functions, or ends the process with a sentence."""
     try:
-        tree = ast.parse(source, "answer.py")
+        tree = ast.parse(source, file)
         says = forbidden(tree)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         says = f"The file cannot be read: {type(error).__name__}: {error}."
@@ -142,7 +150,7 @@ def load(source):
         names = {name: getattr(builtins, name) for name in ALLOWED}
         space = {"__builtins__": {**names, "__import__": just_math}, "__name__": "answer"}
         try:
-            exec(compile(tree, "answer.py", "exec"), space)  # pylint: disable=exec-used
+            exec(compile(tree, file, "exec"), space)  # pylint: disable=exec-used
             return Functions(space)
         except BaseException as error:  # SystemExit too
             says = f"The file cannot be run: {type(error).__name__}: {error}."
@@ -156,7 +164,9 @@ def reply(call, functions, numbers, outputs):
         answer = flat(call(functions, numbers))
         if len(answer) == outputs:
             return [1, *answer]
-        says = f"returns {len(answer)} numbers; right are {outputs}"
+        says = f"returns {len(answer)} numbers, not {outputs}"
+    except NoAnswer as error:
+        says = str(error)
     except BaseException as error:  # whatever a student's function raises
         says = f"raises {type(error).__name__}: {str(error)[:200]}"
         says += ": a power is **" if "for ^" in says else ""
@@ -173,7 +183,7 @@ def main():
     os.dup2(2, 1)
     limit(seconds)
     resource.setrlimit(resource.RLIMIT_NOFILE, (0, 0))
-    functions = load(source)
+    functions = load(source, os.path.basename(path))
     pending = b""
     while True:
         more = os.read(0, 65536)
