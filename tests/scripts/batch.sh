@@ -133,6 +133,15 @@ fi
 rm edited/*.ppm
 check "where no frame is left" "$BATCH" wedge.obj $turn --out edited
 check "all are drawn" same "$(ls edited | wc -l)" 12
+# another job takes the folder while the first piece of this one is drawn
+"$BATCH" --frames 2 --size 3000x2000 --samples 4 --out taken 2>taken.err & running=$!
+soon test -s taken/.shade-batch
+check "a folder without pieces is anybody's" "$BATCH" wedge.obj --frames 2 --size 60x40 --out taken
+wait $running; check "the job that had it" same $? 1
+running=
+check "is told" grep -q "^batch: taken: holds pieces of another model" taken.err
+check "and leaves it to the other" same "$(cat taken/*.ppm | wc -c) $(ls taken | tr '\n' ' ')" \
+    "14426 00000.ppm 00001.ppm "
 : >unknown.txt; mkdir unknown; cp one/00003.ppm unknown
 check "frames without a word of what they are" refused "unknown: holds" "$BATCH" $turn --out unknown
 
