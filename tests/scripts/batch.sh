@@ -106,9 +106,42 @@ check "they stay" diff -r one before_one
 "$BATCH" wedge.obj $turn --out edited
 sed 's/^v 0 2 0/v 0 3 0/' wedge.obj >wedge2.obj && mv wedge2.obj wedge.obj
 check "a model that has changed" refused "edited: holds" "$BATCH" wedge.obj $turn --out edited
+# a picture on the model is more than its texels: 2 x 1 or 1 x 2 of them, and what is beyond its edges
+leaf() {                        # how the texture goes on, its size
+    printf 'P6 %s 255\n\377\0\0\0\377\0' "$2" >leaf.ppm
+    cat >leaf.gltf <<END
+{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+"textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":$1}],"images":[{"uri":"leaf.ppm"}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},
+{"bufferView":1,"componentType":5126,"type":"VEC2","count":3}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24}],
+"buffers":[{"byteLength":60,"uri":
+"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAEBAAAAAAAAAAAAAAEBA"}]}
+END
+    "$BATCH" leaf.gltf --frames 1 --size 97x60 --out leaf
+}
+if echo | $CC -fsyntax-only -include stb/stb_image.h -x c - 2>/dev/null; then
+    check "a model with a picture" leaf 10497 "2 1"
+    check "which is the same" leaf 10497 "2 1"
+    check "which ends at its edges" refused "leaf: holds" leaf 33071 "2 1"
+    check "which is mirrored there" refused "leaf: holds" leaf 33648 "2 1"
+    check "which is as high as it was wide" refused "leaf: holds" leaf 10497 "1 2"
+else echo "batch: no stb_image.h: pictures on models are left out"
+fi
 rm edited/*.ppm
 check "where no frame is left" "$BATCH" wedge.obj $turn --out edited
 check "all are drawn" same "$(ls edited | wc -l)" 12
+# another job takes the folder while the first piece of this one is drawn
+"$BATCH" --frames 2 --size 3000x2000 --samples 4 --out taken 2>taken.err & running=$!
+soon test -s taken/.shade-batch
+check "a folder without pieces is anybody's" "$BATCH" wedge.obj --frames 2 --size 60x40 --out taken
+wait $running; check "the job that had it" same $? 1
+running=
+check "is told" grep -q "^batch: taken: holds pieces of another model" taken.err
+check "and leaves it to the other" same "$(cat taken/*.ppm | wc -c) $(ls taken | tr '\n' ' ')" \
+    "14426 00000.ppm 00001.ppm "
 : >unknown.txt; mkdir unknown; cp one/00003.ppm unknown
 check "frames without a word of what they are" refused "unknown: holds" "$BATCH" $turn --out unknown
 

@@ -58,6 +58,10 @@ for p in thumbnail view batch sheets compare; do
             "$(LC_ALL=C MANROFFOPT='' man --warnings -l "$page" 2>&1 >/dev/null)" ""
     fi
 done
+check "a sentence on two lines of help is one paragraph" same \
+    "$(grep -A1 'as large as the$' "$P/share/man/man1/shade-compare.1" | tail -n 1)" "picture that it is compared with:"
+check "what stands behind an example is no part of the command" no grep -q '^[.]B .*   ' "$P"/share/man/man1/*.1
+check "and is told" grep -qx "(on one of eight machines)" "$P/share/man/man1/shade-batch.1"
 sed -n 's/^    KEY("\(.*\)").*/\1/p' examples/kit/scene/scene.h >"$T/keys"
 check "keys are known" test "$(wc -l <"$T/keys")" -gt 9
 check "the page of view has each" same "$(sed -n '/^[.]SH KEYS/,/^[.]SH EX/p' "$P/share/man/man1/shade-view.1" |

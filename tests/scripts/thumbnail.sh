@@ -100,6 +100,13 @@ formats() {
     check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0
     check "a shadow" draw torus.obj b.ppm --background 204060
     check "darkens below" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    for k in white black; do
+        check "white on $k" draw torus.obj $k.ppm --color white --background $k --no-shadow --samples 1
+    done
+    check "white parts are seen on white" "$T/look" area "$T/white.ppm" "$T/black.ppm" 0.005
+    printf 'v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n' >"$T/sheet.obj"
+    check "a white sheet from above" draw sheet.obj a.ppm --color white --background white --view top --no-shadow
+    check "is not white" no "$T/look" pixel "$T/a.ppm" .5 .5 255 255 255 9
     # a plate so flat that ground within its maps of shadows lies behind their far planes
     awk 'BEGIN { for (i = 0; i < 8; i++) print "v", i % 2 * 2 - 1, (i > 3) / 25, int(i / 2) % 2 * 2 - 1
                  print "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 2 6 8 4\nf 4 8 7 3\nf 3 7 5 1" }' >"$T/plate.obj"

@@ -215,6 +215,19 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     polished metal.gltf '"roughnessFactor":0.4015686'
     check "metal" draw metal.gltf b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+    # a chart of metal and roughness
+    chart=
+    for k in 0,0 0,0.25 0,0.5 0,0.75 0,1 1,0 1,0.25 1,0.5 1,0.75 1,1; do
+        factors="\"baseColorFactor\":[0.8,0.4,0.2,1],\"metallicFactor\":${k%,*},\"roughnessFactor\":${k#*,}"
+        sed 's/"indices":1/&,"material":0/
+            s/,"bufferViews"/,"materials":[{"pbrMetallicRoughness":{'"$factors"'}}]&/' \
+            "$T/torus.gltf" >"$T/chart.gltf"
+        check "metal and roughness $k" draw chart.gltf "chart$k.ppm"
+        for other in $chart; do
+            check "$k is not $other" no "$T/look" same "$T/chart$k.ppm" "$T/chart$other.ppm" 8
+        done
+        chart="$chart $k"
+    done
 }
 
 # What a writer of one of these files means, in a file without its habits

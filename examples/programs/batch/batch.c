@@ -40,7 +40,8 @@ typedef struct batch {
     int piece, pipe, missing, rate;            /* piece -1: all; count 0: not said */
     FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
-    float begin; /* the yaw of the first piece */
+    float begin;    /* the yaw of the first piece */
+    char mark[200]; /* the line in their folder that tells what the pieces are of */
     sheet sheet;
 } batch;
 
@@ -140,6 +141,22 @@ static batch_piece find_piece(const batch *b, int k)
     return p;
 }
 
+/* 1: the folder is marked as that of these pieces. */
+static int is_marked(const batch *b)
+{
+    char path[4200];
+    snprintf(path, sizeof path, "%s/.shade-batch", b->out);
+    return batch_is_whole(path, b->mark, (long long)strlen(b->mark));
+}
+
+static int refuse_folder(const batch *b)
+{
+    return complain(
+        "%s: holds pieces of another model or of other options: remove them, or "
+        "choose another --out",
+        b->out);
+}
+
 /* Returns 1 where it has complained. */
 static int write_piece(batch *b, int k, const batch_piece *p)
 {
@@ -149,6 +166,8 @@ static int write_piece(batch *b, int k, const batch_piece *p)
     if (!b->strips) b->scene.yaw = b->begin + 6.2831853f * (float)k / (float)b->count;
     sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
+    /* as long as there is no piece, another job may take the folder */
+    if (!b->sink && !failed && !is_marked(b) && refuse_folder(b)) failed = SAVE_SAID;
     if (!b->sink) return save_end(file, p->path, failed);
     failed = failed || fflush(file);
     if (b->film) return failed; /* film_close tells why */
@@ -174,9 +193,9 @@ static int get_ready(batch *b)
     return 1;
 }
 
-/* What the pieces are drawn of and with, as a line of text.  Threads and limits leave no trace in
-   a picture. */
-static void describe(const batch *b, char *line, size_t room)
+/* Writes the mark: what the pieces are drawn of and with.  Threads and limits leave no trace in a
+   picture. */
+static void describe(batch *b)
 {
     const model_options *o = &b->scene.how;
     const int words[] = { o->up,    o->plain,   o->no_shadow,      o->quick,        o->viewed,
@@ -190,7 +209,7 @@ static void describe(const batch *b, char *line, size_t room)
     mark = mark_words(mark, s->choice, CHOICES);
     mark = mark_words(mark, numbers, sizeof numbers / sizeof *numbers);
     mark = mark_words(mark, &o->material, sizeof o->material / 4);
-    snprintf(line, room,
+    snprintf(b->mark, sizeof b->mark,
              "shade-batch %d: %d %s of %dx%d, samples %d, model and options %08lx%08lx\n",
              SHADE_VERSION, b->count, b->strips ? "strips" : "frames", b->width, b->height,
              b->samples, (unsigned long)(mark >> 32), (unsigned long)(mark & 0xFFFFFFFF));
@@ -198,28 +217,24 @@ static void describe(const batch *b, char *line, size_t room)
 
 /* Refuses a folder with pieces of another model or of other options.  A line in it tells, which the
    first of all jobs writes before its first piece.  Returns 1 with a line on stderr. */
-static int claim(const batch *b)
+static int claim(batch *b)
 {
-    char line[200], path[4200];
+    char path[4200];
     int known = 0;
     FILE *file;
-    describe(b, line, sizeof line);
+    describe(b);
     snprintf(path, sizeof path, "%s/.shade-batch", b->out);
     for (int k = 0; k <= b->count && !known; k++) { /* one more: of a longer film */
         file = path_open(find_piece(b, k).path, "rb");
         known = file != NULL;
         if (file) fclose(file);
     }
-    if (batch_is_whole(path, line, (long long)strlen(line))) return 0;
-    if (known)
-        return complain(
-            "%s: holds pieces of another model or of other options: remove them, or "
-            "choose another --out",
-            b->out);
+    if (is_marked(b)) return 0;
+    if (known) return refuse_folder(b);
     if (b->missing) return 0;
     if (batch_folder(b->out) && errno != EEXIST) return complain("%s: %s", b->out, strerror(errno));
     file = save_begin(path);
-    return !file || save_end(file, path, fputs(line, file) < 0);
+    return !file || save_end(file, path, fputs(b->mark, file) < 0);
 }
 
 /* Draws those of all pieces, or of the one piece of the command line, that are missing. */

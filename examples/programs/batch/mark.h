@@ -24,8 +24,9 @@ static inline uint64_t mark_texture(uint64_t mark, const shade_texture *t)
 {
     const unsigned char *bytes = (const unsigned char *)t->pixels;
     const size_t size = bytes ? 4 * (size_t)t->width * (size_t)t->height : 0;
+    const int form[] = { t->width, t->height, (int)t->wrap_u, (int)t->wrap_v };
     for (size_t i = 0; i < size; i++) mark = (mark ^ bytes[i]) * 0x100000001B3u;
-    return (mark ^ size) * 0x100000001B3u;
+    return mark_words(mark, form, sizeof form / sizeof *form);
 }
 
 static inline uint64_t mark_of_model(const model *m)

@@ -47,7 +47,15 @@ list == "KEYS" {
     print ".TP\n.B " roff(keys) "\n" roff(substr($0, 18))
     next
 }
-list == "EXAMPLES" { sub(/^ +/, ""); print ".PP\n.nf\n.B " roff($0) "\n.fi"; next }
+list == "EXAMPLES" {
+    sub(/^ +/, "")
+    note = $0
+    if (!sub(/.*   +/, "", note)) note = ""
+    sub(/   .*/, "")
+    print ".PP\n.nf\n.B " roff($0) "\n.fi"
+    if (note != "") print "(" roff(note) ")"
+    next
+}
 /^  --/ {
     option = $0
     sub(/^  /, "", option)
@@ -59,7 +67,9 @@ list == "EXAMPLES" { sub(/^ +/, ""); print ".PP\n.nf\n.B " roff($0) "\n.fi"; nex
     next
 }
 /^    / { sub(/^ +/, ""); print roff($0); next }
-NF { print ".PP\n" toupper(substr($0, 1, 1)) roff(substr($0, 2)) }
+NF && NR == unended + 1 { print roff($0) }
+NF && NR != unended + 1 { print ".PP\n" toupper(substr($0, 1, 1)) roff(substr($0, 2)) }
+NF && !/[.:]$/ { unended = NR }          # its sentence goes on in the next line
 END {
     n = split("batch compare sheets thumbnail view", all, " ")
     print ".SH \"SEE ALSO\""
