@@ -222,7 +222,7 @@ function lamp(name, value) {
     const put = (at, key, given, length = 3) => row.set(vector(`${name}.${key}`, given, length), at);
     const { color: own = [1, 1, 1], ambient = [0, 0, 0], spotDirection = [0, 0, 0] } = got;
     put(0, "position", got.position, 4);
-    if (got.position.every((x) => x === 0)) {
+    if (got.position[3] === 0 && Math.hypot(...got.position) < 1e-18) {    // its square is no float
         throw new ShadeError(`${name}.position must not be zero: with w = 0 it is a direction`);
     }
     row.set(got.position);    // in double, as meshes are far away

@@ -443,6 +443,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Up to 8 lamps, ambient light, and the number or numbers of the lamps, directional or spots, that cast
          *  shadows. */
         light(lights, ambient = [0, 0, 0], shadow = []) {
+            void this.#scene;    // a renderer that was freed is refused
             if (lights.length > LAMPS) throw new ShadeError(`lights: at most ${LAMPS} lamps are drawn, not ${lights.length}`);
             const { lights: rows } = check.lighting("light", { lights });
             const lamps = new Float32Array(Math.max(1, rows.length) * LIGHT);
@@ -461,11 +462,13 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         /** One colour behind all objects. */
         background(color) {
+            void this.#scene;
             Object.assign(this.#state, { background: [...this.#color("color", color), 1], sky: 0 });
         }
 
         /** A sky from the colour straight below to that straight above, +z. */
         sky(low = "#dfe8f0", high = "#4a7ab0") {
+            void this.#scene;
             Object.assign(this.#state, { sky: 1, low: this.#color("low", low), high: this.#color("high", high) });
         }
 

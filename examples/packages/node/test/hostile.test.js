@@ -522,7 +522,11 @@ test("a renderer that was freed draws nothing, and one that was not keeps little
     const { made, first } = drawn();
     made.free();
     made.free();
-    for (const call of [() => made.render(camera), () => made.mesh(box()), () => made.checker()]) {
+    const lamp = { position: [0, 0, 1, 0] };
+    for (const call of [() => made.render(camera), () => made.mesh(box()), () => made.checker(), () => made.add("sphere", 1),
+                        () => made.pose(0, camera.view), () => made.poses([camera.view]), () => made.show(0),
+                        () => made.light([lamp]), () => made.background("red"), () => made.sky(), () => made.clear(),
+                        () => made.remove(0), () => made.change(0, { color: "red" })]) {
         assert.throws(call, (error) => error instanceof ShadeError && /was freed/.test(error.message));
     }
     drawn();
@@ -537,7 +541,9 @@ test("a renderer that was freed draws nothing, and one that was not keeps little
 
 test("colours, directions and poses out of range are refused", () => {
     refused(/^color must be from 0 to 1/, { ...box(), color: [255, 0, 0] });
-    refused(/position must not be zero/, box(), { ...small, light: { lights: [{ position: [0, 0, 0, 0] }] } });
+    for (const z of [0, 1e-40, -1e-19]) {
+        refused(/position must not be zero/, box(), { ...small, light: { lights: [{ position: [0, 0, z, 0] }] } });
+    }
     const made = new Renderer(8, 8);
     made.add("sphere", 1);
     const row = [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1], mirror = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1];

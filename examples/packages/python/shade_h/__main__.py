@@ -9,8 +9,10 @@ from . import Error, load, render, sheet
 from .camera import UPRIGHT
 
 
-def viewpoint(words: str) -> Any:
-    """A side by its name, or azimuth and elevation."""
+def viewpoint(words: Any) -> Any:
+    """A side by its name, or azimuth and elevation; what is no text as it is."""
+    if not isinstance(words, str):
+        return words
     try:
         azimuth, elevation = (float(word) for word in words.split(","))
     except ValueError:

@@ -190,6 +190,14 @@ def rigid(name: str, value: object, count: int | None = None) -> Doubles:
     return got
 
 
+def affine(name: str, value: object, shape: tuple[int | None, ...] = (4, 4)) -> Doubles:
+    """Matrices of 4 x 4 whose last row is 0, 0, 0, 1."""
+    got = doubles(name, value, shape, finite=True)
+    if got.size and np.abs(got[..., 3, :] - (0, 0, 0, 1)).max() > 1e-3:
+        raise Error(f"{name} must have 0, 0, 0, 1 in the last row: a translation stands in the last column")
+    return got
+
+
 def matrix(name: str, value: object) -> Floats:
     """A matrix of 4 x 4 by its columns, as the library has it."""
     return np.ascontiguousarray(floats(name, value, (4, 4), finite=True).T)

@@ -84,8 +84,7 @@ class Bar:
 
 def bar_of(values: Doubles, cmap: object, clim: Any, title: object) -> Bar:
     """The bar of some numbers, whose ends are those of clim or the least and the greatest."""
-    if not isinstance(title, str):
-        raise Error(f"title must be text, not {arguments.shown(title)}")
+    title = words_of("title", title)
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
     if clim is not None:

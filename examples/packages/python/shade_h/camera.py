@@ -97,6 +97,8 @@ class Camera:
         out = arguments.doubles("extrinsics", extrinsics, (None, 4), finite=True)
         if len(out) not in (3, 4) or k[0, 0] == 0 or k[1, 1] == 0:
             raise Error("extrinsics must be 3 x 4 or 4 x 4, and the focal lengths of K not 0")
+        if len(out) == 4:
+            arguments.affine("extrinsics", out)
         view = np.eye(4)
         view[:3] = np.diag([1.0, -1.0, -1.0]) @ out[:3]
         near, far = _range(near, far)

@@ -60,7 +60,7 @@ def _vector(name: str, value: object, length: int = 3) -> tuple[float, ...]:
 
 def _way(name: str, value: object) -> tuple[float, ...]:
     way = _vector(name, value)
-    if not any(way):
+    if math.hypot(*way) < 1e-18:    # whose square is no float
         raise Error(f"{name} must not be zero: it is a direction")
     return way
 
@@ -122,7 +122,8 @@ class Light:
 
     def native(self) -> NativeLight:
         """The struct of the library."""
-        if not any(_vector("position", self.position, 4)):
+        *way, w = _vector("position", self.position, 4)
+        if w == 0 and math.hypot(*way) < 1e-18:
             raise Error("position must not be zero: with w = 0 it is a direction")
         colors = (_vector(k, getattr(self, k)) for k in ("ambient", "diffuse", "specular"))
         numbers = (arguments.number(k, getattr(self, k), -3e38, 3e38)

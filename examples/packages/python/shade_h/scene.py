@@ -108,7 +108,7 @@ class Scene:
         behind, which is faster.  options are those of shade_h.Mesh.
         """
         made = as_mesh(mesh, **options)
-        place = arguments.doubles("pose", IDENTITY if pose is None else pose, (4, 4), finite=True)
+        place = arguments.affine("pose", IDENTITY if pose is None else pose)
         if isinstance(material, str):
             material = preset(material)
         flags = arguments.flag("edges", edges), arguments.flag("two_sided", two_sided)
@@ -342,8 +342,8 @@ class Scene:
         width, height = arguments.size("size", size)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
-        placed = None if poses is None else arguments.doubles(
-            "poses", poses, (None, len(self.parts), 4, 4), finite=True)
+        placed = None if poses is None else arguments.affine(
+            "poses", poses, (None, len(self.parts), 4, 4))
         seen = _cameras(cameras, None if placed is None else len(placed))
         n = len(seen)
         shape = (n, height, width)

@@ -88,3 +88,13 @@ def test_mistakes_are_told_and_the_server_goes_on(ask):
         told = json.loads(ask.process.stdout.readline())
         assert told["error"]["code"] == -32700 and told["id"] is None
     assert np.isfinite(len(ask("tools/list", 5)["result"]["tools"]))
+
+
+@pytest.mark.parametrize("view", [None, 3, {}, [], [30], ["iso"], [1e999, 0], "nowhere", "1,2,3"])
+def test_no_view_ends_the_server(ask, view):
+    for name, more in (("render", {}), ("compare", {"other": "b.obj"}), ("section", {"axis": "x"})):
+        told = ask("tools/call", 7, name=name, arguments={"model": "a.obj", "view": view, **more})
+        assert told["result"]["isError"] is True and told["result"]["content"][0]["text"]
+    one = picture_of(ask("tools/call", 8, name="render", arguments={"model": "a.obj", "view": [30, 20]}))[1]
+    two = picture_of(ask("tools/call", 9, name="render", arguments={"model": "a.obj", "view": "30,20"}))[1]
+    assert np.array_equal(one.rgba, two.rgba)

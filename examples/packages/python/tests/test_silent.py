@@ -131,6 +131,34 @@ def test_white_parts_on_white_are_blank():
     assert not shade.render(*CUBE, size=32).blank
 
 
+def test_a_transposed_pose_is_refused():
+    row = np.eye(4)
+    row[3, :3] = 1, 2, 3
+    scene = shade.Scene()
+    scene.add(shade.Mesh(*CUBE))
+    eye = shade.Camera.look_at((3, 3, 3))
+    for wrong in (row, np.diag([1, 1, 1, 2.0])):
+        for call in (lambda wrong=wrong: scene.add(shade.Mesh(*CUBE), wrong),
+                     lambda wrong=wrong: scene.render_batch(eye, wrong[None, None]),
+                     lambda wrong=wrong: shade.Camera.opencv(np.eye(3), wrong, (100, 100))):
+            with pytest.raises(shade.Error, match=r"(pose|poses|extrinsics) must have 0, 0, 0, 1 in the last row"):
+                call()
+
+
+def test_a_direction_too_short_for_floats_is_refused():
+    for short in (1e-40, 1e-19, 0.0):
+        with pytest.raises(shade.Error, match="travel must not be zero"):
+            shade.Light.directional((0, 0, -short))
+        with pytest.raises(shade.Error, match="position must not be zero"):
+            shade.Scene([shade.Light((0, short, 0, 0))])
+    shade.Scene([shade.Light.directional((0, 0, -1e-17)), shade.Light((0, 0, 0, 1))])
+
+
+def test_a_title_says_what_the_font_lacks():
+    with pytest.warns(UserWarning, match="title: the font has no"):
+        shade.Mesh(*CUBE, scalars=np.arange(len(CUBE[0])), title="\u65e5")
+
+
 # ---- files in a Renderer
 
 def test_a_renderer_draws_the_colours_and_textures_of_a_file(tmp_path):
