@@ -462,10 +462,10 @@ test("a model of any format", async () => {
     assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
     assert.deepEqual([[...mesh.uv], [...mesh.texture.data]], [[0, 1, 0, 1, 0, 1], [1, 2, 3]]);
     assert.equal(new TextDecoder().decode(new Uint8Array(asked)), "as it is");
-    [1, 0.5, 0].forEach((x, k) => assert.ok(Math.abs(mesh.color[k] - x) < 1e-6));
+    [1, ((0.5 + 0.055) / 1.055) ** 2.4, 0].forEach((x, k) => assert.ok(Math.abs(mesh.material.diffuse[k] - x) < 1e-6));
     console.warn = (line) => said.push(line);
     try {
-        assert.equal((await read(obj))[0].color, undefined);
+        assert.equal((await read(obj))[0].material, undefined);
         delete files["a.png"];
         await read(obj, { beside, picture: () => assert.fail("there is none") });
         await read(obj, { beside });
@@ -628,4 +628,25 @@ test("objects, shapes and textures of a Renderer come, change and go", () => {
     }
     assert.ok(sizes[299] - sizes[50] < 40e6, `${sizes[299] - sizes[50]} bytes`);
     [made, other, fresh].forEach((renderer) => renderer.free());
+});
+
+test("the highlight and the emission of an MTL are drawn", async () => {
+    const line = (text) => new TextEncoder().encode(text);
+    const beside = () => line("newmtl m\nKd 0.2 0.1 0\nKs 0.3 0.3 0.3\nNs 20\nKe 0 0 0.2\n");
+    const [one] = await readModel(line("mtllib one.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl m\nf 1 2 3 4\n"),
+                                  { format: "obj", beside });
+    // light, eye and normal are one line: k_e + k_d + k_s, of linear light, whatever the exponent
+    const linear = (c) => ((c + 0.055) / 1.055) ** 2.4, sums = [[0.2, 0.3], [0.1, 0.3], [0.2, 0.3]];
+    const wanted = sums.map(([a, b]) => Math.round(255 * (1.055 * (linear(a) + linear(b)) ** (1 / 2.4) - 0.055)));
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -50, 1],
+                     projection: [114, 0, 0, 0, 0, 114, 0, 0, 0, 0, -1.02, -1, 0, 0, -2.02, 0] };
+    const lights = [{ position: [0, 0, 1, 0] }], made = new Renderer(9, 9);
+    const { data } = render(one, { view: camera, size: 9, samples: 1, light: { lights } });
+    made.add(made.mesh(new Mesh(one)));
+    made.light(lights);
+    const { color } = made.render(camera);
+    [[data, 4], [color, 3]].forEach(([bytes, width]) => wanted.forEach((c, k) => {
+        assert.ok(Math.abs(bytes[40 * width + k] - c) <= 1, `${bytes.slice(40 * width, 40 * width + 3)}`);
+    }));
+    made.free();
 });

@@ -45,7 +45,8 @@ def sampled(colors: Doubles, t: Doubles) -> Doubles:
 
 
 def display(linear: Any) -> Any:
-    """Display colours, as Mesh takes them, of linear ones."""
+    """Display colours, as Mesh takes them, of linear ones, in double as in the package for Node."""
+    linear = np.asarray(linear, np.float64)
     out = np.where(linear <= 0.0031308, 12.92 * linear,
                    1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
     return np.clip(np.nan_to_num(out), 0, 1)

@@ -100,44 +100,33 @@ def _texture(run: Any, model: str, images: dict[Any, Any], outside: bool) -> Any
 def _look(run: Any, image: Any) -> Surface:
     """A surface as Mesh takes it."""
     opacity, holes = 1 - run.transparency, image is not None and not run.opaque
-    if not run.physical:
-        return Surface(None, image, run.transparency > 0, opacity,
-                       0.5 if holes and not run.transparency else 0.0,
-                       (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
-    k = run.material
-    material = Material(tuple(k.emission[:]), tuple(k.ambient[:]), tuple(k.diffuse[:]),
-                        tuple(k.specular[:]), k.shininess)
-    return Surface(material, image, bool(run.blended), opacity, run.alpha_cutoff if holes else 0.0,
+    k, material = run.material, None
+    if run.set:
+        material = Material(tuple(k.emission[:]), tuple(k.ambient[:]), tuple(k.diffuse[:]),
+                            tuple(k.specular[:]), k.shininess)
+    blend = bool(run.blended) if run.physical else run.transparency > 0
+    cutoff = run.alpha_cutoff if run.physical else 0.0 if blend else 0.5
+    return Surface(material, image, blend, opacity, cutoff if holes else 0.0,
                    (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
 
 
 def _surfaces(owned: Any, model: str, faces: int, uv: Any, outside: bool) -> dict[str, Any]:
     """What the file says of its surfaces, as options of Mesh."""
-    runs = _runs(owned)
-    tints = np.zeros((faces, 3), np.float32)
     number, looks = np.zeros(faces, int), [Surface()]
-    known: dict[Any, int] = {(None, 0.0, True): 0}
+    known: dict[int, int] = {}
     images: dict[Any, Any] = {}
-    for run in runs:
-        where = slice(run.first // 3, (run.first + run.count) // 3)
-        tints[where] = run.color[:]
+    for run in _runs(owned):
         image = _texture(run, model, images, outside) if uv is not None else None
-        key = run.surface if run.physical else \
-            (run.map if image is not None else None, run.transparency, bool(run.opaque))
-        if not run.physical and image is None and not run.transparency:
+        if not run.set and image is None and not run.transparency:
             continue
-        if key not in known:
-            known[key] = len(looks)
+        if run.surface not in known:
+            known[run.surface] = len(looks)
             looks.append(_look(run, image))
-        number[where] = known[key]
-    out: dict[str, Any] = {}
-    if any(run.set and not run.physical for run in runs):
-        out["color"] = _display(tints)
-    if len(looks) > 1:
-        if any(look.texture is not None for look in looks):
-            out["uv"] = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
-        out["surfaces"] = number, looks
-    return out
+        number[run.first // 3:(run.first + run.count) // 3] = known[run.surface]
+    if len(looks) == 1:
+        return {}
+    mapped = any(look.texture is not None for look in looks)
+    return {"surfaces": (number, looks), **({"uv": np.stack([uv[:, 0], 1 - uv[:, 1]], 1)} if mapped else {})}
 
 
 def _unpack(packed: int, packed_size: int, out: int, size: int) -> int:
@@ -187,11 +176,6 @@ def _read(data: bytes, name: str, path: bytes | None, outside: bool = False) -> 
         library.python_unload(owned)
     if colors is not None:
         found["color"] = _display(colors)
-    elif faces is not None and "color" in found and len(faces) == len(vertices):
-        # a vertex that no face has, so that the colours cannot be taken for those of vertices
-        vertices = np.concatenate([vertices, vertices[:1]])
-        if "uv" in found:
-            found["uv"] = np.concatenate([found["uv"], found["uv"][:1]])
     return (vertices, faces), found
 
 
@@ -203,8 +187,8 @@ def load(path: Any, *, outside: bool = False, **options: Any) -> Mesh:
     its folder are read where outside is set: a model of strangers names whatever it likes.
 
     Without a color or texture of their own meshes have those of the file: colours by vertex or
-    face, the diffuse colours, pictures and transparency of OBJ's MTL, the materials of glTF as
-    their nearest Phong.  What is missing there is a warning.
+    face, the materials, pictures and transparency of OBJ's MTL, the materials of glTF as their
+    nearest Phong.  What is missing there is a warning.
 
     Raises OSError where the file cannot be opened, and Error with the line where it is wrong.
     """

@@ -224,7 +224,7 @@ class Renderer:
                 known[key] = self.texture(piece.texture, surface.wrap)
             record["texture"] = known[key]
         def shown(rgb: Any) -> Any:
-            return rgb if self.srgb else display(np.asarray(rgb, np.float32))
+            return rgb if self.srgb else display(rgb)
 
         if material is not None:
             color = material.diffuse

@@ -182,6 +182,23 @@ def test_a_renderer_draws_the_colours_and_textures_of_a_file(tmp_path):
     assert face_on(made)[20, 20].tolist() == [0x1F, 0x77, 0xB4]
 
 
+def test_the_highlight_of_an_mtl_is_drawn(tmp_path):
+    """Light, eye and normal are one line: k_e + k_d + k_s, of linear light, whatever the exponent."""
+    (tmp_path / "one.mtl").write_text("newmtl m\nKd 0.2 0.1 0\nKs 0.3 0.3 0.3\nNs 20\nKe 0 0 0.2\n")
+    (tmp_path / "one.obj").write_text("mtllib one.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl m\nf 1 2 3 4\n")
+    linear = [c / 12.92 if c < 0.04 else ((c + 0.055) / 1.055) ** 2.4 for c in (0, 0.1, 0.2, 0.3)]
+    sums = linear[2] + linear[3], linear[1] + linear[3], linear[2] + linear[3]
+    wanted = [round(255 * (1.055 * c ** (1 / 2.4) - 0.055)) for c in sums]
+    lamp = shade.Light.directional((0, 0, -1))
+    above = shade.Camera.look_at((0, 0, 50), up=(0, 1, 0), fov=1)
+    made, scene = shade.Renderer(33, 33), shade.Scene([lamp])
+    made.add(made.mesh(shade.load(tmp_path / "one.obj")))
+    made.light([lamp])
+    scene.add(tmp_path / "one.obj")
+    for pixel in (made.render(above).color[16, 16], scene.render(above, 33, samples=1).rgba[16, 16, :3]):
+        assert np.abs(pixel - np.array(wanted)).max() <= 1
+
+
 # ---- the packages whose names are here
 
 def test_primitives_of_scenes_that_are_gone_leave_the_renderer():
