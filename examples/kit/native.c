@@ -30,6 +30,7 @@ typedef struct python_item { /* a mesh in its place */
     int32_t id;                  /* of its part, which is also the number of its pose */
     int blended;                 /* drawn over what is there; notes and depth leave it out */
     float opacity, alpha_cutoff; /* less alpha is discarded; 0: none */
+    float metal, rough;          /* in the studio, as of a look; rough 0: by the shininess */
 } python_item;
 
 typedef struct python_view {              /* a camera and where its picture goes */
@@ -267,12 +268,14 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
 }
 
 /* The surface of an item; a viewer at infinity is far away. */
-static look look_of(const light_studio *s, const python_view *v, const shade_material *material)
+static look look_of(const light_studio *s, const python_view *v, const python_item *item)
 {
+    const shade_material *material = item->state.material;
     const shade_mat4 eye = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
     look k = { .studio = &s->light, .material = *material, .emission = material->emission };
     k.material.emission = shade_v3(0, 0, 0);
-    k.rough = model_roughness(material->shininess);
+    k.metal = item->metal;
+    k.rough = item->rough > 0 ? item->rough : model_roughness(material->shininess);
     k.lighting.lights = s->light.lamp;
     k.lighting.light_count = 2;
     k.shadows = k.mirrors = 1;
@@ -325,7 +328,7 @@ static shade_result draw_meshes(const shade_target *target, const python_job *jo
         const shade_draw_state state = item_state(job->items, p.view, i);
         const shade_mesh *mesh = &job->items[i].mesh;
         shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
-        if (job->studio) in_studio = look_of(job->studio, p.view, state.material);
+        if (job->studio) in_studio = look_of(job->studio, p.view, &job->items[i]);
         p.look = job->studio ? &in_studio : NULL;
         if (fragment == survey && job->items[i].blended) continue;
         p.item = &job->items[i];
@@ -799,7 +802,8 @@ typedef struct python_part {
     const void *bytes; /* a picture inside the file, not decoded; NULL: it is beside the file */
     size_t size;
     int wrap[2];
-    const char *kind; /* what the file says that it is, image/png or image/jpeg; NULL: nothing */
+    const char *kind;   /* what the file says that it is, image/png or image/jpeg; NULL: nothing */
+    float metal, rough; /* of the mirror image of the studio; rough 0: by the shininess */
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
@@ -824,6 +828,8 @@ int python_part_of(const model *m, int i, python_part *part)
     part->surface = from->surface;
     part->physical = m->physical;
     part->material = s->material;
+    part->metal = s->metal;
+    part->rough = s->rough;
     part->alpha_cutoff = s->alpha_cutoff;
     part->blended = s->blended;
     if (s->picture < 0) return m->part_count;

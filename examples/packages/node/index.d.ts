@@ -57,6 +57,10 @@ export interface MeshSource {
     blend?: boolean;
     /** Texels of less alpha are holes; default 0, none. */
     cutoff?: number;
+    /** How much of what the studio's light shows in it has its colour, 0 .. 1; default 0. */
+    metal?: number;
+    /** How blurred that is, 0 .. 1; default 0: by the exponent of the material. */
+    roughness?: number;
 }
 
 /** A mesh that is prepared once and may be drawn many times. */

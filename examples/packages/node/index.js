@@ -24,7 +24,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 14, ITEM = 42, VIEW = 66, LIGHT = 21;
+const MESH = 14, ITEM = 44, VIEW = 66, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -129,7 +129,7 @@ function gloss(color) {
 
 const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
 const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
-                      "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff"];
+                      "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff", "metal", "roughness"];
 
 export class Mesh {
     #at = 0;
@@ -155,6 +155,8 @@ export class Mesh {
         this.opacity = check.number("opacity", got.opacity ?? 1, 0, 1);
         this.blend = check.flag("blend", got.blend ?? this.opacity < 1);
         this.cutoff = check.number("cutoff", got.cutoff ?? 0, 0, 1000);
+        this.metal = check.number("metal", got.metal ?? 0, 0, 1);
+        this.roughness = check.number("roughness", got.roughness ?? 0, 0, 1);
         this.own = got.material !== undefined;
         const plain = color === undefined ? null : linear(check.color("color", color));
         const white = colors !== undefined || got.texture !== undefined;
@@ -252,7 +254,7 @@ function writeItems(at, meshes, camera) {
         floats(start + 40, 13).set(mesh.material);
         floats(start + 92, 16).set(pose);
         words(start + 156, 1)[0] = mesh.blend ? 1 : 0;
-        floats(start + 160, 2).set([mesh.opacity, mesh.cutoff]);
+        floats(start + 160, 4).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness]);
     });
 }
 

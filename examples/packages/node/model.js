@@ -3,7 +3,7 @@
 import { ShadeError, WRAPS, choice, encoded, record } from "./arguments.js";
 
 // python_model and python_part of module.c, in words of four bytes
-const MODEL = 16, PART = 31;
+const MODEL = 16, PART = 33;
 
 /** Alpha that does not count becomes 255. */
 function opaque(image) {
@@ -77,7 +77,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         const material = { emission: k.slice(0, 3), ambient: k.slice(3, 6), diffuse: k.slice(6, 9),
                            specular: k.slice(9, 12), shininess: k[12] };
         return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
-                 indices: corners.map((vertex) => place.get(vertex)), ...(ints[7] ? { material } : {}),
+                 indices: corners.map((vertex) => place.get(vertex)), ...(ints[7] ? { material, metal: values[31], roughness: values[32] } : {}),
                  ...(blend ? { blend: true, opacity: 1 - values[5] } : {}),
                  ...(image && cutoff > 0 ? { cutoff } : {}),
                  ...(all.smooth ? { normals: of("normals", 3) } : {}),

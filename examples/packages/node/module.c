@@ -33,7 +33,7 @@ typedef struct asked_item {
     shade_material material;
     shade_mat4 pose;
     int blended;
-    float opacity, alpha_cutoff;
+    float opacity, alpha_cutoff, metal, rough;
 } asked_item;
 
 typedef struct asked_view {
@@ -383,6 +383,8 @@ static shade_result item_of(const asked_item *asked, python_item *item)
     item->blended = asked->blended;
     item->opacity = asked->opacity;
     item->alpha_cutoff = asked->alpha_cutoff;
+    item->metal = asked->metal;
+    item->rough = asked->rough;
     return asked->edges ? lines_of(asked, item) : SHADE_OK;
 }
 

@@ -168,8 +168,9 @@ def glb(mode, alpha):
 
 for name, mode, alpha in (("model", "OPAQUE", 0.3), ("glass", "BLEND", 0.3)):
     (OUT / f"{name}.glb").write_bytes(glb(mode, alpha))
+    soft = shade.render(OUT / f"{name}.glb", size=(100, 75), light="studio")    # metal's mirror image
     model = shade.render(OUT / f"{name}.glb", size=(200, 150))
-    (OUT / f"{name}.rgba").write_bytes(model.rgba.tobytes())
+    (OUT / f"{name}.rgba").write_bytes(model.rgba.tobytes() + soft.rgba.tobytes())
     assert len(np.unique(model.rgba)) > 100
 
 

@@ -41,7 +41,8 @@ for (const name of ["model", "glass"]) {
         const meshes = readGltf(readFileSync(`${folder}/${name}.glb`));
         assert.equal(meshes.length, 2);
         const { data } = render(meshes, { size: [200, 150], up: "y" });
-        assert.ok(readFileSync(`${folder}/${name}.rgba`).equals(bytes(data)));
+        const soft = render(meshes, { size: [100, 75], up: "y", light: "studio" });
+        assert.ok(readFileSync(`${folder}/${name}.rgba`).equals(Buffer.concat([bytes(data), bytes(soft.data)])));
     });
 }
 

@@ -90,7 +90,8 @@ class Item(Structure):
     _fields_ = [("mesh", Mesh), ("state", State), ("lines", c_void_p), ("line_points", c_int),
                 ("two_sided", c_int), ("lines_over", c_int), ("line_width", c_float),
                 ("line_color", c_float * 4),
-                ("id", c_int), ("blended", c_int), ("opacity", c_float), ("alpha_cutoff", c_float)]
+                ("id", c_int), ("blended", c_int), ("opacity", c_float), ("alpha_cutoff", c_float),
+                ("metal", c_float), ("rough", c_float)]
 
 
 class View(Structure):
@@ -137,7 +138,7 @@ class Run(Structure):
                 ("surface", c_int), ("physical", c_int), ("material", Material),
                 ("alpha_cutoff", c_float), ("blended", c_int), ("bytes", c_void_p),
                 ("size", c_size_t), ("wrap", c_int * 2),
-                ("kind", c_char_p)]
+                ("kind", c_char_p), ("metal", c_float), ("rough", c_float)]
 
 
 class Edge(Structure):

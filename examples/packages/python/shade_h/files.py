@@ -107,7 +107,7 @@ def _look(run: Any, image: Any) -> Surface:
     blend = bool(run.blended) if run.physical else run.transparency > 0
     cutoff = run.alpha_cutoff if run.physical else 0.0 if blend else 0.5
     return Surface(material, image, blend, opacity, cutoff if holes else 0.0,
-                   (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
+                   (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]), run.metal, run.rough)
 
 
 def _surfaces(owned: Any, model: str, faces: int, uv: Any, outside: bool) -> dict[str, Any]:

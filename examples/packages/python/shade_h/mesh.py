@@ -46,7 +46,9 @@ class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
     4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
     cutoff texels of less alpha are holes; else alpha is ignored.  wrap, "repeat", "clamp" or
-    "mirror" for u and v, says how the texture goes on beyond its edges."""
+    "mirror" for u and v, says how the texture goes on beyond its edges.  metal, 0 to 1, is how much
+    of what the studio's light shows in it has its colour, and roughness how blurred that is, 0 by
+    the exponent of the material."""
 
     material: Material | None = None
     texture: object = None
@@ -54,6 +56,8 @@ class Surface:
     opacity: float = 1.0
     cutoff: float = 0.0
     wrap: tuple[str, str] = ("repeat", "repeat")
+    metal: float = 0.0
+    roughness: float = 0.0
 
 
 class Piece:

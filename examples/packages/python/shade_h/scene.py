@@ -68,7 +68,9 @@ class Part:
                 continue
             look = piece.surface
             item = Item(mesh=piece.mesh, two_sided=self.two_sided, blended=look.blend,
-                        opacity=look.opacity, alpha_cutoff=look.cutoff)
+                        opacity=look.opacity, alpha_cutoff=look.cutoff,
+                        metal=arguments.number("metal", look.metal, 0, 1),
+                        rough=arguments.number("roughness", look.roughness, 0, 1))
             item.state.material = ctypes.pointer((look.material or self.material).native())
             if piece.map is not None:
                 item.state.diffuse_map = ctypes.pointer(piece.map)

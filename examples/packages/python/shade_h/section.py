@@ -188,7 +188,8 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
             kept[:, :, at[1]:at[2]], np.ones(cap.shape)]).reshape(-1, 3))
     tint = mesh.color or arguments.color("color", "clay")
     looks = [Surface(piece.surface.material, piece.texture, piece.surface.blend,
-                     piece.surface.opacity, piece.surface.cutoff, piece.surface.wrap)
+                     piece.surface.opacity, piece.surface.cutoff, piece.surface.wrap,
+                     piece.surface.metal, piece.surface.roughness)
              for piece in mesh.pieces]
     looks.append(Surface(Material((0, 0, 0), tint, tint), hatch()))
     numbers = np.concatenate([number[whence], np.full(len(cap), len(mesh.pieces))])

@@ -127,3 +127,22 @@ def test_equal_corners_are_one_vertex_and_others_are_not():
     around = np.stack([np.zeros(499, int), np.arange(1, 500), np.arange(2, 501)], 1)
     many = shade.Mesh(fan, around, normals="flat")    # one vertex with hundreds of normals
     assert np.array_equal(many.positions[many.indices], many.vertices[many.faces])
+
+
+def test_metal_reflects_the_studio_in_its_colour():
+    """All that a rough metal sends is light times its colour; of another surface the mirror image, 4 %, is
+    white.  Light below .6 is not bent toward white."""
+    vertices, faces = torus(24)[:2]
+
+    def sent(color, metal):
+        surface = shade.Surface(shade.Material((0, 0, 0), color, (0, 0, 0)), metal=metal, roughness=1)
+        made = shade.Mesh(vertices, faces, surfaces=(np.zeros(len(faces), int), [surface]), normals="smooth")
+        got = shade.render(made, size=64, samples=1, light="studio")
+        c = got.rgba[got.ids == 0][:, :3] / 255
+        return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    for metal in (1, 0):
+        grey, gold = sent((0.4, 0.4, 0.4), metal), sent((0.4, 0.2, 0.04), metal)
+        seen = (grey.max(1) < 0.58) & (grey.min(1) > 0.1)
+        assert seen.sum() > 200
+        off = gold[seen] / grey[seen] - (1, 0.5, 0.1)
+        assert np.abs(off).max() < 0.02 if metal else (off[:, 1:] > 0.03).mean() > 0.9
