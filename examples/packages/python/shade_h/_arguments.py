@@ -175,18 +175,14 @@ def color(name: str, value: object) -> tuple[float, float, float]:
     return float(rgb[0]), float(rgb[1]), float(rgb[2])
 
 
-def rigid(name: str, value: object, count: int | None = None) -> Doubles:
-    """A matrix of 4 x 4, or so many: rotations and translations, whose last row is 0, 0, 0, 1."""
-    single = count is None
-    got = doubles(name, value, (4, 4) if single else (count, 4, 4), finite=True)
-    all_of = got[None] if single else got
-    turns = all_of[:, :3, :3]
-    wrong = np.abs(turns @ turns.transpose(0, 2, 1) - np.eye(3)).max((1, 2)) > 1e-3
-    wrong |= np.abs(all_of[:, 3] - (0, 0, 0, 1)).max(1) > 1e-3
-    wrong |= np.linalg.det(turns) < 0
-    if wrong.any():
-        raise Error(f"{name}{'' if single else f'[{wrong.argmax()}]'} must be a rotation and a "
-                    "translation, without scale, with 0, 0, 0, 1 in the last row")
+def rigid(name: str, value: object) -> Doubles:
+    """A matrix of 4 x 4, a rotation and a translation, whose last row is 0, 0, 0, 1."""
+    got = doubles(name, value, (4, 4), finite=True)
+    turn = got[:3, :3]
+    if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-3 or np.linalg.det(turn) < 0 or \
+            np.abs(got[3] - (0, 0, 0, 1)).max() > 1e-3:
+        raise Error(f"{name} must be a rotation and a translation, without scale, with 0, 0, 0, 1 in "
+                    "the last row")
     return got
 
 

@@ -182,8 +182,8 @@ class Renderer:
     def mesh(self, vertices: object, faces: object = None, *, normals: object = "auto",
              uv: object = None, colors: object = None) -> Shape:
         """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
-        Mesh, as load() gives it, with the colours, textures, transparency and holes of its surfaces,
-        and the materials of glTF."""
+        Mesh, as load() gives it, with the materials, colours, textures, transparency and holes of its
+        surfaces."""
         made = self._made_of(vertices, faces, normals, uv, colors)
         return self._shape(made, (made is vertices, faces, normals, uv, colors), None)
 
