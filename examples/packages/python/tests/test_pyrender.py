@@ -173,6 +173,9 @@ def test_scenes_tell_what_they_hold():
     assert len(both.mesh_nodes) == 2 and len(both.meshes) == 1 and both.extents[0] > 9
     both.clear()
     assert not both.nodes
+    whole.geometry["ring"] = trimesh(kind="face", face_colors=np.tile(np.uint8([0, 255, 0, 255]), (2304, 1)))
+    painted = pyrender.Scene.from_trimesh_scene(whole).meshes.pop().primitives[0]
+    assert painted.color_0.shape == (3 * 2304, 4) and not painted.is_transparent
 
 
 def test_depth_is_that_of_the_other_cameras():
