@@ -779,6 +779,32 @@ class Scene(_Bounded):
         raise ValueError("node is not in the scene")
 
 
+def _reflect(o: Any, primitive: Primitive, textured: bool, ambient: Array) -> None:
+    """Sets what an object reflects.
+
+    pyrender's microfacets reflect F0, .04 of white .. the metal's colour, in a peak with long tails.
+    Blinn's lobe has none, so a share of Lambert's stands for them.  Share, lobe and exponent are least
+    squares over a sphere lit from the eye and from 45 degrees by lamps of 1, 3 and 6, in bytes, of
+    roughness .1 .. 1 and metal 0, .5 and 1: their root mean square is 5.9 of 255, the mean 3.6."""
+    m = primitive.material
+    metal, alpha = m.metallicFactor, max(m.roughnessFactor, 0.04) ** 2
+    share = 0.4 * alpha
+    lobe = (1.23 + 1.34 * metal) * (1 - alpha) ** 2 / alpha ** (1.25 - metal)
+    o["shininess"] = 5.3 / alpha ** (1.5 - 0.5 * metal)
+    factor = np.asarray(m.baseColorFactor[:3])
+    base = np.maximum(factor / 2 if textured else factor, 1e-3)    # a texture is half bright, say
+    f0 = 0.04 * (1 - metal) + metal * base
+    scattered = 0.96 * (1 - metal) * (1 - f0) * base + share * f0
+    if not textured and primitive.color_0 is None:
+        # all of the base colour reflects ambient light, however metallic
+        o["rgba"][:3], o["specular"] = scattered, lobe * f0
+        o["glow"] = ambient * np.maximum(factor - scattered, 0)
+        return
+    kept = min(float((scattered / base).mean()), 1.0)
+    o["metal"], o["tint"], o["specular"] = 1 - kept, lobe * metal, lobe * 0.04 * (1 - metal)
+    o["emission"] = ambient.mean() * (1 - kept) / kept
+
+
 class OffscreenRenderer:
     """Draws scenes into arrays."""
 
@@ -820,7 +846,7 @@ class OffscreenRenderer:
                 for primitive in node.mesh.primitives:
                     parts.append(self._points(primitive, pose, main[0])
                                  if primitive.mode == GLTF.POINTS
-                                 else self._records(base, primitive, pose, flags))
+                                 else self._records(base, primitive, pose, flags, scene.ambient_light))
                     used += [node] * len(parts[-1])
         objects = np.concatenate([*parts, np.zeros(0, SOLID)])
         objects["id"] = np.arange(len(objects))
@@ -846,7 +872,8 @@ class OffscreenRenderer:
                 table[i + 1] = np.broadcast_to(shown, 3)
         return table[ids[..., 0] + 1], depth
 
-    def _records(self, base: _Renderer, primitive: Primitive, pose: Array, flags: int) -> Array:
+    def _records(self, base: _Renderer, primitive: Primitive, pose: Array, flags: int,
+                 ambient: Array) -> Array:
         known = self._shapes.get(id(primitive))
         if known is None:
             m, uv = primitive.material, primitive.texcoord_0
@@ -870,16 +897,11 @@ class OffscreenRenderer:
             o["flags"] = 2 if two_sided else 0
             o["rgba"] = m.baseColorFactor
             o["rgba"][3] = m.baseColorFactor[3] if m.alphaMode == "BLEND" else 1
-            # pyrender's microfacets seen from the front: D of GGX is 1 / (pi alpha^2) at its peak, of
-            # which a quarter is reflected, 4 % or the metal's colour; Blinn's lobe is as wide
-            alpha = max(m.roughnessFactor, 0.05) ** 2
-            o["shininess"] = 2 / alpha ** 2 - 2
-            o["specular"] = 0.04 * (1 - m.metallicFactor) / (4 * alpha ** 2)
-            o["tint"] = m.metallicFactor / (4 * alpha ** 2)
-            o["metal"] = m.metallicFactor
             o["repeat"] = 1
             if flags & RenderFlags.FLAT:
-                o["emission"], o["specular"], o["tint"], o["metal"] = 1, 0, 0, 0
+                o["emission"] = 1
+            else:
+                _reflect(o, primitive, known[2] >= 0, ambient)
         return made
 
     def _points(self, primitive: Primitive, pose: Array, eye: tuple[Node, Array]) -> Array:
