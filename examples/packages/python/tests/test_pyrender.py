@@ -122,7 +122,8 @@ def test_nodes_keep_rotation_scale_and_translation():
 
 
 def test_light_falls_with_the_square_of_the_distance_and_to_the_rim_of_a_spot():
-    """Beside the formula of pyrender's shader, for what scatters evenly."""
+    """Beside the formula of pyrender's shader, for what scatters evenly .96 of the .96 that goes in, and
+    mirrors .01."""
     wall = SimpleNamespace(vertices=[[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]],
                            faces=[[0, 1, 2], [0, 2, 3]])
     chalk = pyrender.MetallicRoughnessMaterial(metallicFactor=0, roughnessFactor=1)
@@ -139,13 +140,13 @@ def test_light_falls_with_the_square_of_the_distance_and_to_the_rim_of_a_spot():
         got = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
         x = (np.arange(101) - 50) / 50.5 * 4 * np.tan(np.pi / 6)
         cosine = 4 / np.hypot(x, 4)
-        wanted = 20 / np.pi * cosine / (x * x + 16)
+        wanted = 0.9316 * 20 / np.pi * cosine / (x * x + 16)
         if isinstance(light, pyrender.SpotLight):
             low = np.cos(outer)
             wanted = wanted * np.clip((cosine - low) / (np.cos(inner) - low), 0, 1) ** 2
         # a power of the cosine stands in for the fall within a spot's cone
         most = 0.25 if isinstance(light, pyrender.SpotLight) else 0.05
-        assert np.abs(got - wanted).max() < most * wanted.max(), np.abs(got - wanted).max()
+        assert np.abs(got - wanted).max() < most * 20 / np.pi / 16, np.abs(got - wanted).max()
         assert np.abs(got - wanted).mean() < 0.1 * wanted.max()
 
 
@@ -173,6 +174,9 @@ def test_scenes_tell_what_they_hold():
     assert len(both.mesh_nodes) == 2 and len(both.meshes) == 1 and both.extents[0] > 9
     both.clear()
     assert not both.nodes
+    whole.geometry["ring"] = trimesh(kind="face", face_colors=np.tile(np.uint8([0, 255, 0, 255]), (2304, 1)))
+    painted = pyrender.Scene.from_trimesh_scene(whole).meshes.pop().primitives[0]
+    assert painted.color_0.shape == (3 * 2304, 4) and not painted.is_transparent
 
 
 def test_depth_is_that_of_the_other_cameras():
@@ -262,38 +266,65 @@ def test_shadows_and_refusals():
         pyrender.Primitive([[0, 0, 0]], indices=[[0, 1, 2]])
 
 
-@pytest.mark.parametrize("rough", [0.4, 0.6, 0.8])
-@pytest.mark.parametrize("metal", [0.0, 0.5, 1.0])
-def test_metals_are_near_the_law_of_pyrenders_shader(metal, rough):
-    """Its microfacets in double: GGX, Smith's masking, Schlick's Fresnel term, Lambert below."""
-    base, n, w = np.array([0.9, 0.6, 0.2]), 48, 97
+def sphere(material, intensity, ambient):
+    """A unit ball of a material, lit from 44 degrees: colours of its pixels, normals, and ways to the eye and
+    to the lamp."""
+    n, w = 48, 97
     theta, phi = np.meshgrid(np.linspace(0, np.pi, n + 1), np.linspace(0, 2 * np.pi, w), indexing="ij")
     ball = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1).reshape(-1, 3)
     k = (np.arange(n)[:, None] * w + np.arange(w - 1)).ravel()
     faces = np.concatenate([np.stack([k, k + w, k + w + 1], 1), np.stack([k, k + w + 1, k + 1], 1)])
-    made = pyrender.Scene(bg_color=[0, 0, 0], ambient_light=[0, 0, 0])
-    made.add(pyrender.Mesh([pyrender.Primitive(ball, ball, indices=faces, material=pyrender.MetallicRoughnessMaterial(
-        baseColorFactor=[*base, 1.0], metallicFactor=metal, roughnessFactor=rough))]))
+    made = pyrender.Scene(bg_color=[0, 0, 0], ambient_light=ambient)
+    made.add(pyrender.Mesh([pyrender.Primitive(ball, ball, indices=faces, **material)]))
     eye, lamp = np.eye(4), np.eye(4)
     eye[2, 3] = 3
     toward = np.array([0.5, 0.6, 0.8]) / np.sqrt(1.25)
     x = np.cross([0, 1, 0], toward) / np.linalg.norm(np.cross([0, 1, 0], toward))
     lamp[:3, :3] = np.stack([x, np.cross(toward, x), toward], 1)
     made.add(pyrender.PerspectiveCamera(np.pi / 4), pose=eye)
-    made.add(pyrender.DirectionalLight(intensity=3.0), pose=lamp)
+    made.add(pyrender.DirectionalLight(intensity=intensity), pose=lamp)
     color, depth = pyrender.OffscreenRenderer(64, 64).render(made)
     across = ((2 * np.arange(64) + 1) / 64 - 1) * np.tan(np.pi / 8)
     way = np.stack(np.broadcast_arrays(across[None], -across[:, None], -1.0), -1)
     N = (way * depth[..., None] + [0, 0, 3])[depth > 0]
     N, V = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (N, np.array([0, 0, 3]) - N))
+    return color[depth > 0].astype(float), N, V, toward
+
+
+def pyrenders(light):
+    """Bytes of linear light, by the power that pyrender's shader takes."""
+    return 255 * np.clip(light, 0, 1) ** (1 / 2.2)
+
+
+# metal: how far bytes are off on the mean, at roughness .2, .4, .6, .8 and 1
+NEAR = {0.0: (1.7, 1.7, 1.5, 1.5, 1.9), 0.5: (2.6, 3.4, 3.4, 3.7, 4.9), 1.0: (6, 6.1, 6, 6.6, 9.2)}
+
+
+@pytest.mark.parametrize("rough", [0.2, 0.4, 0.6, 0.8, 1.0])
+@pytest.mark.parametrize("metal", [0.0, 0.5, 1.0])
+def test_metals_are_near_the_law_of_pyrenders_shader(metal, rough):
+    """Its microfacets in double: GGX, Schlick's masking of Smith and his Fresnel term, Lambert below."""
+    base = np.array([0.9, 0.6, 0.2])
+    color, N, V, toward = sphere({"material": pyrender.MetallicRoughnessMaterial(
+        baseColorFactor=[*base, 1.0], metallicFactor=metal, roughnessFactor=rough)}, 3.0, [0, 0, 0])
     H = (toward + V) / np.linalg.norm(toward + V, axis=-1, keepdims=True)
     nl, nv, nh, vh = (np.clip((a * b).sum(-1), 1e-3, 1) for a, b in ((N, toward), (N, V), (N, H), (V, H)))
-    f0, a2 = 0.04 * (1 - metal) + metal * base, rough ** 4
+    f0, a2, k = 0.04 * (1 - metal) + metal * base, rough ** 4, (rough + 1) ** 2 / 8
     fresnel = f0 + (1 - f0) * ((1 - vh) ** 5)[:, None]
-    masked = 4 * nl * nv / ((nl + np.sqrt(a2 + (1 - a2) * nl**2)) * (nv + np.sqrt(a2 + (1 - a2) * nv**2)))
-    lobe = masked * a2 / (np.pi * (nh**2 * (a2 - 1) + 1) ** 2) / (4 * nl * nv)
+    masked = nl * nv / ((nl * (1 - k) + k) * (nv * (1 - k) + k))
+    lobe = masked * a2 / (np.pi * (nh**2 * (a2 - 1) + 1) ** 2) / (4 * nl * nv + 0.001)
     light = 3 * nl[:, None] * ((1 - fresnel) * base * 0.96 * (1 - metal) / np.pi + fresnel * lobe[:, None])
-    light *= ((N @ toward) > 0)[:, None]
-    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    apart = np.abs(255 * np.clip(shown, 0, 1) - color[depth > 0])
-    assert apart.mean() < {0.0: 6, 0.5: 16, 1.0: 41}[metal], apart.mean()
+    apart = np.abs(pyrenders(light) - color).mean()
+    assert apart < NEAR[metal][round(5 * rough) - 1] + 2, apart
+
+
+@pytest.mark.parametrize("metal", [0.0, 0.5, 1.0])
+def test_metals_reflect_ambient_light_with_all_of_their_base_colour(metal):
+    """As pyrender's shader adds it, with and without a texture and colours of vertices."""
+    base, grey = np.array([0.9, 0.6, 0.2]), np.array([0.3, 0.3, 0.3])
+    material = {"metallicFactor": metal, "roughnessFactor": 0.5, "baseColorFactor": [*base, 1.0]}
+    for given, shown in (({}, base * grey), ({"color_0": [0.5, 1.0, 1.0]}, base * grey * [0.5, 1, 1]),
+                         ({"texcoord_0": np.zeros((49 * 97, 2))}, base * grey)):
+        image = np.full((2, 2, 3), 255, np.uint8) if "texcoord_0" in given else None
+        color = sphere({"material": pyrender.Material(**material, baseColorTexture=image), **given}, 0.0, grey)[0]
+        assert np.abs(color - pyrenders(shown)).max() < 8, (given, color[0], pyrenders(shown))

@@ -1,7 +1,10 @@
-"""Statements of pyrender's own public tests, from memory of its interface: each line of STATEMENTS is one,
-which runs after those before it; what stands behind a raises is the error that it must raise."""
+"""Statements of this project, written after pyrender's public tests: each line of STATEMENTS is one, which
+runs after those before it; an error before a colon is what the rest of its line must raise."""
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from shapes import box
 
 import shade_h.compat.pyrender as pyrender
 
@@ -58,7 +61,9 @@ STATEMENTS = {
         ValueError: c.xmag = -1.0
         TypeError: c.znear = None
         ValueError: c.znear = -1.0
-        c.znear = 0.0
+        ValueError: c.znear = 0.0
+        ValueError: OrthographicCamera(1.0, 2.0, znear=0.0)
+        assert c.znear == 0.05
         TypeError: c.zfar = None
         ValueError: c.zfar = 0.0
         c.znear = 0.05
@@ -112,6 +117,56 @@ STATEMENTS = {
         assert x.is_visible
         assert x.weights is None
         x.name = "str"
+    """,
+    "meshes of trimesh": """
+        x = Mesh.from_trimesh(cube())
+        assert len(x.primitives) == 1
+        assert x.is_visible
+        assert np.allclose(x.bounds, [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
+        assert np.allclose(x.centroid, np.zeros(3))
+        assert np.allclose(x.extents, np.ones(3))
+        assert np.allclose(x.scale, np.sqrt(3))
+        assert not x.is_transparent
+        p = x.primitives[0]
+        ValueError: p.normals = np.zeros(10)
+        ValueError: p.tangents = np.zeros(10)
+        ValueError: p.texcoord_0 = np.zeros(10)
+        ValueError: p.texcoord_1 = np.zeros(10)
+        ValueError: p.texcoord_1 = np.zeros((8, 3))
+        TypeError: p.material = np.zeros(10)
+        assert p.targets is None
+        assert np.allclose(p.bounds, x.bounds)
+        p.tangents = np.zeros((8, 4))
+        p.texcoord_0 = np.zeros((8, 3))
+        assert p.texcoord_0.shape == (8, 2)
+        p.texcoord_1 = None
+        p.material.baseColorFactor = np.zeros(4)
+        assert p.is_transparent
+        p.material = None
+        assert isinstance(p.material, MetallicRoughnessMaterial)
+        assert not p.is_transparent
+        x = Mesh.from_trimesh([cube(), cube()], smooth=False)
+        assert len(x.primitives) == 2
+        TypeError: Mesh.from_trimesh(None)
+        TypeError: Mesh.from_trimesh([None])
+        poses = np.tile(np.eye(4), (5, 1, 1))
+        poses[:, 0, 3] = np.arange(5)
+        x = Mesh.from_trimesh(cube(), poses=poses)
+        assert np.allclose(x.bounds, [[-0.5, -0.5, -0.5], [4.5, 0.5, 0.5]])
+        x = Mesh.from_trimesh(cube(), poses=np.eye(4))
+        assert x.primitives[0].poses.shape == (1, 4, 4)
+        ValueError: Mesh.from_trimesh(cube(), poses=np.eye(3))
+        f = cube(kind="face", face_colors=np.tile([1.0, 0.0, 0.0, 1.0], (12, 1)))
+        x = Mesh.from_trimesh(f, smooth=False)
+        assert not x.is_transparent
+        ValueError: Mesh.from_trimesh(f, smooth=True)
+        ValueError: Mesh.from_trimesh(f)
+        v = cube(kind="vertex", vertex_colors=np.tile([1.0, 0.0, 0.0, 0.5], (8, 1)))
+        assert Mesh.from_trimesh(v, smooth=False).is_transparent
+        x = Mesh.from_trimesh(v, smooth=True)
+        assert x.primitives[0].color_0 is not None
+        assert x.is_transparent
+        x = Mesh.from_points(cube().vertices)
     """,
     "nodes": """
         x = Node()
@@ -260,6 +315,9 @@ STATEMENTS = {
         assert np.allclose(x.matrix[:3, :3], np.diag([1, -1, -1]))
         x.scale = [1, 2, 3]
         assert np.allclose(x.scale, [1, 2, 3])
+        x = Node()
+        x.matrix[0, 0] = 500
+        assert x.matrix[0, 0] == 1.0
         x.matrix = np.diag([2, 2, 2, 1])
         assert np.allclose(x.scale, 2)
         assert np.allclose(x.translation, 0)
@@ -343,9 +401,17 @@ STATEMENTS = {
 LINES = [(part, line.strip()) for part, text in STATEMENTS.items() for line in text.splitlines() if line.strip()]
 
 
+def cube(**visual):
+    """What from_trimesh reads of trimesh.creation.box()."""
+    corners, quads = box(1, 1, 1)
+    visual = visual or {"defined": False}
+    return SimpleNamespace(vertices=corners - 0.5, faces=quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3),
+                           vertex_normals=(2 * corners - 1) / np.sqrt(3), visual=SimpleNamespace(**visual))
+
+
 @pytest.mark.parametrize("part", STATEMENTS)
 def test_statements_of_pyrender(part):
-    names = {**{name: getattr(pyrender, name) for name in pyrender.__all__}, "np": np}
+    names = {**{name: getattr(pyrender, name) for name in pyrender.__all__}, "np": np, "cube": cube}
     for _, line in (row for row in LINES if row[0] == part):
         error, _, code = line.partition(": ") if line.startswith(("TypeError: ", "ValueError: ")) else ("", "", line)
         if not error:
@@ -359,7 +425,7 @@ def test_statements_of_pyrender(part):
 
 
 def test_how_many_statements():
-    assert len(LINES) == 309
+    assert len(LINES) == 362
 
 
 def test_what_is_not_drawn_of_a_material_is_told():
@@ -369,3 +435,5 @@ def test_what_is_not_drawn_of_a_material_is_told():
         pyrender.Material(alphaMode="MASK")
     with pytest.raises(TypeError):
         pyrender.Material(colour=1)
+    with pytest.warns(UserWarning, match="color_0: its alpha is not drawn"):
+        pyrender.Primitive(np.eye(3), color_0=[1.0, 0.0, 0.0, 0.5])
