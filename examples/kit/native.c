@@ -44,6 +44,7 @@ typedef struct python_view {              /* a camera and where its picture goes
     int32_t *ids;
     int in_studio;        /* else lit by lighting */
     shade_mat4 to_studio; /* the scene about the origin, within distance 1 */
+    int bent;             /* light above SHOULDER is bent toward white, so that white has form */
 } python_view;
 
 typedef struct light_studio { /* the thumbnail's light, and all items as one model in it */
@@ -209,6 +210,11 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
         paint_in_studio(p, &rows, in->count, out->color[0]);
     else
         shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
+    for (int k = 0; k < 3 && p->view->bent && !p->look; k++) SHADE_EACH_LANE(i)
+        {
+            const float light = out->color[k][i];
+            out->color[k][i] = light > SHOULDER ? shoulder(light) : light;
+        }
     if (p->item->state.diffuse_map)
         SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
     if (p->item->alpha_cutoff > 0) cut_out(p->item->alpha_cutoff, out);

@@ -24,7 +24,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 14, ITEM = 44, VIEW = 66, LIGHT = 21;
+const MESH = 14, ITEM = 44, VIEW = 67, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -242,7 +242,7 @@ function quick({ view }) {
         row.set(color, 10);
         return row;
     });
-    return { lights, ambient: QUICK_AMBIENT, model: 0, flags: 0 };
+    return { lights, ambient: QUICK_AMBIENT, model: 0, flags: 0, bent: true };
 }
 
 function writeItems(at, meshes, camera) {
@@ -276,6 +276,7 @@ function drawn(meshes, camera, { width, height, samples, background, depth, ligh
         floats(view + 132, 16).set(camera.projection);
         words(view + 196, 1)[0] = toStudio ? 1 : 0;
         floats(view + 200, 16).set(toStudio ?? IDENTITY);
+        words(view + 264, 1)[0] = light.bent ? 1 : 0;
         succeed("mesh", library.draw(view, items, meshes.length));
         const data = new Uint8ClampedArray(library.memory.buffer, rgba, 4 * pixels).slice();
         return new Picture(width, height, data, depth ? floats(depths, pixels).slice() : null,

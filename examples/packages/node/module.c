@@ -49,6 +49,7 @@ typedef struct asked_view {
     shade_mat4 view, projection;
     int in_studio;
     shade_mat4 to_studio;
+    int bent;
 } asked_view;
 
 typedef struct module_mesh {
@@ -410,6 +411,7 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     view.lighting.flags = asked->flags;
     view.in_studio = asked->in_studio;
     view.to_studio = asked->to_studio;
+    view.bent = asked->bent;
     view.rgba = asked->rgba;
     view.depth = asked->depth;
     view.ids = asked->ids;

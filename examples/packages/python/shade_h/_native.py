@@ -100,7 +100,7 @@ class View(Structure):
                 ("view", c_float * 16), ("projection", c_float * 16),
                 ("background", c_float * 4), ("lighting", Lighting), ("poses", c_void_p),
                 ("rgba", c_void_p), ("depth", c_void_p), ("normals", c_void_p),
-                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16)]
+                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("bent", c_int)]
 
 
 #: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count,

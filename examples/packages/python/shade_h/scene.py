@@ -430,6 +430,7 @@ class Scene:
         view.projection = tuple(camera.projection.T.reshape(-1))
         view.background = background
         lights, ambient = self.lights, self.ambient
+        view.bent = int(lights is None)
         if lights is None:
             turn = local[:3, :3]
             lights = [Light.directional(tuple(np.asarray(way) @ turn), color)

@@ -131,6 +131,13 @@ def test_white_parts_on_white_are_blank():
     assert not shade.render(*CUBE, size=32).blank
 
 
+def test_white_parts_stand_out_from_white():
+    """Three lamps together are brighter than white: what they light is bent toward it, and not clipped."""
+    for side in ("iso", "top", "front", (120, 40)):
+        picture = shade.render(*CUBE, color="white", view=side, size=64, samples=1)
+        assert (255 - picture.rgba[picture.ids == 0][:, :3].min(1)).min() >= 8
+
+
 def test_a_transposed_pose_is_refused():
     row = np.eye(4)
     row[3, :3] = 1, 2, 3
