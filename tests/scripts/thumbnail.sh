@@ -637,13 +637,13 @@ points() {
     awk 'BEGIN {
         for (i = 0; i < 3600; i++) print "v", i % 60 / 59 + .1, int(i / 60) / 59, 0
         for (i = 0; i < 225; i++) print "v", -.1 - i % 15 / 14, int(i / 15) / 14, 0
-    }' >"$T/sparse.obj"
-    { cat "$T/sparse.obj"; echo v 0 3 0; } >"$T/alone.obj"
-    for k in sparse alone; do
+    }' >"$T/uneven.obj"
+    { cat "$T/uneven.obj"; echo v 0 3 0; } >"$T/alone.obj"
+    for k in uneven alone; do
         check "points near and far apart: $k" draw $k.obj $k.ppm --up y --view 0,0 --model emissive \
             --background white --no-shadow --quiet
     done
-    set -- $(covered "$T/sparse.ppm")
+    set -- $(covered "$T/uneven.ppm")
     check "cover the left square: $1 of 100" test "$1" -ge 90
     check "and the right one: $2 of 100" test "$2" -ge 90
     check "one alone is no giant" "$T/look" pixel "$T/alone.ppm" .5 .12 255 255 255 0
