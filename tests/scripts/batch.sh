@@ -61,6 +61,60 @@ if echo | $CC -fsyntax-only -include stb/stb_image.h -x c - 2>/dev/null; then
     check "which a level square has otherwise" no "$HERE/build/compare" --limit 9 --count 7 level.ppm mapped.ppm
 fi
 
+# The first frame is from the side that thumbnail shows: of a box with a red front, a green right and
+# a blue left side both see as much of each, to a part of the box.
+cat >side.mtl <<END
+newmtl red
+Kd 1 0 0
+newmtl green
+Kd 0 1 0
+newmtl blue
+Kd 0 0 1
+newmtl white
+Kd 1 1 1
+END
+cat >side.obj <<END
+mtllib side.mtl
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+usemtl red
+f 5 6 7 8
+usemtl green
+f 2 3 7 6
+usemtl blue
+f 1 5 8 4
+usemtl white
+f 2 1 4 3
+f 8 7 3 4
+f 1 2 6 5
+END
+hues() {                        # a picture: hundredths of red, green, blue among its coloured pixels
+    tail -c 27648 "$1" | od -An -v -tu1 -w3 | awk '
+        function most(a, b, c) { return a > 2 * b && a > 2 * c }
+        { red += most($1, $2, $3); green += most($2, $1, $3); blue += most($3, $1, $2) }
+        END { n = (red + green + blue) / 100 + 1e-9; print int(red / n), int(green / n), int(blue / n) }'
+}
+alike() {                       # two lists of hundredths
+    echo "$1 $2" | awk '{ for (k = 1; k < 4; k++) if (($k - $(k + 3)) ^ 2 > 36) exit 1 }'
+}
+"$BATCH" side.obj --frames 1 --size 96x96 --no-shadow --pipe >side.ppm
+"${BATCH%batch}thumbnail" side.obj side_thumbnail.ppm --size 96x96 --no-shadow
+first() { "$BATCH" side.obj --frames 1 --size 96x96 --no-shadow --pipe "$@"; }
+first >side.ppm
+first --view 30,19.8 >right.ppm
+first --view -30,19.8 >left.ppm
+"${BATCH%batch}thumbnail" side.obj thumbnail.ppm --size 96x96 --no-shadow
+hue=$(hues thumbnail.ppm)
+check "the first frame is from thumbnail's side: $hue" alike "$hue" "$(hues side.ppm)"
+check "not from the other one" no alike "$hue" "$(hues right.ppm)"
+check "which has a name" "$HERE/build/compare" --limit 2 left.ppm side.ppm
+
 # a turn begins where --view stands; a quarter of it later the left side is seen
 check "four frames from the front" "$BATCH" --frames 4 --size 97x60 --view front --out turned
 check "and two from the left" "$BATCH" --frames 2 --size 97x60 --view left --out left

@@ -598,7 +598,27 @@ open_sections() {
     done
 }
 
-# Points without faces are small balls, and a line says so: of PLY and OBJ the same.
+# Of a picture before white: hundredths of the box of its left half, and of its right half, that are
+# not white
+covered() {
+    set -- "$1" $(head -n 2 "$1" | tail -n 1)
+    tail -c $((3 * $2 * $3)) "$1" | od -An -v -tu1 -w3 | awk -v wide="$2" '
+        $1 + $2 + $3 < 765 {
+            x = (NR - 1) % wide; y = int((NR - 1) / wide); h = x >= wide / 2
+            if (!n[h]++) { left[h] = right[h] = x; top[h] = y }
+            if (x < left[h]) left[h] = x
+            if (x > right[h]) right[h] = x
+            low[h] = y
+        }
+        END {
+            for (h = 0; h < 2; h++)
+                share[h] = int(100 * n[h] / ((right[h] - left[h] + 1) * (low[h] - top[h] + 1) + 1e-9))
+            print share[0], share[1]
+        }'
+}
+
+# Points without faces are small balls, as large as they are apart, and a line says so: of PLY and OBJ
+# the same.
 points() {
     awk 'BEGIN { for (i = 0; i < 1000; i++) print i % 10, int(i / 10) % 10, int(i / 100) }' >"$T/grid.txt"
     { printf 'ply\nformat ascii 1.0\nelement vertex 1000\nproperty float x\nproperty float y\n'
@@ -606,13 +626,27 @@ points() {
       sed 's/$/ 200 100 50/' "$T/grid.txt"; } >"$T/cloud.ply"
     sed 's/^/v /; s/$/ .7843137 .3921569 .1960784/' "$T/grid.txt" >"$T/cloud.obj"
     check "a cloud" draw cloud.ply a.ppm --up y
-    check "is told" grep "cloud.ply: 1000 points have no faces: they are drawn as small balls of radius 0.1" "$T/err"
+    check "is told" grep "cloud.ply: 1000 points have no faces: they are drawn as small balls of radius 0.4" "$T/err"
     check "of OBJ" draw cloud.obj b.ppm --up y
     check "is told as well" grep "cloud.obj: 1000 points have no faces" "$T/err"
     check "looks the same" "$T/look" same "$T/a.ppm" "$T/b.ppm" 3
     check "quietly" draw cloud.obj b.ppm --up y --quiet
     check "no line" test ! -s "$T/err"
     check "a picture of balls that are small" draw cloud.ply a.ppm --model emissive --background white --no-shadow
+    # two squares, of which the left one has points 4 times as far apart, and a point far from both
+    awk 'BEGIN {
+        for (i = 0; i < 3600; i++) print "v", i % 60 / 59 + .1, int(i / 60) / 59, 0
+        for (i = 0; i < 225; i++) print "v", -.1 - i % 15 / 14, int(i / 15) / 14, 0
+    }' >"$T/uneven.obj"
+    { cat "$T/uneven.obj"; echo v 0 3 0; } >"$T/alone.obj"
+    for k in uneven alone; do
+        check "points near and far apart: $k" draw $k.obj $k.ppm --up y --view 0,0 --model emissive \
+            --background white --no-shadow --quiet
+    done
+    set -- $(covered "$T/uneven.ppm")
+    check "cover the left square: $1 of 100" test "$1" -ge 90
+    check "and the right one: $2 of 100" test "$2" -ge 90
+    check "one alone is no giant" "$T/look" pixel "$T/alone.ppm" .5 .12 255 255 255 0
     check "few triangles are allowed" draw cloud.ply a.ppm --max-triangles 80
     check "fewer balls" grep "one of 100" "$T/err"
     check "none are" refused "more than 7 triangles" "$THUMBNAIL" "$T/cloud.ply" "$T/none.ppm" --max-triangles 7

@@ -30,6 +30,11 @@
     "  --quiet               prints errors only, no progress and no warnings\n"                    \
     "  --verbose             says which axis was guessed to be upright\n"
 
+/* The side that the first picture of every program shows: the model has turned so far, and the eye
+   is so far above it, beside its distance along the ground */
+#define MODEL_FIRST_TURN 30 /* degrees */
+#define MODEL_FIRST_RISE 0.36f
+
 /* After all options: what is read, as this program is built */
 #ifdef MODEL_ASSIMP
 #define MODEL_FORMATS                                                                              \

@@ -1,26 +1,132 @@
-/* points.h - points without faces as small balls: octahedra with the normals of a ball. */
+/* points.h - points without faces as small balls: octahedra with the normals of a ball, as large as
+   the points around them are apart. */
 #ifndef MODEL_POINTS_H
 #define MODEL_POINTS_H
 
 #include "model.h"
 
 enum { POINTS_MOST = 500000 }; /* of more points, every second, third, ... is drawn */
+enum { POINTS_GROUP = 32, POINTS_NEAR = 3 };
+#define POINTS_PART 0.9 /* of that distance: octahedra on a square grid leave 2 % of it open */
 
-/* 0.4 of the distance between as many points on a square as large as the box around them, within
-   bounds; 1 where all are one. */
-static inline double points_radius(const float *p, size_t n, size_t step)
+/* ---- how large each is ----------------------------------------------------------------------- */
+
+/* The points that are drawn, and how far each is from its neighbours.  Groups of near points are
+   found by halves of halves: no outlier makes them slow, as it would the cells of a grid. */
+typedef struct points_spread {
+    const float *place; /* of point i: place[i * step] and the two floats behind it */
+    size_t step, count;
+    uint32_t *order; /* the points, group by group */
+    float *apart;
+    uint32_t seed;
+} points_spread;
+
+/* Orders the points from .. end - 1 so that none before nth has a larger key than it, and none
+   behind it a smaller one; point i has key[i * step]. */
+static inline void points_select(points_spread *s, const float *key, size_t step, size_t from,
+                                 size_t end, size_t nth)
+{
+    uint32_t *order = s->order;
+    while (end - from > 1) {
+        size_t low = from, high = end; /* one behind */
+        float pivot;
+        s->seed = s->seed * 1664525 + 1013904223; /* no file can make every pivot a bad one */
+        pivot = key[order[from + (s->seed >> 8) % (end - from)] * step];
+        while (low < high) {
+            uint32_t moved;
+            while (key[order[low] * step] < pivot) low++;
+            while (key[order[high - 1] * step] > pivot) high--;
+            if (low >= high) break;
+            moved = order[low];
+            order[low++] = order[high - 1];
+            order[--high] = moved;
+        }
+        if (nth >= low)
+            from = low;
+        else if (nth < high)
+            end = high;
+        else
+            return;
+    }
+}
+
+/* The distance from point a to the third nearest of its group, or to the last where they are fewer;
+   those in its very place do not count. */
+static inline float points_apart(const points_spread *s, size_t a, size_t from, size_t end)
+{
+    double near[POINTS_NEAR];
+    int found = 0;
+    for (size_t b = from; b < end; b++) {
+        const float *p = s->place + a * s->step, *q = s->place + s->order[b] * s->step;
+        const double x = (double)p[0] - (double)q[0], y = (double)p[1] - (double)q[1];
+        const double z = (double)p[2] - (double)q[2], square = x * x + y * y + z * z;
+        int k;
+        if (square <= 0 || (found == POINTS_NEAR && square >= near[POINTS_NEAR - 1])) continue;
+        k = found < POINTS_NEAR ? found++ : POINTS_NEAR - 1;
+        for (; k > 0 && near[k - 1] > square; k--) near[k] = near[k - 1];
+        near[k] = square;
+    }
+    return found ? (float)fmin(sqrt(near[found - 1]), (double)FLT_MAX) : 0;
+}
+
+/* The box around some points.  Returns its longest axis, and its diagonal in *diagonal. */
+static inline size_t points_box(const points_spread *s, size_t from, size_t end, double *diagonal)
 {
     double low[3] = { 1e300, 1e300, 1e300 }, high[3] = { -1e300, -1e300, -1e300 }, square = 0;
-    const double part = 0.3 / sqrt((double)(n / step + 1));
-    for (size_t i = 0; i < n; i += step) {
+    size_t longest = 0;
+    for (size_t i = from; i < end; i++) {
         for (size_t k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], (double)p[3 * i + k]);
-            high[k] = fmax(high[k], (double)p[3 * i + k]);
+            const double at = (double)s->place[s->order[i] * s->step + k];
+            low[k] = fmin(low[k], at);
+            high[k] = fmax(high[k], at);
         }
     }
-    for (int k = 0; k < 3; k++) square += (high[k] - low[k]) * (high[k] - low[k]);
-    return square > 0 ? sqrt(square) * fmin(0.02, fmax(0.001, part)) : 1;
+    for (size_t k = 0; k < 3; k++) {
+        square += (high[k] - low[k]) * (high[k] - low[k]);
+        if (high[k] - low[k] > high[longest] - low[longest]) longest = k;
+    }
+    *diagonal = sqrt(square);
+    return longest;
 }
+
+/* Cuts the points across their longest axis, so many tenths on one side, until they are groups. */
+static inline void points_part(points_spread *s, size_t from, size_t end, size_t tenths)
+{
+    const size_t cut = from + (end - from) * tenths / 10;
+    double diagonal;
+    if (end - from <= POINTS_GROUP) {
+        for (size_t i = from; i < end; i++) {
+            const uint32_t at = s->order[i];
+            const float apart = points_apart(s, at, from, end);
+            if (s->apart[at] <= 0 || (apart > 0 && apart < s->apart[at])) s->apart[at] = apart;
+        }
+        return;
+    }
+    points_select(s, s->place + points_box(s, from, end, &diagonal), s->step, from, end, cut);
+    points_part(s, from, cut, tenths);
+    points_part(s, cut, end, tenths);
+}
+
+/* Makes the distances radii: so large that the balls of a surface cover it, and between two bounds,
+   of which one keeps those of a solid apart.  Returns the radius in the middle of all. */
+static inline double points_radii(points_spread *s)
+{
+    double diagonal, typical, least, most;
+    for (size_t i = 0; i < s->count; i++) s->order[i] = (uint32_t)i;
+    points_box(s, 0, s->count, &diagonal);
+    points_part(s, 0, s->count, 5);
+    points_part(s, 0, s->count, 4); /* who was at the edge of a group is within one now */
+    points_select(s, s->apart, 1, 0, s->count, s->count / 2);
+    typical = fmax(POINTS_PART * (double)s->apart[s->order[s->count / 2]], 0.001 * diagonal);
+    typical = diagonal > 0 ? fmin(typical, 0.03 * diagonal) : 1;
+    least = fmax(typical / 4, 0.001 * diagonal);
+    most = fmax(typical, fmin(typical * 5, 0.03 * diagonal));
+    for (size_t i = 0; i < s->count; i++)
+        s->apart[i] = (float)fmax(least, fmin(POINTS_PART * (double)s->apart[i], most));
+    return typical;
+}
+
+/* ---- the model ------------------------------------------------------------------------------- */
 
 /* Drops the points that are not finite from the mesh of a model, and returns how many stay. */
 static inline size_t points_keep(mesh_reader *r, model *m, size_t n)
@@ -45,22 +151,28 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
                                          { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
     const size_t room = r->most && r->most / 8 < POINTS_MOST ? r->most / 8 : POINTS_MOST;
     const size_t step = room ? (n + room - 1) / room : 1, kept = (n + step - 1) / step;
-    const double radius = points_radius(m->mesh.positions, n, step);
     const owned_mesh from = m->mesh;
+    points_spread spread = { .place = from.positions,
+                             .step = 3 * step,
+                             .count = kept,
+                             .order = (uint32_t *)malloc(kept * sizeof(uint32_t)),
+                             .apart = (float *)calloc(kept, sizeof(float)) };
     owned_mesh to = { .positions = (float *)malloc(kept * 18 * sizeof(float)),
                       .normals = (float *)calloc(kept, 18 * sizeof(float)),
                       .colors = from.colors ? (float *)malloc(kept * 18 * sizeof(float)) : NULL,
                       .indices = (uint32_t *)malloc(kept * sizeof face) };
+    const double radius = spread.order && spread.apart ? points_radii(&spread) : 0;
+    const int enough = radius > 0 && to.positions && to.normals && to.indices;
     m->mesh = to;
     m->part = (model_part *)calloc(1, sizeof *m->part);
-    for (size_t i = 0; i < kept && to.positions && to.normals && to.indices; i++) {
+    for (size_t i = 0; i < kept && enough; i++) {
         const size_t at = 3 * i * step;
         for (size_t c = 0; c < 6; c++) {
             float *p = to.positions + 18 * i + 3 * c, *N = to.normals + 18 * i + 3 * c;
             double place;
             memcpy(p, from.positions + at, 3 * sizeof *p);
             N[c / 2] = c % 2 ? -1.0f : 1.0f;
-            place = (double)p[c / 2] + radius * (double)N[c / 2];
+            place = (double)p[c / 2] + (double)spread.apart[i] * (double)N[c / 2];
             p[c / 2] = (float)fmax(-(double)FLT_MAX, fmin(place, (double)FLT_MAX));
             if (to.colors) memcpy(to.colors + 18 * i + 3 * c, from.colors + at, 3 * sizeof *p);
         }
@@ -69,15 +181,16 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
     }
     free(from.positions);
     free(from.colors);
-    if (!m->part || !to.positions || !to.normals || !to.indices || (from.colors && !to.colors))
-        return mesh_fail(r, "out of memory");
+    free(spread.order);
+    free(spread.apart);
+    if (!m->part || !enough || (from.colors && !to.colors)) return mesh_fail(r, "out of memory");
     if (mesh_check_triangles(r, 8 * kept)) return 1;
     mesh_link(&m->mesh, 6 * (int)kept, 24 * (int)kept);
     m->part->count = 24 * (int)kept;
     m->part_count = m->normals_given = 1;
     snprintf(m->note, sizeof m->note,
              "%lu points have no faces: they are drawn as small balls of "
-             "radius %.3g",
+             "radius %.3g or so",
              (unsigned long)n, radius);
     if (step > 1)
         snprintf(m->note + strlen(m->note), sizeof m->note - strlen(m->note), ", one of %lu",

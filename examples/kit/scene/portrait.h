@@ -33,7 +33,7 @@ typedef struct portrait {
 static inline portrait portrait_new(void)
 {
     portrait p = { .width = 512, .height = 512, .samples = 2 };
-    p.rotate = shade_radians(30);
+    p.rotate = shade_radians(MODEL_FIRST_TURN);
     return p;
 }
 
@@ -94,7 +94,7 @@ static inline float portrait_turn(const portrait *p, const model_options *how)
 static inline shade_vec3 camera_toward(const model_options *how)
 {
     const shade_vec4 e = shade_mat4_rotation(how->elevation, shade_v3(1, 0, 0)).col[1];
-    return how->viewed ? shade_v3(0, e.z, e.y) : shade_v3(0, 0.36f, 1);
+    return how->viewed ? shade_v3(0, e.z, e.y) : shade_v3(0, MODEL_FIRST_RISE, 1);
 }
 
 /* The camera looks along a fixed direction, the model has been turned.  Every point must lie inside

@@ -83,9 +83,8 @@ static const scene_choice scene_choices[CHOICES] = {
 static const char *const scene_help[] = { SCENE_KEYS(SCENE_HELP_LINE) };
 enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
 
-#define SCENE_PITCH 0.36f /* the camera looks down by this angle, in radians, */
-#define SCENE_LENS 0.42f  /* and sees this vertical angle */
-#define SCENE_FAR 1.5f    /* the farthest place of the model, in half heights of the picture */
+#define SCENE_LENS 0.42f /* the vertical angle that the camera sees, in radians */
+#define SCENE_FAR 1.5f   /* the farthest place of the model, in half heights of the picture */
 #define SCENE_USAGE                                                                                \
     "  --again STATE         as the key p of view has said: AZIMUTH,ELEVATION,ZOOM,RIGHT,UP and\n" \
     "                        keys; what --view frames and cuts stays\n"
@@ -150,11 +149,11 @@ static inline void frame_rate_count(frame_rate *f, double now)
 /* How the model stands after loading */
 static inline float scene_home_yaw(const scene *s)
 {
-    return s->how.viewed ? -s->how.azimuth : -0.5f;
+    return s->how.viewed ? -s->how.azimuth : shade_radians(MODEL_FIRST_TURN);
 }
 static inline float scene_home_pitch(const scene *s)
 {
-    return s->how.viewed ? s->how.elevation : SCENE_PITCH;
+    return s->how.viewed ? s->how.elevation : (float)atan((double)MODEL_FIRST_RISE);
 }
 
 /* From where the camera sees it then */
