@@ -55,6 +55,19 @@ ln -s "$OLDPWD/tests/scripts" "$T/run/tests/scripts"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/packages/python"
 check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/tests"
+
+# objects that come and go, by a library that stops where memory or behaviour is undefined
+address=$(gcc -print-file-name=libasan.so 2>/dev/null) undefined=$(gcc -print-file-name=libubsan.so 2>/dev/null)
+if [ -f "$address" ] && [ -f "$undefined" ]; then
+    mkdir "$T/checked"
+    cp -R "$P/shade_h" "$T/checked"
+    check "the library with sanitizers" gcc -O1 -w -std=gnu99 -D_DEFAULT_SOURCE -ffp-contract=off \
+        -fsanitize=address,undefined -fno-sanitize-recover=undefined -I"$T/tree" -I"$P" -shared -fPIC \
+        -o "$T/checked/shade_h/libshade.so" "$P/library.c" -lm -pthread
+    check "no undefined behaviour in a Renderer" env ASAN_OPTIONS=detect_leaks=0 \
+        LD_PRELOAD="$address $undefined" PYTHONPATH="$T/checked" $python -m pytest -q -p no:cacheprovider \
+        "$T/run/examples/packages/python/tests/test_living.py" -k "not thousand"
+else left_out "the library with sanitizers: no libasan"; fi
 check "the scenes of bench/python.py are drawn" sh -c "
     $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"
 check "the scenes of bench/robots.py are drawn" sh -c "

@@ -1784,11 +1784,11 @@ static inline int renderer_is_known(renderer *r, const renderer_picture *p, cons
     const size_t bytes = (size_t)p->object_count * sizeof *p->objects;
     if (r->known && r->known_count == p->object_count && r->known_tolerance == p->tolerance &&
         r->known_serial == s->serial && r->known_version == s->version &&
-        !memcmp(r->known, p->objects, bytes))
+        (!bytes || !memcmp(r->known, p->objects, bytes)))
         return 1;
     r->known = (renderer_object *)renderer_room(r->known, &r->room[4], bytes + 1);
     if (!r->known) return -1;
-    memcpy(r->known, p->objects, bytes);
+    if (bytes) memcpy(r->known, p->objects, bytes);
     r->known_count = p->object_count;
     r->known_tolerance = p->tolerance;
     r->known_serial = s->serial;
