@@ -37,8 +37,7 @@ enum { /* renderer_object.flags */
        RENDERER_HIDDEN = 1,
        RENDERER_TWO_SIDED = 2,
        RENDERER_CASTS_NO_SHADOW = 4,
-       RENDERER_BLENDED =
-           8 /* the alpha of its texture counts, as that of its colour does below 1 */
+       RENDERER_BLENDED = 8 /* by the alpha of its texture too */
 };
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
@@ -71,7 +70,7 @@ typedef struct renderer_picture {
     int32_t parallel; /* non-zero: the projection is orthographic */
     int32_t object_count, light_count;
     int32_t shadows;             /* bit k: lamp k, directional or a spot, casts shadows */
-    int32_t sky, sky_texture;    /* RENDERER_SKY_...; what was added by renderer_add_cube */
+    int32_t sky, sky_texture;    /* RENDERER_SKY_...; the number of a cube */
     float near_z, far_z;         /* far_z from 1e30 on: there is none */
     float empty_depth;           /* the depth of pixels that show nothing */
     float tolerance;             /* pixels that round shapes may lie inside of the true ones */
@@ -610,8 +609,9 @@ static inline int renderer_set_objects(renderer_scene *s, const renderer_object 
     int most = 0, *record;
     for (int i = 0; i < count; i++) most = from[i].id > most ? from[i].id : most;
     record = (int *)renderer_reach_to(s->record, &s->number_count, most, sizeof *record);
-    if (!record || !renderer_object_room(s, count)) return 0;
+    if (!record) return 0;
     s->record = record;
+    if (!renderer_object_room(s, count)) return 0;
     if (count) memcpy(s->objects, from, (size_t)count * sizeof *from);
     s->object_count = count;
     renderer_number(s);
