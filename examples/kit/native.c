@@ -212,8 +212,7 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
         shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
     for (int k = 0; k < 3 && p->view->bent && !p->look; k++) SHADE_EACH_LANE(i)
         {
-            const float light = out->color[k][i];
-            out->color[k][i] = light > SHOULDER ? shoulder(light) : light;
+            out->color[k][i] = shoulder(out->color[k][i]);
         }
     if (p->item->state.diffuse_map)
         SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);

@@ -45,8 +45,8 @@ static int look_has_shadows(const model_options *o)
 #define SHOULDER 0.6f
 static float shoulder(float light)
 {
-    float over = (light - SHOULDER) / 0.5f;
-    return SHOULDER + 0.5f * over / (1 + over);
+    const float over = (light - SHOULDER) / 0.5f;
+    return light > SHOULDER ? SHOULDER + 0.5f * over / (1 + over) : light;
 }
 
 static float component(shade_vec3 v, int a) { return a == 0 ? v.x : a == 1 ? v.y : v.z; }
@@ -129,7 +129,7 @@ static void look_light(const look *k, const float *P, const float *N, const floa
             float light = out[a][i] + mirror[a][i];
             light += own * (ambient * sky[a][i] + emission);
             light += glow ? glow[i + a * SHADE_LANES] : 0;
-            out[a][i] = light > SHOULDER ? shoulder(light) : light;
+            out[a][i] = shoulder(light);
         }
     }
 }

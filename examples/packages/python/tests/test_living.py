@@ -1,11 +1,10 @@
 """A Renderer whose objects, shapes and textures come, change and go."""
-import os
 import pickle
 
 import numpy as np
 import pytest
 import shade_h as shade
-from test_renderer import crowd, eyes, rays, turned
+from test_renderer import crowd, eyes, rays, resident, turned
 
 EYE = eyes(1)[0]
 SHAPES = {"sphere": 0.3, "box": (0.2, 0.3, 0.1), "capsule": (0.1, 0.3), "cylinder": (0.2, 0.2),
@@ -274,15 +273,6 @@ def test_a_batch_is_the_pictures_one_by_one():
 
 
 def test_a_thousand_scenes_leave_the_process_as_large_as_it_was():
-    try:
-        with open("/proc/self/statm", encoding="ascii") as told:
-            told.read()
-    except OSError:
-        pytest.skip("this system does not tell the size of a process")
-
-    def resident():
-        with open("/proc/self/statm", encoding="ascii") as told:
-            return int(told.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     made, rng = shade.Renderer(64, 64), np.random.default_rng(1)
 
     def scene():

@@ -559,17 +559,17 @@ def test_a_notebook_shows_the_outputs_side_by_side():
     assert (empty.picture().rgba[:, 4:, :3] == 0).all()
 
 
-def test_many_pictures_leave_the_process_as_large_as_it_was():
-    """LONG=1 draws 100,000; the size of the process is that which the system tells."""
+def resident():
+    """The size of this process in memory, where the system tells it."""
     try:
         with open("/proc/self/statm", encoding="ascii") as told:
-            told.read()
+            return int(told.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     except OSError:
         pytest.skip("this system does not tell the size of a process")
 
-    def resident():
-        with open("/proc/self/statm", encoding="ascii") as told:
-            return int(told.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+def test_many_pictures_leave_the_process_as_large_as_it_was():
+    """LONG=1 draws 100,000."""
     made, cameras = crowd(24, 32), eyes(5)
     made.render(cameras[0])
     out = made.frame(normals=True)
