@@ -29,7 +29,7 @@ void test_list(test_case *item);
 /* Opens a case, whose name is the property that it asserts, and lists it. */
 #define TEST(section, name)                                                                        \
     static void section##__##name(void);                                                           \
-    BEFORE_MAIN(section##__##name##_is_listed)                                                     \
+    BEFORE_MAIN(section##__##name##_is_listed, 65535)                                              \
     {                                                                                              \
         static test_case item = { #section, #name, section##__##name, NULL };                      \
         test_list(&item);                                                                          \
