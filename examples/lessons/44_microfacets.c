@@ -69,11 +69,13 @@ int main(int argc, char **argv)
     sketch_paper(&c);
     for (int i = 0; i < 3; i++) {
         sketch s = sketch_new(&c, 172 + 308 * i, 205, UNIT);
+        char caption[64];
         canvas_fill(&c.target, 3 * (s.x - 140), 3 * 205, 3 * 280, 3 * 100, body);
         for (int k = 0; k < DRAWN; k++) draw_ray(&s, k, L, roughness[i]);
         label_center(&c, s.x, 342, 22, black, name[i]);
-        label_print(&c, s.x - 85, 376, 21, i < 2 ? shade_scale(amber, 0.5f) : teal, format[i],
-                    spread(L, roughness[i], i < 2 ? shade_mirror(L, N) : N));
+        snprintf(caption, sizeof caption, format[i],
+                 spread(L, roughness[i], i < 2 ? shade_mirror(L, N) : N));
+        label_center(&c, s.x, 376, 21, i < 2 ? shade_scale(amber, 0.5f) : teal, caption);
     }
     return canvas_save(&c, argc, argv, "microfacets.ppm");
 }

@@ -234,6 +234,17 @@ end
 local function unlinked(blocks)
     return with_links(blocks, function(link) return is_live(link) and link.content or nil end)
 end
+-- What a slide has room for below an answer: its own listing, or else those of the answer.
+local function listed(listing, blocks)
+    local listings, rest = pandoc.List(), pandoc.List()
+    if not listing then return listings, blocks end
+    if select(2, listing.text:gsub('\n', '')) < 11 then return pandoc.List{ listing }, blocks end
+    for _, block in ipairs(blocks) do
+        local moves = block.t == 'CodeBlock' and not block.classes:includes('c')
+        if moves then listings:insert(block) else rest:insert(block) end
+    end
+    return listings, rest
+end
 local function notes(slide)
     local out = pandoc.List{ html('<aside class="notes">') }
     for _, ask in ipairs(slide.questions) do
@@ -279,13 +290,14 @@ local function sections(heading, slide)
         local first = live_links(ask.question)[1] or slide.links[1] or links[1]
         local asked = { picture = slide.picture, with = slide.with, links = pandoc.List{ first } }
         local answer = pandoc.List{ html('<div class="statement"><div class="fragment answer">') }
-        answer:extend(moving(ask.answer, asked))
+        local listing = slide.listings[1]
+        local below, said = listed(listing, ask.answer)
+        answer:extend(moving(said, asked))
         answer:insert(html('</div>'))
-        local listing = slide.listings[1]               -- below the answer, where there is room for it
         local picture = not listing and figure(asked)
         local class = 'ask ' .. (picture and layout(asked) or 'words')
         local inlines = unlinked(ask.question)[1].content
-        if listing and select(2, listing.text:gsub('\n', '')) < 11 then answer:insert(listing) end
+        answer:extend(below)
         answer:insert(html('</div>'))
         out:extend(section(class, inlines, place,
             { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))
