@@ -38,13 +38,16 @@ int main(int argc, char **argv)
     const shade_vec3 white = { 1, 1, 1 }, half_white = { 0.45f, 0.45f, 0.45f }, none = { 0, 0, 0 };
     const shade_vec3 copper = { 0.95f, 0.45f, 0.22f }, blue = { 0.02f, 0.10f, 0.45f };
     const shade_vec3 teal = { 0.03f, 0.2f, 0.22f }, gloss = { 0.55f, 0.55f, 0.55f };
-    const shade_material metal = { none, shade_scale(copper, 0.04f), shade_scale(copper, 0.1f),
-                                   shade_scale(copper, 0.8f), 100 };
+    const shade_material metal = { none, shade_scale(copper, 0.2f), shade_scale(copper, 0.1f),
+                                   shade_scale(copper, 0.8f), 32 };
     const shade_material plastic = { none, shade_scale(blue, 0.1f), blue, half_white, 30 };
     const shade_material planet = { none, { .05f, .05f, .05f }, { .94f, .94f, .94f }, none, 0 };
     shade_material glossy = { none, teal, teal, gloss, 0 };
-    const shade_light lamp[2] = { shade_directional_light(shade_v3(0.5f, -0.6f, -1), white),
-                                  shade_directional_light(shade_v3(-1, -0.2f, 0.3f), white) };
+    const shade_light lamp[] = { shade_directional_light(shade_v3(0.5f, -0.6f, -1), white),
+                                 shade_directional_light(shade_v3(-1, -0.2f, 0.4f), white),
+                                 shade_directional_light(shade_v3(0.9f, 0.2f, 0.6f), white),
+                                 shade_directional_light(shade_v3(0.1f, -1, 0.8f), white),
+                                 shade_directional_light(shade_v3(-0.1f, 1, 1), half_white) };
     const shade_texture earth = { .pixels = map, .width = 512, .height = 256,
                                   .format = SHADE_FORMAT_RGBA32F };
     shade_draw_state state = { .lighting = { lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
@@ -59,11 +62,11 @@ int main(int argc, char **argv)
     for (int i = 0, n = 1; i < 5; i++, n *= 4) {
         glossy.shininess = (float)n;
         sprintf(name, "(N·H)^{%d}", n);
-        sprintf(text, n > 1 ? "half at %.1f°" : "half at %.1f°; rim: B", half_angle((float)n));
+        sprintf(text, n > 1 ? "half at %.1f°" : "half at %.1f°, cut by B", half_angle((float)n));
         ball(&c, &mesh, &state, 96 + 192 * i, 8, 184, name, text);
     }
     state.material = &metal;
-    state.lighting.light_count = 2;    /* metal shows what is around it */
+    state.lighting.light_count = 5;    /* metal shows what is around it */
     sprintf(text, "n = %g, k_s = %g k_d", (double)metal.shininess,
             (double)(metal.specular.x / metal.diffuse.x));
     ball(&c, &mesh, &state, 160, 256, 264, "metal", text);
