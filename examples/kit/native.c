@@ -8,7 +8,7 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "examples/kit/read/files.h"
+#include "examples/kit/image/pictures.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
 #include "examples/kit/scene/stand.h"
@@ -31,6 +31,10 @@ typedef struct python_item { /* a mesh in its place */
     int blended;                 /* drawn over what is there; notes and depth leave it out */
     float opacity, alpha_cutoff; /* less alpha is discarded; 0: none */
     float metal, rough;          /* in the studio, as of a look; rough 0: by the shininess */
+    const shade_texture *relief, *glow_map; /* NULL: none */
+    float relief_strength;                  /* as in a model_relief */
+    int relief_heights;
+    shade_vec3 glow; /* a factor of glow_map */
 } python_item;
 
 typedef struct python_view {              /* a camera and where its picture goes */
@@ -65,178 +69,46 @@ typedef struct python_job {
 
 /* ---- what a pixel shows ---------------------------------------------------------------------- */
 
-typedef struct painter { /* of one mesh in one band */
+typedef struct notes { /* of one item in one band */
     const python_view *view;
-    const python_item *item;
-    shade_lighting lighting;
-    shade_vec3 eye;
-    shade_mat4 clip, world; /* from object space */
-    shade_mat3 normal;
-    int step;         /* samples along the edge of a pixel; 0: nothing is noted */
-    const look *look; /* of the surface in the studio; NULL: lit by lighting */
-    const shade_mat4 *to_studio;
-    int uv; /* the varying that u is; 0: there is no map */
-} painter;
+    int id, step, has_holes; /* step: samples along the edge of a pixel */
+} notes;
 
-static void fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
+static void note_normal(float *to, const look *k, const shade_fragments *in, int i)
 {
-    for (int i = 0; i < SHADE_LANES; i++) {
-        const float *p = from + (size_t)width * in->index[i];
-        for (int k = 0; k < width; k++) rows[k * SHADE_LANES + i] = p[k];
-    }
-}
-
-/* Varyings: P and N in the world, then the colour of vertices and the place in the map, where there
-   are any. */
-static void place(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                  shade_vertices *SHADE_RESTRICT out)
-{
-    const painter *p = (const painter *)uniforms;
-    const shade_mesh *mesh = &p->item->mesh;
-    float P[3][SHADE_LANES], N[3][SHADE_LANES];
-    fetch(mesh->positions, 3, in, P[0]);
-    fetch(mesh->normals, 3, in, N[0]);
-    SHADE_EACH_LANE(i)
-    {
-        const shade_vec4 at = shade_v4(P[0][i], P[1][i], P[2][i], 1);
-        const shade_vec4 clip = shade_mat4_transform(p->clip, at);
-        const shade_vec4 world = shade_mat4_transform(p->world, at);
-        out->clip[0][i] = clip.x;
-        out->clip[1][i] = clip.y;
-        out->clip[2][i] = clip.z;
-        out->clip[3][i] = clip.w;
-        out->varying[0][i] = world.x;
-        out->varying[1][i] = world.y;
-        out->varying[2][i] = world.z;
-    }
-    SHADE_EACH_LANE(i)
-    {
-        const shade_vec3 n = shade_mat3_transform(p->normal, shade_v3(N[0][i], N[1][i], N[2][i]));
-        const shade_vec3 unit = shade_normalize(n);
-        out->varying[3][i] = unit.x;
-        out->varying[4][i] = unit.y;
-        out->varying[5][i] = unit.z;
-    }
-    if (mesh->colors) fetch(mesh->colors, 3, in, out->varying[6]);
-    if (p->uv) fetch(mesh->texcoords, 2, in, out->varying[p->uv]);
-}
-
-static void note_normal(float *to, const shade_fragments *in, int i)
-{
-    shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+    shade_vec3 N = lane(in->varying[LOOK_N], i);
+    if (k->relief.map) N = shade_mat3_transform(k->normals, N);
     N = shade_scale(shade_normalize(N), in->front[i] ? 1.0f : -1.0f);
     SHADE_MEMCPY(to, &N, sizeof N);
 }
 
 /* Notes what lies at the centre of a pixel.  Fragments of a surface with holes have not been tested
    for depth yet: the nearest stays, where depth is noted. */
-static void note_pixel(const painter *p, const shade_fragments *in, int i, size_t at)
+static void note_pixel(const look *k, const shade_fragments *in, int i, size_t at)
 {
-    const python_view *v = p->view;
+    const notes *n = (const notes *)k->noted;
+    const python_view *v = n->view;
     const shade_mat4 *m = &v->view;
     const float depth = -(m->col[0].z * in->varying[0][i] + m->col[1].z * in->varying[1][i] +
                           m->col[2].z * in->varying[2][i] + m->col[3].z);
-    if (p->item->alpha_cutoff > 0 && v->depth && depth > v->depth[at]) return;
-    if (v->ids) v->ids[at] = p->item->id;
+    if (n->has_holes && v->depth && depth > v->depth[at]) return;
+    if (v->ids) v->ids[at] = n->id;
     if (v->depth) v->depth[at] = depth;
-    if (v->normals) note_normal(v->normals + 3 * at, in, i);
+    if (v->normals) note_normal(v->normals + 3 * at, k, in, i);
 }
 
 /* Of a surface without holes only fragments that pass the depth test come here, the nearest of a
    pixel last.  Others are tested after the shader, so that here the nearest counts. */
-static void note(const painter *p, const shade_fragments *in, const shade_colors *colors)
+static void note(const look *k, const shade_fragments *in, const shade_colors *colors)
 {
+    const notes *n = (const notes *)k->noted;
+    const int step = n->step;
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
         if (colors->discard[i]) continue;
-        if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
-        note_pixel(p, in, i,
-                   (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
+        if (step > 1 && (x % step != step / 2 || y % step != step / 2)) continue;
+        note_pixel(k, in, i, (size_t)(y / step) * (size_t)n->view->width + (size_t)(x / step));
     }
-}
-
-/* The colours of the map times those of the vertices */
-static const float *albedo_of(const painter *p, const shade_fragments *in, float *texels)
-{
-    const shade_texture *map = p->item->state.diffuse_map;
-    const float *tint = p->item->mesh.colors ? in->varying[6] : NULL;
-    if (!map) return tint;
-    shade_sample_lanes(map, in->varying[p->uv], in->varying[p->uv + 1], in->lod, texels);
-    for (int k = 0; k < 3 && tint; k++) SHADE_EACH_LANE(i)
-        {
-            texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i];
-        }
-    return texels;
-}
-
-static void cut_out(float cutoff, shade_colors *out)
-{
-    SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] < cutoff; }
-}
-
-/* The thumbnail's light at places of the world */
-static void paint_in_studio(const painter *p, const shade_rows *rows, int count, float *rgb)
-{
-    look_rows P, N, white;
-    SHADE_EACH_LANE(i)
-    {
-        const shade_vec3 at = shade_v3(rows->position[i], rows->position[i + SHADE_LANES],
-                                       rows->position[i + 2 * SHADE_LANES]);
-        const shade_vec3 n = shade_v3(rows->normal[i], rows->normal[i + SHADE_LANES],
-                                      rows->normal[i + 2 * SHADE_LANES]);
-        lane_put(P[0], i, shade_mat4_transform_point(*p->to_studio, at));
-        lane_put(N[0], i, shade_mat4_transform_direction(*p->to_studio, n));
-        lane_put(white[0], i, shade_v3(1, 1, 1));
-    }
-    look_light(p->look, P[0], N[0], rows->albedo ? rows->albedo : white[0], NULL, count,
-               (float(*)[SHADE_LANES])rgb);
-}
-
-/* Lights front faces by their normals as they are: turned to the viewer, they would leave dark
-   specks along the outline of a coarse mesh.  Back faces have the opposite normals. */
-static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                  shade_colors *SHADE_RESTRICT out)
-{
-    const painter *p = (const painter *)uniforms;
-    float texels[4 * SHADE_LANES], normal[3 * SHADE_LANES];
-    shade_rows rows = { .position = in->varying[0], .normal = normal };
-    for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
-        {
-            normal[k * SHADE_LANES + i] =
-                in->front[i] ? in->varying[3 + k][i] : -in->varying[3 + k][i];
-        }
-    rows.albedo = albedo_of(p, in, texels);
-    if (p->look)
-        paint_in_studio(p, &rows, in->count, out->color[0]);
-    else
-        shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
-    for (int k = 0; k < 3 && p->view->bent && !p->look; k++) SHADE_EACH_LANE(i)
-        {
-            out->color[k][i] = shoulder(out->color[k][i]);
-        }
-    if (p->item->state.diffuse_map)
-        SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
-    if (p->item->alpha_cutoff > 0) cut_out(p->item->alpha_cutoff, out);
-    if (p->item->blended) SHADE_EACH_LANE(i)
-        {
-            out->color[3][i] *= p->item->opacity;
-        }
-    else if (p->step)
-        note(p, in, out);
-}
-
-/* Notes alone, where colours have no sample at the centre of a pixel */
-static void survey(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                   shade_colors *SHADE_RESTRICT out)
-{
-    const painter *p = (const painter *)uniforms;
-    float texels[4 * SHADE_LANES];
-    if (p->item->alpha_cutoff > 0) {
-        albedo_of(p, in, texels);
-        SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
-        cut_out(p->item->alpha_cutoff, out);
-    }
-    note(p, in, out);
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
@@ -272,96 +144,98 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
-/* The surface of an item; a viewer at infinity is far away. */
-static look look_of(const light_studio *s, const python_view *v, const python_item *item)
+/* What the items of a view have in common; a viewer at infinity is far away in the studio. */
+static look look_of(const python_view *v, const light_studio *s)
 {
-    const shade_material *material = item->state.material;
-    const shade_mat4 eye = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
-    look k = { .studio = &s->light, .material = *material, .emission = material->emission };
-    k.material.emission = shade_v3(0, 0, 0);
-    k.metal = item->metal;
-    k.rough = item->rough > 0 ? item->rough : model_roughness(material->shininess);
-    k.lighting.lights = s->light.lamp;
-    k.lighting.light_count = 2;
-    k.shadows = k.mirrors = 1;
-    k.eye = shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
-    if (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
-        k.eye = shade_mat4_transform_direction(eye, shade_v3(0, 0, 1));
-        k.eye = shade_scale(shade_normalize(k.eye), 1e4f);
+    const int endless = (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
+    shade_mat4 eye = shade_mat4_inverse(v->view);
+    look k = { .lighting = v->lighting, .placed = 1, .clipped = !v->bent };
+    if (s) {
+        eye = shade_mat4_mul(s->from_world, eye);
+        k.studio = &s->light;
+        k.to_studio = &s->from_world;
+        k.lighting = (shade_lighting){ .lights = s->light.lamp, .light_count = 2 };
+        k.shadows = k.mirrors = 1;
+        k.clipped = 0;
     }
+    k.eye = endless ? shade_mat4_transform_direction(eye, shade_v3(0, 0, 1))
+                    : shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
+    if (endless && s) k.eye = shade_scale(shade_normalize(k.eye), 1e4f);
     return k;
 }
 
-static painter painter_of(const python_view *v, int step)
+/* The surface of an item in its place */
+static void look_dress_item(look *k, const python_item *item, const shade_draw_state *state)
 {
-    const shade_mat4 eye = shade_mat4_inverse(v->view);
-    painter p = { .view = v, .lighting = v->lighting, .step = step };
-    p.eye = v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
-                ? shade_mat4_transform_direction(eye, shade_v3(0, 0, 1))
-                : shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
-    return p;
+    const shade_material *material = item->state.material;
+    k->material = *material;
+    k->metal = item->metal;
+    k->rough = item->rough > 0 ? item->rough : model_roughness(material->shininess);
+    k->map = state->diffuse_map;
+    k->relief = (relief){ .map = item->relief,
+                          .strength = item->relief_strength,
+                          .heights = item->relief_heights };
+    if (k->relief.map) k->relief.finer = texture_finer(k->relief.map, k->map);
+    k->glow_map = item->glow_map;
+    k->glow = item->glow;
+    k->alpha = item->blended ? item->opacity : 1;
+    k->alpha_cutoff = item->alpha_cutoff;
+    k->raster = state->raster;
+    k->to_world = state->model;
+    k->normals = shade_normal_matrix(state->model);
+    k->clip_from_mesh =
+        shade_mat4_mul(shade_mat4_mul(state->projection, state->view), state->model);
 }
 
 /* Draws runs of chunks that can be seen; a mesh without chunks whole. */
-static shade_result draw_chunks(const shade_target *target, const shade_mesh *mesh,
-                                const shade_pipeline *pipe, shade_mat4 clip)
+static shade_result draw_chunks(const shade_target *target, look *k, const shade_mesh *mesh)
 {
     const shade_chunk *c = mesh->chunks, *end = c + (c ? mesh->chunk_count : 0);
     shade_result result = SHADE_OK;
-    if (!c)
-        return shade_draw(target, pipe, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+    if (!c) return look_draw(target, k, mesh, 0, mesh->index_count / 3);
     while (c < end && !result) {
         const int first = c->first;
         int count = 0;
-        for (; c < end && shade_box_visible(target, clip, 0, c->low, c->high); c++)
+        for (; c < end && shade_box_visible(target, k->clip_from_mesh, 0, c->low, c->high); c++)
             count += c->count;
-        if (count)
-            result = shade_draw(target, pipe, mesh->indices + 3 * (size_t)first, 3 * count,
-                                mesh->vertex_count, NULL);
+        if (count) result = look_draw(target, k, mesh, first, count);
         c += !count;
     }
     return result;
 }
 
-static shade_result draw_meshes(const shade_target *target, const python_job *job, painter p,
-                                shade_fragment_shader *fragment)
+/* step: samples along the edge of a pixel, of which one is noted; 0: nothing is */
+static shade_result draw_meshes(const shade_target *target, const python_job *job,
+                                const python_view *v, int step, int unlit)
 {
     shade_result result = SHADE_OK;
-    look in_studio = { .rough = 1 };
-    if (job->studio) p.to_studio = &job->studio->from_world;
+    look k = look_of(v, job->studio);
+    k.unlit = unlit;
     for (int i = 0; i < job->item_count && !result; i++) {
-        const shade_draw_state state = item_state(job->items, p.view, i);
-        const shade_mesh *mesh = &job->items[i].mesh;
-        shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
-        if (job->studio) in_studio = look_of(job->studio, p.view, &job->items[i]);
-        p.look = job->studio ? &in_studio : NULL;
-        if (fragment == survey && job->items[i].blended) continue;
-        p.item = &job->items[i];
-        pipe.may_discard = p.item->alpha_cutoff > 0;
-        p.world = state.model;
-        p.clip = shade_mat4_mul(shade_mat4_mul(state.projection, state.view), state.model);
-        p.normal = shade_normal_matrix(state.model);
-        p.uv = !state.diffuse_map ? 0 : mesh->colors ? 9 : 6;
-        pipe.varyings = p.uv ? p.uv + 2 : mesh->colors ? 9 : 6;
-        pipe.raster = state.raster;
-        pipe.lod_texture = state.diffuse_map;
-        pipe.lod_varying = p.uv;
-        result = draw_chunks(target, mesh, &pipe, p.clip);
+        const python_item *item = &job->items[i];
+        const shade_draw_state state = item_state(job->items, v, i);
+        const notes noted = { v, item->id, step, item->alpha_cutoff > 0 };
+        if (unlit && item->blended) continue;
+        look_dress_item(&k, item, &state);
+        k.note = step && !item->blended ? note : NULL;
+        k.noted = &noted;
+        result = draw_chunks(target, &k, &item->mesh);
     }
     return result;
 }
 
-static shade_result draw_colors(const shade_target *target, const python_job *job, painter p)
+static shade_result draw_colors(const shade_target *target, const python_job *job,
+                                const python_view *v, int step)
 {
-    shade_result result = shade_clear(target, p.view->background, 1);
-    if (!result) result = draw_meshes(target, job, p, paint);
+    shade_result result = shade_clear(target, v->background, 1);
+    if (!result) result = draw_meshes(target, job, v, step, 0);
     if (!result && job->studio)
-        result = ground_draw(&job->studio->ground, target, job->studio->to_world, p.view->view,
-                             p.view->projection);
+        result = ground_draw(&job->studio->ground, target, job->studio->to_world, v->view,
+                             v->projection);
     for (int i = 0; i < job->item_count && !result; i++) {
-        const shade_draw_state state = item_state(job->items, p.view, i);
+        const shade_draw_state state = item_state(job->items, v, i);
         if (job->items[i].line_points)
-            result = draw_edges(target, &job->items[i], &state, p.view->samples);
+            result = draw_edges(target, &job->items[i], &state, v->samples);
     }
     return result;
 }
@@ -416,18 +290,16 @@ static shade_result draw_rows(const python_job *job, const python_view *v, shade
     const size_t first = (size_t)out->row_offset * (size_t)v->width;
     const size_t pixels = (size_t)out->row_count * (size_t)v->width;
     const int noted = v->ids || v->depth || v->normals, apart = noted && v->samples % 2 == 0;
-    painter p = painter_of(v, noted && !apart ? v->samples : 0);
     if (noted) clear_notes(v, first, pixels);
-    result = draw_colors(large, job, p);
+    result = draw_colors(large, job, v, noted && !apart ? v->samples : 0);
     if (!result) result = resolve(out, large, v->samples, v->background.w);
     if (result) return result;
     if (v->channels == 3) pack_rgb(v->rgba + 3 * first, (const uint8_t *)out->color, pixels);
     if (!apart) return SHADE_OK;
     out->color = large->color; /* which nobody reads any more */
     out->depth = large->depth;
-    p.step = 1;
     result = shade_clear(out, shade_v4(0, 0, 0, 0), 1);
-    return result ? result : draw_meshes(out, job, p, survey);
+    return result ? result : draw_meshes(out, job, v, 1, 1);
 }
 
 /* Draws rows whose targets have no memory yet.  A picture of one sample a pixel is drawn where it
@@ -750,7 +622,7 @@ model *python_read(const void *bytes, size_t size, const char *name, const char 
     static const model empty;
     const model_request q = { .error = error, .error_size = room, .stop = stop };
     model *m = (model *)calloc(1, sizeof *m), said = empty;
-    said.points_wanted = 1;
+    said.points_wanted = said.polish_wanted = 1;
     said.path = path;
     said.beside = path ? model_load_file : NULL;
     said.inflate = inflate;
@@ -793,57 +665,108 @@ int python_upright(const model *m)
     return m->up_told ? usual : stand_guess(&m->mesh, usual);
 }
 
-/* A run of triangles of one surface */
-typedef struct python_part {
-    int first, count; /* of the indices */
-    float color[3], transparency;
-    const char *map; /* the name of its picture, or NULL */
-    int set, opaque; /* the file says something of it; the alpha of the map is ignored */
-    int surface;
-    int physical; /* by metal and roughness: material is all that it is */
-    shade_material material;
-    float alpha_cutoff;
-    int blended;
+/* ---- pictures of files: list, decode and set them, heed them; then ask for parts ------------- */
+
+typedef struct python_picture {
+    const char *name;  /* in the file */
+    const char *kind;  /* what the file says that it is, image/png or image/jpeg; "": nothing */
     const void *bytes; /* a picture inside the file, not decoded; NULL: it is beside the file */
     size_t size;
     int wrap[2];
-    const char *kind;   /* what the file says that it is, image/png or image/jpeg; NULL: nothing */
-    float metal, rough; /* of the mirror image of the studio; rough 0: by the shininess */
+    int colors; /* 0: a relief, or metal and roughness */
+} python_picture;
+
+/* Lists the pictures, and returns their number; from *beside on they are beside the file. */
+SHADEDEF int python_pictures(model *m, int *beside);
+int python_pictures(model *m, int *beside)
+{
+    *beside = list_pictures(m);
+    return m->picture_count;
+}
+
+SHADEDEF void python_picture_of(const model *m, int i, python_picture *out);
+void python_picture_of(const model *m, int i, python_picture *out)
+{
+    const model_picture *p = &m->picture[i];
+    *out = (python_picture){ p->name,
+                             p->kind,
+                             p->bytes,
+                             p->size,
+                             { (int)p->map.wrap_u, (int)p->map.wrap_v },
+                             p->what == PICTURE_COLORS };
+}
+
+/* Copies the pixels, RGBA, of a picture that was decoded.  Non-zero: out of memory */
+SHADEDEF int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
+int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height)
+{
+    const size_t bytes = 4 * (size_t)width * (size_t)height;
+    void *pixels = malloc(bytes + 1);
+    if (!pixels) return 1;
+    memcpy(pixels, rgba, bytes);
+    free(m->picture[i].pixels);
+    picture_fill(&m->picture[i], pixels, width, height);
+    return 0;
+}
+
+SHADEDEF void python_heed_pictures(model *m);
+void python_heed_pictures(model *m)
+{
+    heed_pictures(m);
+    relief_prepare(m, 1);
+}
+
+/* 1: the picture of a relief holds heights, and no normals. */
+SHADEDEF int python_heights(const uint8_t *rgba, int width, int height);
+int python_heights(const uint8_t *rgba, int width, int height)
+{
+    model_picture p = { .pixels = (void *)(uintptr_t)rgba };
+    p.map.width = width;
+    p.map.height = height;
+    picture_look_at_relief(&p);
+    return p.heights;
+}
+
+/* A run of triangles of one surface */
+typedef struct python_part {
+    int first, count; /* of the indices */
+    int surface, set; /* set: the file says something of it */
+    int opaque;       /* the alpha of the map is ignored */
+    int blended;
+    float transparency, alpha_cutoff;
+    shade_material material;
+    float metal, rough;    /* of the mirror image of the studio; rough 0: by the shininess */
+    int map, relief, glow; /* numbers of pictures, -1: none */
+    float relief_strength; /* as in a model_relief */
+    shade_vec3 glow_factor;
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
 SHADEDEF int python_part_of(const model *m, int i, python_part *part);
 int python_part_of(const model *m, int i, python_part *part)
 {
-    const model_part *from;
+    const int mapped = m->mesh.texcoords != NULL;
     const model_surface *s;
-    const model_picture *picture;
     if (!part || i < 0 || i >= m->part_count) return m->part_count;
-    from = &m->part[i];
-    memset(part, 0, sizeof *part);
-    part->first = from->first;
-    part->count = from->count;
+    *part = (python_part){ .first = m->part[i].first, .count = m->part[i].count };
+    part->map = part->relief = part->glow = -1;
     if (!m->surface_count) return m->part_count;
-    s = &m->surface[from->surface];
-    memcpy(part->color, &s->material.diffuse, sizeof part->color);
-    part->transparency = s->transparency >= 1 ? 0 : s->transparency;
-    part->map = m->mesh.texcoords ? s->map : NULL;
+    s = &m->surface[m->part[i].surface];
+    part->surface = m->part[i].surface;
     part->set = s->set;
     part->opaque = s->opaque;
-    part->surface = from->surface;
-    part->physical = m->physical;
+    part->blended = s->blended;
+    part->transparency = s->transparency >= 1 ? 0 : s->transparency;
+    part->alpha_cutoff = s->alpha_cutoff;
     part->material = s->material;
     part->metal = s->metal;
     part->rough = s->rough;
-    part->alpha_cutoff = s->alpha_cutoff;
-    part->blended = s->blended;
-    if (s->picture < 0) return m->part_count;
-    picture = &m->picture[s->picture];
-    part->bytes = picture->bytes;
-    part->size = picture->size;
-    part->wrap[0] = (int)picture->map.wrap_u;
-    part->wrap[1] = (int)picture->map.wrap_v;
-    part->kind = picture->kind;
+    part->relief_strength = s->relief.strength;
+    part->glow_factor = s->glow;
+    if (!mapped) return m->part_count;
+    part->map = s->picture;
+    part->relief = s->relief.picture;
+    part->glow = s->glow_picture;
     return m->part_count;
 }
 
@@ -932,6 +855,7 @@ size_t python_size(int which)
                                    sizeof(shade_lighting),  sizeof(shade_texture),
                                    sizeof(shade_light),     sizeof(shade_chunk),
                                    sizeof(python_part),     sizeof(renderer_image),
-                                   sizeof(renderer_object), sizeof(renderer_picture) };
+                                   sizeof(renderer_object), sizeof(renderer_picture),
+                                   sizeof(python_picture) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

@@ -100,18 +100,18 @@ static const char *picture_decode(model_picture *p, const unsigned char *bytes, 
    slash: names from other machines contain folders that do not exist here.  A name that leaves the
    folder of the model counts only where the caller wants that: who draws models of strangers does
    not show them the pictures of others. */
-static int picture_load(model *m, const char *path, const char *name, int what, int outside)
+static void picture_load(model *m, int number, const char *path, int outside)
 {
+    const char *name = m->picture[number].name, *last = model_last(name);
     const int beside_model = outside || model_is_beside(name);
     char error[300] = "out of memory";
     unsigned char *bytes = NULL;
-    const char *last = model_last(name);
     size_t size = 0;
-    int number = picture_add(m, name, what), failed = 1;
+    int failed = 1;
     if (!beside_model)
         snprintf(error, sizeof error,
                  "%s: it lies outside of the model's folder; --outside reads it", name);
-    for (int attempt = !beside_model; attempt < 2 && failed && number >= 0; attempt++) {
+    for (int attempt = !beside_model; attempt < 2 && failed; attempt++) {
         mesh_reader r = mesh_about(name, error, attempt ? 0 : sizeof error);
         char *beside = model_beside(path, attempt ? last : name);
         failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
@@ -127,14 +127,6 @@ static int picture_load(model *m, const char *path, const char *name, int what, 
         model_warn(m, path, error);
     }
     free(bytes);
-    return number;
-}
-
-/* The number of a picture that a surface names, which is read if it is not there yet */
-static int picture_of(model *m, const char *path, const char *name, int what, int outside)
-{
-    const int known = picture_find(m, name, what);
-    return known < 0 ? picture_load(m, path, name, what, outside) : known;
 }
 
 /* Decodes the pictures that the model's file holds. */
@@ -169,34 +161,56 @@ static void picture_polish(model *m)
     }
 }
 
-/* Reads each picture that surfaces name once, and finds the kind of its alpha. */
-static void read_pictures(model *m, const char *path, int outside)
+static void picture_list(model *m, const char *name, int what, int *number)
 {
-    decode_pictures(m);
+    if (!name || *number >= 0) return;
+    *number = picture_find(m, name, what);
+    if (*number < 0) *number = picture_add(m, name, what);
+}
+
+/* Lists the pictures that surfaces name and the file does not hold, each once; returns the first of
+   them. */
+static int list_pictures(model *m)
+{
+    const int held = m->picture_count;
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
-        model_relief *r = &s->relief;
-        if (s->map && s->picture < 0) s->picture = picture_of(m, path, s->map, 0, outside);
-        if (s->glow_map && s->glow_picture < 0)
-            s->glow_picture = picture_of(m, path, s->glow_map, 0, outside);
-        if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
-        if (r->map && r->picture < 0) r->picture = picture_of(m, path, r->map, 1, outside);
-        if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
+        picture_list(m, s->map, PICTURE_COLORS, &s->picture);
+        picture_list(m, s->glow_map, PICTURE_COLORS, &s->glow_picture);
+        picture_list(m, s->relief.map, PICTURE_RELIEF, &s->relief.picture);
     }
-    for (int i = 0; i < m->picture_count; i++) {
-        model_picture *p = &m->picture[i];
-        if (p->what == PICTURE_RELIEF && p->pixels) picture_look_at_relief(p);
-        if (p->what != PICTURE_POLISH) picture_mipmaps(p);
-    }
+    return held;
+}
+
+/* Once pictures have pixels: what they say of their surfaces. */
+static void heed_pictures(model *m)
+{
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].what == PICTURE_RELIEF && m->picture[i].pixels)
+            picture_look_at_relief(&m->picture[i]);
     picture_polish(m);
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
+        model_relief *r = &s->relief;
         int clear;
+        if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
+        if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
         if (s->picture < 0 || !m->picture[s->picture].pixels || s->opaque) continue;
         if (s->alpha_cutoff > 0 || s->blended) continue;
         clear = picture_clearness(&m->picture[s->picture]);
         s->blended = clear == 2;
         s->alpha_cutoff = clear == 1 ? 0.5f : 0;
     }
+}
+
+static inline void read_pictures(model *m, const char *path, int outside)
+{
+    int first;
+    decode_pictures(m);
+    first = list_pictures(m);
+    for (int i = first; i < m->picture_count; i++) picture_load(m, i, path, outside);
+    heed_pictures(m);
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].what != PICTURE_POLISH) picture_mipmaps(&m->picture[i]);
 }
 #endif

@@ -686,8 +686,9 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
                      &s->glow_picture) ||
         (physical && gltf_polish(g, place, rough, s)))
         return 1;
-    if (s->relief.map) s->relief.strength = (float)fabs(json_number_of(&g->j, bumps, "scale", 1));
-    if (s->map || s->glow_map || s->polish >= 0) s->set = 1;
+    if (s->relief.map) /* 0 would stand for a file that does not say */
+        s->relief.strength = (float)fmax(1e-6, fabs(json_number_of(&g->j, bumps, "scale", 1)));
+    if (s->map || s->relief.map || s->glow_map || s->polish >= 0) s->set = 1;
     if (json_of(&g->j, material, "emissiveTexture", JSON_OBJECT) && !s->glow_map)
         s->material.emission = shade_v3(0, 0, 0);
     model_glow(s, 1);

@@ -1,4 +1,5 @@
-/* look.h - draws a model in the light of the studio: its shaders, and the order of its parts.
+/* look.h - draws models in the light of the studio, or of lamps alone: the shaders of programs and
+   packages, and the order of a model's parts.
 
        if (exhibit_open(&e, &model, &studio, &options, eye)) ...                  (out of memory)
        exhibit_draw(&e, &rows, view, projection);                  (for each band of the picture)
@@ -10,30 +11,47 @@
 #include "../draw/section.h"
 #include "studio.h"
 
-/* Uniforms of both shaders, for one surface */
+typedef float look_rows[3][SHADE_LANES];
+struct look;
+/* Sees fragments before they are stored: what is discarded has out->discard set. */
+typedef void look_note(const struct look *k, const shade_fragments *in, const shade_colors *out);
+
+/* Uniforms of both shaders, for one surface.  A mesh that is not placed stands in the studio as it
+   is; then to_world, normals and to_studio do not count, and light may be computed by vertex. */
 typedef struct look {
-    const studio *studio;
+    const studio *studio; /* NULL: shadows and mirrors are 0 */
     const shade_mesh *mesh;
     const shade_texture *map;      /* NULL: none */
     const shade_texture *glow_map; /* what shines by itself; NULL: none */
     shade_vec3 glow;
     relief relief;
-    shade_material material; /* its emission stands apart, because the map multiplies that too */
-    shade_vec3 emission;
+    shade_material material;
     float metal, rough; /* the part of the reflection that has the surface's colour; its blur */
     shade_lighting lighting;
     shade_light tone_lamp; /* of cool-to-warm */
-    shade_mat4 clip_from_world;
-    shade_vec3 eye;
-    float alpha, alpha_cutoff;
+    shade_raster raster;
+    shade_mat4 clip_from_mesh;
+    int placed;                  /* the mesh has a place of its own */
+    shade_mat4 to_world;         /* of positions */
+    shade_mat3 normals;          /* to the world */
+    const shade_mat4 *to_studio; /* from the world; NULL: the studio is there, or there is none */
+    shade_vec3 eye;              /* in the studio, without one in the world */
+    float alpha, alpha_cutoff;   /* where the map has less alpha than alpha_cutoff are holes */
     int per_vertex, map_is_opaque, shadows, mirrors;
-    int aimed; /* it is known where in the picture chunks lie */
+    int clipped;     /* light above SHOULDER is not bent toward white */
+    int aimed;       /* it is known where in the picture chunks lie */
+    look_note *note; /* NULL: none */
+    const void *noted;
+    int unlit; /* only note is wanted */
 } look;
 
-/* Varyings: P, N, the albedo of the vertex, u and v.  Where light is computed per vertex, it
-   takes the place of P. */
-enum { LOOK_P, LOOK_N = 3, LOOK_ALBEDO = 6, LOOK_UV = 9, LOOK_VARYINGS = 11 };
-typedef float look_rows[3][SHADE_LANES];
+/* Varyings: P, N, then the albedo of the vertex and the place in the pictures, where there are any.
+   Where light is computed per vertex, it takes the place of P. */
+enum { LOOK_P, LOOK_N = 3, LOOK_REST = 6 };
+
+static int look_has_pictures(const look *k) { return k->map || k->relief.map || k->glow_map; }
+
+static int look_uv(const look *k) { return k->mesh->colors ? LOOK_REST + 3 : LOOK_REST; }
 
 /* Emission and cool-to-warm tones have no shadows. */
 static int look_has_shadows(const model_options *o)
@@ -94,8 +112,7 @@ static void look_studio(const look *k, const float *P, const float *N, const flo
     studio_sky(k->studio, &p, E, open);
     studio_lamp(k->studio, &p, lamp);
     for (int i = 0; i < STUDIO_BLOCK && first + i < count; i++) {
-        const float *c = albedo + first + i;
-        const shade_vec3 own = shade_v3(c[0], c[SHADE_LANES], c[2 * SHADE_LANES]);
+        const shade_vec3 own = albedo ? lane(albedo, first + i) : shade_v3(1, 1, 1);
         const shade_vec3 normal = shade_v3(p.N[0][i], p.N[1][i], p.N[2][i]);
         lane_put(sky[0], first + i, shade_v3(E[0][i], E[1][i], E[2][i]));
         visibility[first + i] = lamp[i];
@@ -106,58 +123,95 @@ static void look_studio(const look *k, const float *P, const float *N, const flo
     }
 }
 
-/* The light that leaves P toward the eye; only the first count lanes are computed.  glow, which may
-   be NULL, is the light that P sends by itself. */
+/* The light that leaves P toward the eye; only the first count lanes are computed.  albedo NULL: 1.
+   glow, which may be NULL, is the light that P sends by itself. */
 static void look_light(const look *k, const float *P, const float *N, const float *albedo,
                        const float *glow, int count, look_rows out)
 {
-    float visibility[SHADE_LANES * 2];
+    float visibility[2 * SHADE_LANES]; /* of the large lamp, and of the other one: 1 */
     look_rows sky = { { 0 } }, mirror = { { 0 } };
-    for (int i = 0; i < 2 * SHADE_LANES; i++) visibility[i] = 1;
+    shade_rows rows = { .position = P, .normal = N, .albedo = albedo };
     for (int first = 0; first < count && k->shadows; first += STUDIO_BLOCK)
         look_studio(k, P, N, albedo, first, count, sky, mirror, visibility);
-    shade_lit_lanes(
-        &k->lighting, &k->material, k->eye,
-        &(shade_rows){ .position = P, .normal = N, .albedo = albedo, .visibility = visibility },
-        out[0]);
-    for (int a = 0; a < 3; a++) {
+    for (int i = k->shadows ? count : 2 * SHADE_LANES; i < 2 * SHADE_LANES; i++) visibility[i] = 1;
+    if (k->shadows) rows.visibility = visibility;
+    shade_lit_lanes(&k->lighting, &k->material, k->eye, &rows, out[0]);
+    for (int a = 0; a < 3 && k->shadows; a++) {
         const float ambient = component(k->material.ambient, a);
-        const float emission = component(k->emission, a);
+        float *s = sky[a];
+        SHADE_EACH_LANE(i) { s[i] *= ambient; }
+        if (albedo) SHADE_EACH_LANE(i)
+            {
+                s[i] *= albedo[i + a * SHADE_LANES];
+            }
+        SHADE_EACH_LANE(i) { out[a][i] = out[a][i] + mirror[a][i] + s[i]; }
+    }
+    for (int a = 0; a < 3 && glow; a++) SHADE_EACH_LANE(i)
+        {
+            out[a][i] += glow[i + a * SHADE_LANES];
+        }
+    for (int a = 0; a < 3 && !k->clipped; a++) SHADE_EACH_LANE(i)
+        {
+            out[a][i] = shoulder(out[a][i]);
+        }
+}
+
+static void look_fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float *p = from + (size_t)width * in->index[i];
+        for (int a = 0; a < width; a++) rows[a * SHADE_LANES + i] = p[a];
+    }
+}
+
+/* Positions and normals of a mesh with a place of its own, in the world.  Where a relief will bend
+   the normals, they stay as they are: they are turned after that. */
+static void look_place(const look *k, look_rows p, look_rows n,
+                       float (*SHADE_RESTRICT P)[SHADE_LANES],
+                       float (*SHADE_RESTRICT N)[SHADE_LANES])
+{
+    const shade_mat4 to_world = k->to_world;
+    const shade_mat3 normals = k->normals;
+    SHADE_EACH_LANE(i)
+    {
+        const shade_vec4 world =
+            shade_mat4_transform(to_world, shade_v4(p[0][i], p[1][i], p[2][i], 1));
+        lane_put(P[0], i, shade_v3(world.x, world.y, world.z));
+    }
+    if (k->relief.map)
+        SHADE_MEMCPY(N, n, sizeof(look_rows));
+    else
         SHADE_EACH_LANE(i)
         {
-            float own = albedo[i + a * SHADE_LANES];
-            float light = out[a][i] + mirror[a][i];
-            light += own * (ambient * sky[a][i] + emission);
-            light += glow ? glow[i + a * SHADE_LANES] : 0;
-            out[a][i] = shoulder(light);
+            lane_put(N[0], i, shade_normalize(shade_mat3_transform(normals, lane(n[0], i))));
         }
-    }
 }
 
 static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                         shade_vertices *SHADE_RESTRICT out)
 {
     const look *k = (const look *)uniforms;
+    const shade_mesh *m = k->mesh;
+    look_rows p, n;
+    look_fetch(m->positions, 3, in, p[0]);
+    look_fetch(m->normals, 3, in, n[0]);
     SHADE_EACH_LANE(i)
     {
-        size_t at = in->index[i];
-        const float *p = k->mesh->positions + 3 * at, *n = k->mesh->normals + 3 * at;
-        const float *c = k->mesh->colors, *uv = k->mesh->texcoords;
-        shade_vec4 clip = shade_mat4_transform(k->clip_from_world, shade_v4(p[0], p[1], p[2], 1));
-        lane_put4(out->clip[0], i, clip);
-        for (size_t a = 0; a < 3; a++) {
-            out->varying[LOOK_P + a][i] = p[a];
-            out->varying[LOOK_N + a][i] = n[a];
-            out->varying[LOOK_ALBEDO + a][i] = c ? c[3 * at + a] : 1;
-        }
-        out->varying[LOOK_UV][i] = uv ? uv[2 * at] : 0;
-        out->varying[LOOK_UV + 1][i] = uv ? uv[2 * at + 1] : 0;
+        const shade_vec4 at = { p[0][i], p[1][i], p[2][i], 1 };
+        lane_put4(out->clip[0], i, shade_mat4_transform(k->clip_from_mesh, at));
     }
+    if (m->colors) look_fetch(m->colors, 3, in, out->varying[LOOK_REST]);
+    if (look_has_pictures(k)) look_fetch(m->texcoords, 2, in, out->varying[look_uv(k)]);
     if (k->per_vertex) {
         look_rows light;
-        look_light(k, out->varying[LOOK_P], out->varying[LOOK_N], out->varying[LOOK_ALBEDO], NULL,
-                   in->count, light);
+        look_light(k, p[0], n[0], m->colors ? out->varying[LOOK_REST] : NULL, NULL, in->count,
+                   light);
         SHADE_MEMCPY(out->varying[LOOK_P], light, sizeof light);
+    } else if (k->placed)
+        look_place(k, p, n, out->varying + LOOK_P, out->varying + LOOK_N);
+    else {
+        SHADE_MEMCPY(out->varying[LOOK_P], p, sizeof p);
+        SHADE_MEMCPY(out->varying[LOOK_N], n, sizeof n);
     }
 }
 
@@ -165,13 +219,60 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
 static void look_glow(const look *k, const shade_fragments *in, look_rows out)
 {
     float texel[4][SHADE_LANES], lod[SHADE_LANES];
+    const float *uv = in->varying[look_uv(k)];
     const int finer = texture_finer(k->glow_map, k->map ? k->map : k->relief.map);
     SHADE_EACH_LANE(i) { lod[i] = in->lod[i] + (float)finer; }
-    shade_sample_lanes(k->glow_map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], lod, texel[0]);
+    shade_sample_lanes(k->glow_map, uv, uv + SHADE_LANES, lod, texel[0]);
     for (int a = 0; a < 3; a++) {
         const float factor = component(k->glow, a);
         SHADE_EACH_LANE(i) { out[a][i] = factor * texel[a][i]; }
     }
+}
+
+/* Fragments as the light sees them.  Back faces are lit as front faces are; front faces keep their
+   normals, which lean away from the viewer on the outline of a coarse mesh. */
+static void look_surface(const look *k, const shade_fragments *in, look_rows P, look_rows N)
+{
+    SHADE_MEMCPY(P, in->varying[LOOK_P], sizeof(look_rows));
+    SHADE_MEMCPY(N, in->varying[LOOK_N], sizeof(look_rows));
+    if (k->relief.map) relief_bend(&k->relief, k->mesh, in, look_uv(k), N);
+    for (int i = 0; i < in->count && k->placed && k->relief.map; i++)
+        lane_put(N[0], i, shade_normalize(shade_mat3_transform(k->normals, lane(N[0], i))));
+    for (int a = 0; a < 3; a++) SHADE_EACH_LANE(i)
+        {
+            N[a][i] = in->front[i] ? N[a][i] : -N[a][i];
+        }
+    if (k->to_studio) SHADE_EACH_LANE(i)
+        {
+            lane_put(P[0], i, shade_mat4_transform_point(*k->to_studio, lane(P[0], i)));
+            lane_put(N[0], i, shade_mat4_transform_direction(*k->to_studio, lane(N[0], i)));
+        }
+}
+
+/* The light of fragments; texel is NULL where there is no map. */
+static void look_color(const look *k, const shade_fragments *in, look_rows texel, look_rows out)
+{
+    const float(*own)[SHADE_LANES] = k->mesh->colors ? in->varying + LOOK_REST : NULL;
+    look_rows P, N, albedo, glow;
+    for (int a = 0; a < 3 && own && texel && !k->per_vertex; a++) SHADE_EACH_LANE(i)
+        {
+            albedo[a][i] = own[a][i] * texel[a][i];
+        }
+    if (k->per_vertex) {
+        for (int a = 0; a < 3; a++) SHADE_EACH_LANE(i)
+            {
+                out[a][i] = in->varying[LOOK_P + a][i] * (texel ? texel[a][i] : 1);
+            }
+        return;
+    }
+    look_surface(k, in, P, N);
+    if (k->glow_map) look_glow(k, in, glow);
+    look_light(k, P[0], N[0],
+               own && texel ? albedo[0]
+               : own        ? own[0]
+               : texel      ? texel[0]
+                            : NULL,
+               k->glow_map ? glow[0] : NULL, in->count, out);
 }
 
 static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -179,55 +280,34 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
 {
     const look *k = (const look *)uniforms;
     float texel[4][SHADE_LANES];
-    look_rows N, albedo, light, glow;
-    if (k->map)
-        shade_sample_lanes(k->map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], in->lod,
-                           texel[0]);
-    memcpy(N, in->varying[LOOK_N], sizeof N);
-    if (k->relief.map && !k->per_vertex) relief_bend(&k->relief, k->mesh, in, LOOK_UV, N);
-    for (int a = 0; a < 3; a++) {
-        SHADE_EACH_LANE(i)
-        {
-            /* back faces are lit as front faces are; front faces keep their normals, which lean
-               away from the viewer on the outline of a coarse mesh */
-            N[a][i] = in->front[i] ? N[a][i] : -N[a][i];
-            albedo[a][i] = in->varying[LOOK_ALBEDO + a][i] * (k->map ? texel[a][i] : 1);
-        }
+    if (k->map) {
+        const float *uv = in->varying[look_uv(k)];
+        shade_sample_lanes(k->map, uv, uv + SHADE_LANES, in->lod, texel[0]);
     }
-    if (k->glow_map) look_glow(k, in, glow);
-    if (!k->per_vertex)
-        look_light(k, in->varying[LOOK_P], N[0], albedo[0], k->glow_map ? glow[0] : NULL, in->count,
-                   light);
+    if (!k->unlit) look_color(k, in, k->map ? texel : NULL, out->color);
     SHADE_EACH_LANE(i)
     {
-        float alpha = k->alpha * (k->map && !k->map_is_opaque ? texel[3][i] : 1);
-        for (int a = 0; a < 3; a++)
-            out->color[a][i] = !k->per_vertex
-                                   ? light[a][i]
-                                   : in->varying[LOOK_P + a][i] * (k->map ? texel[a][i] : 1);
-        out->color[3][i] = alpha;
+        const float alpha = k->map && !k->map_is_opaque ? texel[3][i] : 1;
+        out->color[3][i] = k->alpha * alpha;
         out->discard[i] = alpha < k->alpha_cutoff;
     }
+    if (k->note) k->note(k, in, out);
 }
 
 /* ---- parts ---------------------------------------------------------------------------------- */
 
 /* Draws count triangles of a mesh from first on. */
 static shade_result look_draw(const shade_target *target, look *k, const shade_mesh *mesh,
-                              int first, int count, int see_through)
+                              int first, int count)
 {
-    shade_pipeline p = { .vertex = look_vertex, .fragment = look_fragment };
-    p.uniforms = k;
-    p.varyings = LOOK_VARYINGS;
+    shade_pipeline p = { .vertex = look_vertex, .fragment = look_fragment, .uniforms = k };
     k->mesh = mesh;
     k->relief.indices = mesh->indices + 3 * (size_t)first;
+    p.raster = k->raster;
     p.may_discard = k->alpha_cutoff > 0;
     p.lod_texture = k->map ? k->map : k->relief.map ? k->relief.map : k->glow_map;
-    p.lod_varying = LOOK_UV;
-    if (see_through) {
-        p.raster.blend = SHADE_BLEND_OVER;
-        p.raster.depth_read_only = 1;
-    }
+    p.varyings = p.lod_varying = look_uv(k);
+    if (look_has_pictures(k)) p.varyings += 2;
     return shade_draw(target, &p, mesh->indices + 3 * (size_t)first, 3 * count, mesh->vertex_count,
                       NULL);
 }
@@ -318,8 +398,8 @@ static shade_result look_draw_chunks(const shade_target *target, look *k, const 
     for (int i = 0; i < count && !result; i++) {
         const shade_chunk *c = &list[i].chunk;
         if (k->aimed && near_chunk_is_hidden(&list[i], target)) continue;
-        if (shade_box_visible(target, k->clip_from_world, 0, c->low, c->high))
-            result = look_draw(target, k, mesh, c->first, c->count, 0);
+        if (shade_box_visible(target, k->clip_from_mesh, 0, c->low, c->high))
+            result = look_draw(target, k, mesh, c->first, c->count);
     }
     return result;
 }
@@ -338,14 +418,10 @@ static void look_dress(look *k, const model_options *o, const model *m, int surf
     k->metal = 0;
     k->material = o->material;
     k->rough = model_roughness(k->material.shininess);
-    k->emission = o->material.emission;
-    k->material.emission = shade_v3(0, 0, 0);
     if (!s || !s->set || (o->plain && !s->section)) return;
     k->material = s->material;
     k->metal = s->metal;
     k->rough = s->rough > 0 ? s->rough : model_roughness(k->material.shininess);
-    k->emission = s->material.emission;
-    k->material.emission = shade_v3(0, 0, 0);
     k->alpha = 1 - s->transparency;
     k->alpha_cutoff = s->alpha_cutoff;
     k->map_is_opaque = s->opaque;
@@ -419,10 +495,12 @@ static shade_result draw_far_first(const shade_target *target, look *k, const mo
     shade_mesh mesh = m->mesh.view;
     shade_result result = SHADE_OK;
     mesh.indices = l->indices;
+    k->raster.blend = SHADE_BLEND_OVER;
+    k->raster.depth_read_only = 1;
     for (size_t i = 0, end; i < l->count && !result; i = end) {
         for (end = i; end < l->count && l->triangle[end].surface == l->triangle[i].surface;) end++;
         look_dress(k, o, m, l->triangle[i].surface);
-        result = look_draw(target, k, &mesh, (int)i, (int)(end - i), 1);
+        result = look_draw(target, k, &mesh, (int)i, (int)(end - i));
     }
     return result;
 }
@@ -533,7 +611,7 @@ static inline shade_result exhibit_draw(const exhibit *e, const shade_target *ro
     static const shade_mat4 no_turn; /* zero: the identity */
     look k = e->look;
     shade_result result;
-    k.clip_from_world = shade_mat4_mul(projection, view);
+    k.clip_from_mesh = shade_mat4_mul(projection, view);
     result = draw_opaque(rows, &k, e->options, e->model, e->see_through, e->near_chunks);
     if (!result && e->ground.shadow)
         result = ground_draw(&e->ground, rows, no_turn, view, projection);

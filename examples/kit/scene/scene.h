@@ -669,13 +669,10 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
     state.raster.depth_read_only = clear;
     for (int i = 0; i < s->model.part_count && !result; i++) {
         const shade_mesh mesh = model_part_mesh(&s->model, i);
-        shade_material material;
         look k;
         if (part_is_clear(&s->model, &o, i) != clear) continue;
         look_dress(&k, &o, &s->model, s->model.part[i].surface);
-        material = k.material;
-        material.emission = k.emission;
-        state.material = &material;
+        state.material = &k.material;
         state.diffuse_map = k.map;
         state.alpha_cutoff = k.alpha_cutoff;
         state.transparency = 1 - k.alpha;

@@ -91,7 +91,9 @@ class Item(Structure):
                 ("two_sided", c_int), ("lines_over", c_int), ("line_width", c_float),
                 ("line_color", c_float * 4),
                 ("id", c_int), ("blended", c_int), ("opacity", c_float), ("alpha_cutoff", c_float),
-                ("metal", c_float), ("rough", c_float)]
+                ("metal", c_float), ("rough", c_float), ("relief", POINTER(Texture)),
+                ("glow_map", POINTER(Texture)), ("relief_strength", c_float),
+                ("relief_heights", c_int), ("glow", c_float * 3)]
 
 
 class View(Structure):
@@ -133,12 +135,17 @@ class Chunk(Structure):
 
 class Run(Structure):
     """python_part"""
-    _fields_ = [("first", c_int), ("count", c_int), ("color", c_float * 3),
-                ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int),
-                ("surface", c_int), ("physical", c_int), ("material", Material),
-                ("alpha_cutoff", c_float), ("blended", c_int), ("bytes", c_void_p),
-                ("size", c_size_t), ("wrap", c_int * 2),
-                ("kind", c_char_p), ("metal", c_float), ("rough", c_float)]
+    _fields_ = [("first", c_int), ("count", c_int), ("surface", c_int), ("set", c_int),
+                ("opaque", c_int), ("blended", c_int), ("transparency", c_float),
+                ("alpha_cutoff", c_float), ("material", Material), ("metal", c_float),
+                ("rough", c_float), ("map", c_int), ("relief", c_int), ("glow", c_int),
+                ("relief_strength", c_float), ("glow_factor", c_float * 3)]
+
+
+class FilePicture(Structure):
+    """python_picture"""
+    _fields_ = [("name", c_char_p), ("kind", c_char_p), ("bytes", c_void_p), ("size", c_size_t),
+                ("wrap", c_int * 2), ("colors", c_int)]
 
 
 class Edge(Structure):
@@ -180,6 +187,11 @@ def _open() -> Any:
             ("python_normals", c_int, [POINTER(OwnedMesh)]),
             ("python_warning", c_char_p, [POINTER(OwnedMesh)]),
             ("python_upright", c_int, [POINTER(OwnedMesh)]),
+            ("python_pictures", c_int, [POINTER(OwnedMesh), POINTER(c_int)]),
+            ("python_picture_of", None, [POINTER(OwnedMesh), c_int, c_void_p]),
+            ("python_picture_set", c_int, [POINTER(OwnedMesh), c_int, c_void_p, c_int, c_int]),
+            ("python_heed_pictures", None, [POINTER(OwnedMesh)]),
+            ("python_heights", c_int, [c_void_p, c_int, c_int]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
@@ -216,6 +228,8 @@ def _open() -> Any:
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     if (library.python_size(10), library.python_size(11)) != (SOLID.itemsize, SHOT.size):
         raise ImportError(f"{path} does not belong to this version: renderer_object")
+    if library.python_size(12) != ctypes.sizeof(FilePicture):
+        raise ImportError(f"{path} does not belong to this version: {FilePicture.__doc__}")
     return library
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import cloud
-from ._native import INFLATE, Bytes, Error, Run, interruptible, library
+from ._native import INFLATE, Bytes, Error, FilePicture, Run, interruptible, library, pointer
 from .annotate import display as _display
 from .light import Material
 from .mesh import WRAPS, Mesh, Surface
@@ -76,56 +76,72 @@ def _warn(words: str) -> None:
 
 # ---- by the reader of the programs ---------------------------------------------------------------
 
-def _runs(owned: Any) -> list[Any]:
-    """The runs of triangles of one surface."""
-    runs = [Run() for _ in range(library.python_part_of(owned, -1, None))]
-    for i, run in enumerate(runs):
-        library.python_part_of(owned, i, ctypes.byref(run))
-    return runs
+def _decode(owned: Any, i: int, model: str, outside: bool) -> Any:
+    """The pixels of a picture inside the file or beside it; None where it cannot be read."""
+    one = FilePicture()
+    library.python_picture_of(owned, i, ctypes.byref(one))
+    try:
+        return decoded(ctypes.string_at(one.bytes, one.size), "a picture") if one.bytes else \
+            _image(model, os.fsdecode(one.name), outside)
+    except Error as why:
+        _warn(f"{model}: {why}; its faces are drawn without it")
+        return None
 
 
-def _texture(run: Any, model: str, images: dict[Any, Any], outside: bool) -> Any:
-    """The pixels of a run's picture, inside the file or beside it; None where there is none."""
-    if run.map is not None and run.map not in images and len(images) < 256:
-        if run.bytes:
-            try:
-                images[run.map] = decoded(ctypes.string_at(run.bytes, run.size), "a picture")
-            except Error as why:
-                _warn(f"{model}: {why}; its faces are drawn without it")
-        elif not run.physical:
-            images[run.map] = _image(model, os.fsdecode(run.map), outside)
-    return images.get(run.map)
+def _pictures(owned: Any, model: str, outside: bool) -> list[Any]:
+    """The pixels of all pictures, which the library is told."""
+    beside = ctypes.c_int()
+    count = library.python_pictures(owned, ctypes.byref(beside))
+    images = [_decode(owned, i, model, outside) if i < 256 else None for i in range(count)]
+    for i, image in enumerate(images):
+        if image is not None:
+            rgba = np.ascontiguousarray(image)
+            if library.python_picture_set(owned, i, pointer(rgba), rgba.shape[1], rgba.shape[0]):
+                raise Error("out of memory")
+    library.python_heed_pictures(owned)
+    return images
 
 
-def _look(run: Any, image: Any) -> Surface:
+def _look(owned: Any, run: Any, images: list[Any]) -> Surface:
     """A surface as Mesh takes it."""
-    opacity, holes = 1 - run.transparency, image is not None and not run.opaque
-    k, material = run.material, None
+    k, material, shown = run.material, None, {}
+    for name, number in (("texture", run.map), ("relief", run.relief), ("glow", run.glow)):
+        if number >= 0 and images[number] is not None:
+            shown[name] = number
     if run.set:
         material = Material(tuple(k.emission[:]), tuple(k.ambient[:]), tuple(k.diffuse[:]),
                             tuple(k.specular[:]), k.shininess)
-    blend = bool(run.blended) if run.physical else run.transparency > 0
-    cutoff = run.alpha_cutoff if run.physical else 0.0 if blend else 0.5
-    return Surface(material, image, blend, opacity, cutoff if holes else 0.0,
-                   (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]), run.metal, run.rough)
+    wrap = FilePicture()
+    if shown:
+        library.python_picture_of(owned, next(iter(shown.values())), ctypes.byref(wrap))
+    holes = "texture" in shown and not run.opaque
+    return Surface(material=material, blend=bool(run.blended) or run.transparency > 0,
+                   opacity=1 - run.transparency, cutoff=run.alpha_cutoff if holes else 0.0,
+                   wrap=(WRAPS[wrap.wrap[0]], WRAPS[wrap.wrap[1]]), metal=run.metal,
+                   roughness=run.rough, strength=run.relief_strength,
+                   glow_factor=tuple(run.glow_factor[:]),
+                   **{name: images[number] for name, number in shown.items()})
 
 
 def _surfaces(owned: Any, model: str, faces: int, uv: Any, outside: bool) -> dict[str, Any]:
     """What the file says of its surfaces, as options of Mesh."""
     number, looks = np.zeros(faces, int), [Surface()]
     known: dict[int, int] = {}
-    images: dict[Any, Any] = {}
-    for run in _runs(owned):
-        image = _texture(run, model, images, outside) if uv is not None else None
-        if not run.set and image is None and not run.transparency:
+    images = _pictures(owned, model, outside) if uv is not None else []
+    for i in range(library.python_part_of(owned, -1, None)):
+        run = Run()
+        library.python_part_of(owned, i, ctypes.byref(run))
+        look = _look(owned, run, images)
+        mapped = any(m is not None for m in (look.texture, look.relief, look.glow))
+        if not run.set and not mapped and not run.transparency:
             continue
         if run.surface not in known:
             known[run.surface] = len(looks)
-            looks.append(_look(run, image))
+            looks.append(look)
         number[run.first // 3:(run.first + run.count) // 3] = known[run.surface]
     if len(looks) == 1:
         return {}
-    mapped = any(look.texture is not None for look in looks)
+    mapped = any(m is not None for look in looks for m in (look.texture, look.relief, look.glow))
     return {"surfaces": (number, looks), **({"uv": np.stack([uv[:, 0], 1 - uv[:, 1]], 1)} if mapped else {})}
 
 

@@ -46,9 +46,14 @@ class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
     4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
     cutoff texels of less alpha are holes; else alpha is ignored.  wrap, "repeat", "clamp" or
-    "mirror" for u and v, says how the texture goes on beyond its edges.  metal, 0 to 1, is how much
+    "mirror" for u and v, says how the pictures go on beyond their edges.  metal, 0 to 1, is how much
     of what the studio's light shows in it has its colour, and roughness how blurred that is, 0 by
-    the exponent of the material."""
+    the exponent of the material.
+
+    relief is a normal map, green up, or a bump map, whose brightness is height: its colours tell
+    which.  strength is a factor of the slopes of a normal map, and of a bump map how high white is
+    above black, in units of the mesh.  glow is the light that a surface sends by itself, a picture
+    that glow_factor, linear red, green and blue, multiplies."""
 
     material: Material | None = None
     texture: object = None
@@ -58,6 +63,10 @@ class Surface:
     wrap: tuple[str, str] = ("repeat", "repeat")
     metal: float = 0.0
     roughness: float = 0.0
+    relief: object = None
+    strength: float = 1.0
+    glow: object = None
+    glow_factor: Sequence[float] = (1.0, 1.0, 1.0)
 
 
 class Piece:
@@ -68,8 +77,29 @@ class Piece:
         """Triangles first to first + count."""
         self.surface, self.first, self.count, self.texture = surface, first, count, texture
         self.mesh = mesh.native(self)
-        self.map = self._make_map()
+        self._kept: list[object] = []
+        relief, glow = (None if one is None else arguments.texture(name, one)
+                        for name, one in (("relief", surface.relief), ("glow", surface.glow)))
+        self.map, self.relief, self.glow = (
+            self._make_map(one, srgb) for one, srgb in ((texture, 1), (relief, 0), (glow, 1)))
+        self.heights = 0 if relief is None else library.python_heights(
+            pointer(relief), relief.shape[1], relief.shape[0])
         self._make_chunks()
+
+    def dress(self, item: Any) -> None:
+        """Sets the surface of an item of the library, but its material."""
+        look = self.surface
+        item.blended, item.opacity, item.alpha_cutoff = look.blend, look.opacity, look.cutoff
+        item.metal = arguments.number("metal", look.metal, 0, 1)
+        item.rough = arguments.number("roughness", look.roughness, 0, 1)
+        if self.map is not None:
+            item.state.diffuse_map = ctypes.pointer(self.map)
+        if self.relief is not None:
+            item.relief, item.relief_heights = ctypes.pointer(self.relief), self.heights
+            item.relief_strength = arguments.number("strength", look.strength, 0, 1e6)
+        if self.glow is not None:
+            item.glow_map = ctypes.pointer(self.glow)
+            item.glow = tuple(arguments.floats("glow_factor", look.glow_factor, (3,), True).tolist())
 
     def _make_chunks(self) -> None:
         count = library.shade_chunk_count(3 * self.count, 0)
@@ -80,18 +110,19 @@ class Piece:
               "faces")
         self.mesh.chunks, self.mesh.chunk_count = ctypes.addressof(self.chunks), count
 
-    def _make_map(self) -> Any:
-        """The texture with its mipmaps."""
-        if self.texture is None:
+    def _make_map(self, texture: Bytes | None, srgb: int) -> Any:
+        """A texture with its mipmaps."""
+        if texture is None:
             return None
-        h, w = self.texture.shape[:2]
-        out = Texture(pixels=pointer(self.texture), width=w, height=h, srgb=1, filter=2)
+        h, w = texture.shape[:2]
+        out = Texture(pixels=pointer(texture), width=w, height=h, srgb=srgb, filter=2)
         out.wrap_u, out.wrap_v = (WRAPS.index(arguments.choice("wrap", how, WRAPS))
                                   for how in self.surface.wrap)
-        self._mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
-        self._levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
-        check(library.shade_build_mipmaps(ctypes.byref(out), self._levels, pointer(self._mipmaps),
-                                          self._mipmaps.size), "texture")
+        mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
+        levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
+        check(library.shade_build_mipmaps(ctypes.byref(out), levels, pointer(mipmaps),
+                                          mipmaps.size), "texture")
+        self._kept += [texture, mipmaps, levels]
         return out
 
 
@@ -164,7 +195,8 @@ class Mesh:
         for look, picture in zip(looks, maps):
             if surfaces is not None and picture is not None and not look.blend and not look.cutoff:
                 picture[:, :, 3] = 255
-        if self.uv is None and any(m is not None for m in maps):
+        if self.uv is None and any(m is not None for look in looks
+                                   for m in (look.texture, look.relief, look.glow)):
             raise Error("uv is missing: a surface has a texture")
         self.texture = maps[0] if len(maps) == 1 else None
         self._take_normals(normals, by_face)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import warnings
 from typing import Any, NamedTuple, Sequence
 
 import numpy as np
@@ -183,7 +184,7 @@ class Renderer:
              uv: object = None, colors: object = None) -> Shape:
         """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
         Mesh, as load() gives it, with the materials, colours, textures, transparency and holes of its
-        surfaces."""
+        surfaces.  Their reliefs and what glows by a picture are left out, with a warning."""
         made = self._made_of(vertices, faces, normals, uv, colors)
         return self._shape(made, (made is vertices, faces, normals, uv, colors), None)
 
@@ -205,6 +206,8 @@ class Renderer:
                                 np.ascontiguousarray(made.indices, np.uint32))
         shape.source = source
         pieces = [piece for piece in made.pieces if piece.count]
+        if any(piece.relief is not None or piece.glow is not None for piece in pieces):
+            warnings.warn("mesh: its normal, bump and emissive maps are left out", stacklevel=4)
         if source[0] and pieces:
             known: dict[Any, int] = {}
             shape.records = np.repeat(shape.records, len(pieces))

@@ -66,14 +66,9 @@ class Part:
         for piece in self.mesh.pieces:
             if not piece.count:
                 continue
-            look = piece.surface
-            item = Item(mesh=piece.mesh, two_sided=self.two_sided, blended=look.blend,
-                        opacity=look.opacity, alpha_cutoff=look.cutoff,
-                        metal=arguments.number("metal", look.metal, 0, 1),
-                        rough=arguments.number("roughness", look.roughness, 0, 1))
-            item.state.material = ctypes.pointer((look.material or self.material).native())
-            if piece.map is not None:
-                item.state.diffuse_map = ctypes.pointer(piece.map)
+            item = Item(mesh=piece.mesh, two_sided=self.two_sided)
+            item.state.material = ctypes.pointer((piece.surface.material or self.material).native())
+            piece.dress(item)
             items.append(item)
         return items
 

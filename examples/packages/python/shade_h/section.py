@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -187,10 +188,7 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
         options["color"] = display(np.concatenate([
             kept[:, :, at[1]:at[2]], np.ones(cap.shape)]).reshape(-1, 3))
     tint = mesh.color or arguments.color("color", "clay")
-    looks = [Surface(piece.surface.material, piece.texture, piece.surface.blend,
-                     piece.surface.opacity, piece.surface.cutoff, piece.surface.wrap,
-                     piece.surface.metal, piece.surface.roughness)
-             for piece in mesh.pieces]
+    looks = [replace(piece.surface, texture=piece.texture) for piece in mesh.pieces]
     looks.append(Surface(Material((0, 0, 0), tint, tint), hatch()))
     numbers = np.concatenate([number[whence], np.full(len(cap), len(mesh.pieces))])
     made = Mesh(points + mesh.origin, np.arange(len(points)).reshape(-1, 3), up=mesh.up,

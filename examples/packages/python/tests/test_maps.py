@@ -1,0 +1,196 @@
+"""Normal, bump and emissive maps, and what a picture of metal and roughness says, against squares
+whose normals, light and factors are given outright."""
+import io
+
+import numpy as np
+import pytest
+from test_formats import Glb, colored
+
+import shade_h as shade
+from shade_h import section
+
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+FACES, UV = [[0, 1, 2], [0, 2, 3]], CORNERS[:, :2]
+MATTE = shade.Material((0, 0, 0), (0.6, 0.6, 0.6), (0.6, 0.6, 0.6), (0.3, 0.3, 0.3), 20)
+LAMPS = [shade.Light.directional((-0.4, -0.3, -1.0)), shade.Light.directional((0.7, 0.1, -0.3), (0.4, 0.5, 0.6))]
+
+
+def square(**surface):
+    """A unit square, u to the right and v upward."""
+    surface.setdefault("material", MATTE)
+    return shade.Mesh(CORNERS, FACES, uv=UV, normals="flat",
+                      surfaces=([0, 0], [shade.Surface(**surface)]))
+
+
+def seen(mesh, pose=None, lamps=(), light="scene", **options):
+    scene = shade.Scene(list(lamps), **options)
+    scene.add(mesh, pose)
+    camera = shade.Camera.look_at((0.4, 0.3, 4), (0.4, 0.5, 0), fov=20)
+    return scene.render(camera, (48, 48), samples=1, light=light)
+
+
+def inner(picture):
+    """The pixels of the square, without its edges."""
+    there = picture.ids >= 0
+    for axis in (0, 1):
+        there &= np.roll(there, 2, axis) & np.roll(there, -2, axis)
+    assert there.sum() > 150
+    return picture.rgba[there][:, :3].astype(int)
+
+
+def turned(matrix):
+    pose = np.eye(4)
+    pose[:3, :3] = matrix
+    return pose
+
+
+def about(axis, degrees):
+    a, b = [i for i in range(3) if i != axis]
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    out = np.eye(3)
+    out[[a, a, b, b], [a, b, a, b]] = c, -s, s, c
+    return out
+
+
+@pytest.mark.parametrize("light", ["scene", "studio"])
+@pytest.mark.parametrize("matrix", [np.eye(3), about(2, 90) @ about(0, -30), about(1, 25) * 0.7,
+                                    np.diag([0.5, 1, 2]) @ about(2, 30)])
+@pytest.mark.parametrize("way", [(0.5, 0.0, 0.8), (0.0, 0.5, 0.8), (-0.4, 0.3, 0.8)])
+def test_a_normal_map_of_one_colour_is_a_square_with_that_normal(way, matrix, light):
+    texel = np.round((np.array(way) / np.linalg.norm(way) + 1) / 2 * 255)
+    normal = texel / 255 * 2 - 1
+    told = shade.Mesh(CORNERS, FACES, normals=np.tile(normal, (4, 1)),
+                      surfaces=([0, 0], [shade.Surface(MATTE)]))
+    bent = square(relief=np.full((4, 4, 3), texel, np.uint8))
+    a, b = (seen(mesh, turned(matrix), LAMPS, light) for mesh in (bent, told))
+    assert np.abs(inner(a) - inner(b)).max() <= 1
+    flat = seen(square(), turned(matrix), LAMPS, light)
+    assert np.abs(inner(a) - inner(flat)).max() > 5
+    # the notes are of the surface, not of its relief
+    assert np.array_equal(a.depth, flat.depth) and np.array_equal(a.ids, flat.ids)
+    assert np.abs(a.normals - flat.normals).max() < 1e-6
+
+
+def test_strength_is_a_factor_of_the_slopes():
+    texel = np.round((np.array([0.3, 0.0, 0.954]) + 1) / 2 * 255)
+    n = texel / 255 * 2 - 1
+    normal = np.array([2 * n[0], 2 * n[1], n[2]])
+    told = shade.Mesh(CORNERS, FACES, normals=np.tile(normal / np.linalg.norm(normal), (4, 1)),
+                      surfaces=([0, 0], [shade.Surface(MATTE)]))
+    bent = square(relief=np.full((4, 4, 3), texel, np.uint8), strength=2)
+    assert np.abs(inner(seen(bent, None, LAMPS)) - inner(seen(told, None, LAMPS))).max() <= 1
+
+
+@pytest.mark.parametrize("high", [0.1, 0.4])
+def test_a_ramp_of_heights_leans_as_a_ramp_does(high):
+    ramp = np.tile(np.arange(256, dtype=np.uint8)[None, :, None], (8, 1, 3))
+    normal = np.array([-high * 256 / 255, 0, 1])    # white is high over black, a width apart
+    told = shade.Mesh(CORNERS, FACES, normals=np.tile(normal / np.linalg.norm(normal), (4, 1)),
+                      surfaces=([0, 0], [shade.Surface(MATTE)]))
+    bent = square(relief=ramp, strength=high, wrap=("clamp", "clamp"))
+    assert np.abs(inner(seen(bent, None, LAMPS)) - inner(seen(told, None, LAMPS))).max() <= 1
+
+
+def test_what_glows_needs_no_lamp_and_takes_no_colour_of_the_map():
+    glow = np.full((4, 4, 3), (200, 100, 50), np.uint8)
+    linear = ((glow[0, 0] / 255 + 0.055) / 1.055) ** 2.4
+    light = linear * (0.5, 1, 2)
+    wanted = 255 * (1.055 * light ** (1 / 2.4) - 0.055)
+    dark = np.zeros((2, 2, 3), np.uint8)
+    for texture in (None, dark):
+        got = seen(square(glow=glow, glow_factor=(0.5, 1, 2), texture=texture))
+        assert np.abs(inner(got) - wanted).max() <= 1
+    shines = square(material=shade.Material((0.2, 0.3, 0.4), (0, 0, 0), (0.5, 0.5, 0.5)), texture=dark)
+    wanted = 255 * (1.055 * np.array((0.2, 0.3, 0.4)) ** (1 / 2.4) - 0.055)
+    assert np.abs(inner(seen(shines)) - wanted).max() <= 1
+
+
+def file_of(change, **pictures):
+    """A GLB of a square whose material has pictures of one colour each."""
+    made = Glb()
+    material = colored(0.8, 0.5, 0.3, doubleSided=True)
+    made.json["textures"], made.json["images"] = [], []
+    for name, texel in pictures.items():
+        png = shade.Picture(np.full((8, 8, 4), (*texel, 255), np.uint8)).png()
+        made.json["images"].append({"bufferView": made.view(png), "mimeType": "image/png"})
+        made.json["textures"].append({"source": len(made.json["images"]) - 1})
+        place = material["pbrMetallicRoughness"] if name in ("metallicRoughnessTexture",
+                                                              "baseColorTexture") else material
+        place[name] = {"index": len(made.json["textures"]) - 1}
+    change(material)
+    made.node(mesh=made.quad(material, [[0, 1], [1, 1], [1, 0], [0, 0]]))
+    return shade.load(io.BytesIO(made.bytes()))
+
+
+def pixels(mesh, light="studio"):
+    return shade.render(mesh, view="iso", size=(48, 48), samples=1, light=light).rgba
+
+
+@pytest.mark.parametrize("green, blue", [(128, 255), (51, 0), (204, 102)])
+def test_a_picture_of_metal_and_roughness_is_a_factor_of_both(green, blue):
+    def factors(rough, metal):
+        return lambda m: m["pbrMetallicRoughness"].update(roughnessFactor=rough, metallicFactor=metal)
+
+    told = pixels(file_of(factors(0.9 * green / 255, 0.8 * blue / 255)))
+    shown = pixels(file_of(factors(0.9, 0.8), metallicRoughnessTexture=(0, green, blue)))
+    assert np.abs(told.astype(int) - shown).max() <= 1
+    whole = pixels(file_of(factors(0.9, 0.8)))
+    assert np.abs(told.astype(int) - whole).max() > 3
+
+
+def test_a_file_shows_its_normal_map_and_what_shines_in_it():
+    plain = file_of(lambda m: None)
+    bent = file_of(lambda m: m["normalTexture"].update(scale=0.5), normalTexture=(190, 128, 230))
+    surface = bent.pieces[-1].surface
+    assert surface.strength == pytest.approx(0.5)
+    assert np.array_equal(np.asarray(surface.relief)[0, 0, :3], (190, 128, 230))
+    assert np.abs(pixels(bent).astype(int) - pixels(plain)).max() > 5
+    lit = file_of(lambda m: m.update(emissiveFactor=[1, 0.5, 0.25]), emissiveTexture=(255, 128, 64))
+    surface = lit.pieces[-1].surface
+    assert surface.glow_factor == pytest.approx((1, 0.5, 0.25))
+    assert np.array_equal(np.asarray(surface.glow)[0, 0, :3], (255, 128, 64))
+    assert pixels(lit)[24, 24, 0] > pixels(plain)[24, 24, 0]
+
+
+def test_what_shines_by_a_factor_alone_is_not_darkened_by_the_map():
+    lit = file_of(lambda m: m.update(emissiveFactor=[0.5, 0, 0]), baseColorTexture=(0, 0, 0))
+    assert lit.pieces[-1].surface.material.emission == pytest.approx((0.5, 0, 0))
+    got = pixels(lit, "quick")[24, 24]
+    assert got[0] > 180
+
+
+def test_bump_and_emissive_maps_of_obj(tmp_path):
+    ramp = np.tile(np.arange(0, 256, 4, dtype=np.uint8)[None, :, None], (64, 1, 3))
+    for name, picture in (("high.png", ramp), ("glow.png", np.full((8, 8, 3), (0, 255, 0), np.uint8))):
+        rgba = np.full((*picture.shape[:2], 4), 255, np.uint8)
+        rgba[:, :, :3] = picture
+        shade.Picture(rgba).save(tmp_path / name)
+    (tmp_path / "a.mtl").write_text("newmtl m\nKd .5 .5 .5\nmap_bump -bm 0.3 high.png\nKe 1 .5 1\nmap_Ke glow.png\n")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                    "usemtl m\nf 1/1 2/2 3/3 4/4\n")
+    got = shade.load(tmp_path / "a.obj")
+    surface = got.pieces[-1].surface
+    assert surface.strength == pytest.approx(0.3) and got.pieces[-1].heights
+    assert surface.glow_factor == pytest.approx((1, ((0.5 + 0.055) / 1.055) ** 2.4, 1))    # of a display
+    green = inner(seen(got))
+    assert np.abs(green - (0, 127.5, 0)).max() <= 1
+
+
+def test_what_is_wrong_is_refused():
+    with pytest.raises(shade.Error, match="relief must have the shape"):
+        square(relief=np.zeros((4, 4)))
+    with pytest.raises(shade.Error, match="uv is missing"):
+        shade.Mesh(CORNERS, FACES, surfaces=([0, 0], [shade.Surface(glow=np.zeros((2, 2, 3)))]))
+    for wrong in (dict(relief=np.zeros((2, 2, 3)), strength=-1),
+                  dict(glow=np.zeros((2, 2, 3)), glow_factor=(1, 1)),
+                  dict(glow=np.zeros((2, 2, 3)), glow_factor=(1, np.nan, 1))):
+        with pytest.raises(shade.Error, match="strength|glow_factor"):
+            seen(square(**wrong))
+
+
+def test_a_section_keeps_the_maps():
+    bent = square(relief=np.full((4, 4, 3), (190, 128, 230), np.uint8),
+                  glow=np.full((2, 2, 3), (0, 0, 90), np.uint8))
+    with pytest.warns(UserWarning):
+        cut = section.cut(bent, np.array([0.5, 0.5, 0]), np.array([1.0, 0, 0]))
+    assert all(piece.relief is not None and piece.glow is not None for piece in cut.pieces[:1])
