@@ -665,8 +665,9 @@ int python_upright(const model *m)
     return m->up_told ? usual : stand_guess(&m->mesh, usual);
 }
 
-/* ---- pictures of files: list, decode and set them, heed them; then ask for parts ------------- */
+/* ---- their pictures -------------------------------------------------------------------------- */
 
+/* They are listed, decoded by the caller, set and heeded, before the caller asks for the parts. */
 typedef struct python_picture {
     const char *name;  /* in the file */
     const char *kind;  /* what the file says that it is, image/png or image/jpeg; "": nothing */
@@ -677,14 +678,14 @@ typedef struct python_picture {
 } python_picture;
 
 /* Lists the pictures, and returns their number; from *beside on they are beside the file. */
-SHADEDEF int python_pictures(model *m, int *beside);
+NATIVE(pictures) int python_pictures(model *m, int *beside);
 int python_pictures(model *m, int *beside)
 {
     *beside = list_pictures(m);
     return m->picture_count;
 }
 
-SHADEDEF void python_picture_of(const model *m, int i, python_picture *out);
+NATIVE(picture_of) void python_picture_of(const model *m, int i, python_picture *out);
 void python_picture_of(const model *m, int i, python_picture *out)
 {
     const model_picture *p = &m->picture[i];
@@ -697,7 +698,8 @@ void python_picture_of(const model *m, int i, python_picture *out)
 }
 
 /* Copies the pixels, RGBA, of a picture that was decoded.  Non-zero: out of memory */
-SHADEDEF int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
+NATIVE(picture_set)
+int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
 int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height)
 {
     const size_t bytes = 4 * (size_t)width * (size_t)height;
@@ -709,7 +711,7 @@ int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int heig
     return 0;
 }
 
-SHADEDEF void python_heed_pictures(model *m);
+NATIVE(heed_pictures) void python_heed_pictures(model *m);
 void python_heed_pictures(model *m)
 {
     heed_pictures(m);
