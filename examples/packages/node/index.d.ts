@@ -39,9 +39,19 @@ export interface MeshSource {
     color?: Color;
     /** Red, green and blue of each vertex or each face: bytes, or numbers 0 .. 1 of a display. */
     colors?: Numbers;
-    /** u, v of each vertex, with v upward as in OBJ files; needs a texture. */
+    /** u, v of each vertex, with v upward as in OBJ files; needs a texture, a relief or a glow. */
     uv?: Numbers;
     texture?: Texture;
+    /** A normal map, with green upward as in glTF, or a bump map, brighter where it is higher: which of them,
+        its texels tell. */
+    relief?: Texture;
+    /** Of a normal map the factor of its slopes, of a bump map the height of white above black in the unit of
+        positions; default 1. */
+    strength?: number;
+    /** The light that the surface sends by itself, whatever shines on it. */
+    glow?: Texture;
+    /** Red, green and blue by which the linear light of glow is multiplied; default 1, 1, 1. */
+    glowFactor?: Numbers;
     /** One of PRESETS, or the numbers of a surface; default: a little gloss on the colour. */
     material?: string | Material;
     /** 4 x 4 by columns, takes the mesh to the world. */
@@ -177,8 +187,8 @@ export class Renderer {
     constructor(height: number, width: number, options?: { samples?: number; srgb?: boolean; tolerance?: number });
     readonly height: number;
     readonly width: number;
-    /** A Mesh with its colour, texture, transparency, holes and material; or fields as of MeshSource without
-        these, of which uv needs a texture in add(). */
+    /** A Mesh with its colour, texture, transparency, holes and material, but without its relief and glow; or
+        fields as of MeshSource without these, of which uv needs a texture in add(). */
     mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
                           uv?: Numbers; colors?: Numbers }): Shape;
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;

@@ -24,7 +24,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 14, ITEM = 44, VIEW = 67, LIGHT = 21;
+const MESH = 24, ITEM = 48, VIEW = 67, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -129,7 +129,10 @@ function gloss(color) {
 
 const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
 const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
-                      "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff", "metal", "roughness"];
+                      "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff", "metal", "roughness",
+                      "relief", "strength", "glow", "glowFactor"];
+// What needs uv, in the order of asked_mesh
+const PICTURES = ["texture", "relief", "glow"];
 
 export class Mesh {
     #at = 0;
@@ -157,6 +160,8 @@ export class Mesh {
         this.cutoff = check.number("cutoff", got.cutoff ?? 0, 0, 1000);
         this.metal = check.number("metal", got.metal ?? 0, 0, 1);
         this.roughness = check.number("roughness", got.roughness ?? 0, 0, 1);
+        this.strength = check.number("strength", got.strength ?? 1, -1e9, 1e9);
+        this.glowFactor = check.vector("glowFactor", got.glowFactor ?? [1, 1, 1], 3);
         this.own = got.material !== undefined;
         const plain = color === undefined ? null : linear(check.color("color", color));
         const white = colors !== undefined || got.texture !== undefined;
@@ -168,7 +173,7 @@ export class Mesh {
     }
 
     /** Hands the arrays over to the module. */
-    #made(normals, colors, { uv, texture }) {
+    #made(normals, colors, { uv, ...rest }) {
         const vertices = this.positions.length / 3, faces = this.indices.length / 3;
         const kinds = { flat: 0, auto: 1, smooth: 2 }, ask = new Uint32Array(MESH);
         const rows = (name, value, width, ...counts) => {
@@ -181,17 +186,19 @@ export class Mesh {
         };
         const given = check.isArray(normals);
         if (!given) check.choice("normals", normals, Object.keys(kinds));
-        if ((uv === undefined) !== (texture === undefined)) {
-            throw new ShadeError("uv and texture belong together: one of them is missing");
+        const pictured = PICTURES.find((name) => rest[name] !== undefined);
+        if ((uv === undefined) !== (pictured === undefined)) {
+            throw new ShadeError(`uv and ${pictured ?? "texture"} belong together: one of them is missing`);
         }
         const shown = colors === undefined ? null : check.displayed("colors", colors, 3);
-        const map = texture === undefined ? null : check.texture("texture", texture);
-        this.map = map;
+        const maps = PICTURES.map((name) =>
+            (rest[name] === undefined ? null : check.texture(name, rest[name])));
+        this.map = maps[0];
         const arrays = [this.positions, given && rows("normals", normals, 3, vertices),
                         shown && rows("colors", shown, 3, vertices, faces),
-                        uv && rows("uv", uv, 2, vertices), this.indices, map?.data];
-        ask.set([vertices, this.indices.length, shown ? shown.length / 3 : 0,
-                 given ? 0 : kinds[normals], map?.width ?? 0, map?.height ?? 0, ...(map?.wrap ?? [0, 0])], 6);
+                        uv && rows("uv", uv, 2, vertices), this.indices, ...maps.map((map) => map?.data)];
+        ask.set([vertices, this.indices.length, shown ? shown.length / 3 : 0, given ? 0 : kinds[normals]], 5);
+        maps.forEach((map, i) => map && ask.set([map.width, map.height, ...map.wrap], 10 + 5 * i));
         return withMemory((room) => {
             const at = room(4 * MESH), result = room(4), held = [];
             try {
@@ -201,7 +208,8 @@ export class Mesh {
                 throw error;
             }
             arrays.forEach((array, i) => array && put(held[i], array));
-            ask.set(held);
+            ask.set(held.slice(0, 5));
+            maps.forEach((_, i) => { ask[9 + 5 * i] = held[5 + i]; });
             const mesh = library.mesh_make(put(at, ask), result);
             succeed("mesh", words(result, 1)[0]);
             return mesh;
@@ -254,7 +262,8 @@ function writeItems(at, meshes, camera) {
         floats(start + 40, 13).set(mesh.material);
         floats(start + 92, 16).set(pose);
         words(start + 156, 1)[0] = mesh.blend ? 1 : 0;
-        floats(start + 160, 4).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness]);
+        floats(start + 160, 8).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness, mesh.strength,
+                                    ...mesh.glowFactor]);
     });
 }
 

@@ -18,12 +18,16 @@
 enum { CREASE_TRIANGLES = 200000, CREASE_FACES = 2000 };    /* as in mesh.py */
 enum { NORMALS_GIVEN, NORMALS_AUTO, NORMALS_SMOOTH };
 
+typedef struct asked_map {
+    uint8_t *texels;                             /* RGBA; NULL: there is none */
+    int width, height, wrap_u, wrap_v;           /* shade_wrap */
+} asked_map;
+
 typedef struct asked_mesh {
     float *positions, *normals, *colors, *uv;    /* colours are those of a display */
     uint32_t *indices;
-    uint8_t *texels;                             /* RGBA */
-    int vertices, corners, color_count, normals_kind, texture_width, texture_height;
-    int wrap_u, wrap_v;                          /* shade_wrap */
+    int vertices, corners, color_count, normals_kind;
+    asked_map map, relief, glow;
 } asked_mesh;
 
 typedef struct asked_item {
@@ -34,6 +38,8 @@ typedef struct asked_item {
     shade_mat4 pose;
     int blended;
     float opacity, alpha_cutoff, metal, rough;
+    float strength;                    /* of the relief */
+    shade_vec3 glow;                   /* a factor of the picture of what shines */
 } asked_item;
 
 typedef struct asked_view {
@@ -52,16 +58,21 @@ typedef struct asked_view {
     int bent;
 } asked_view;
 
+typedef struct module_map {
+    shade_texture texture;             /* pixels NULL: there is none */
+    shade_texture levels[15];          /* below 16384 x 16384 */
+} module_map;
+
 typedef struct module_mesh {
     shade_mesh mesh;                   /* what is drawn */
     shade_mesh source;                 /* as it was handed over: its edges are drawn */
-    shade_texture map;
-    shade_texture levels[15];          /* below 16384 x 16384 */
+    module_map map, relief, glow;
     shade_edge *edges;
     double *face_normals;
     int edge_count, edges_known, no_room;
+    int relief_heights;                /* the relief holds heights, and no normals */
     int owned_count;
-    void *owned[32];
+    void *owned[40];
 } module_mesh;
 
 /* Memory that is freed with the mesh.  NULL is remembered. */
@@ -76,7 +87,7 @@ static void *room(module_mesh *m, size_t count, size_t size)
     return keep(m, calloc(count + 1, size));
 }
 
-/* ---- vertices, normals, colours, chunks and mipmaps ----------------------------------------- */
+/* ---- vertices, normals, colours, chunks and pictures ----------------------------------------- */
 
 /* Floats of the rows at[0], at[1], ..., each of width floats */
 static float *gathered(module_mesh *m, const float *from, int width, const uint32_t *at, int count)
@@ -206,22 +217,34 @@ static shade_result make_chunks(module_mesh *m)
     return result;
 }
 
-static shade_result make_map(module_mesh *m, const asked_mesh *asked)
+/* colors: the texels are those of a display, and no directions or heights. */
+static shade_result make_map(module_mesh *m, const asked_map *asked, module_map *map, int colors)
 {
-    const int w = asked->texture_width, h = asked->texture_height;
+    const int w = asked->width, h = asked->height;
     const size_t bytes = shade_mipmap_bytes(w, h, SHADE_FORMAT_RGBA8);
     void *memory;
     if (!asked->texels) return SHADE_OK;
     memory = room(m, bytes, 1);
     if (!memory) return SHADE_ERROR_CAPACITY;
-    m->map.pixels = asked->texels;
-    m->map.width = w;
-    m->map.height = h;
-    m->map.srgb = 1;
-    m->map.filter = SHADE_FILTER_TRILINEAR;
-    m->map.wrap_u = (shade_wrap)asked->wrap_u;
-    m->map.wrap_v = (shade_wrap)asked->wrap_v;
-    return shade_build_mipmaps(&m->map, m->levels, memory, bytes);
+    map->texture.pixels = asked->texels;
+    map->texture.width = w;
+    map->texture.height = h;
+    map->texture.srgb = colors;
+    map->texture.filter = SHADE_FILTER_TRILINEAR;
+    map->texture.wrap_u = (shade_wrap)asked->wrap_u;
+    map->texture.wrap_v = (shade_wrap)asked->wrap_v;
+    return shade_build_mipmaps(&map->texture, map->levels, memory, bytes);
+}
+
+static shade_result make_maps(module_mesh *m, const asked_mesh *asked)
+{
+    const asked_map *relief = &asked->relief;
+    shade_result result = make_map(m, &asked->map, &m->map, 1);
+    if (!result) result = make_map(m, relief, &m->relief, 0);
+    if (!result) result = make_map(m, &asked->glow, &m->glow, 1);
+    if (relief->texels)
+        m->relief_heights = python_heights(relief->texels, relief->width, relief->height);
+    return result;
 }
 
 EXPORT(mesh_free) void module_mesh_free(module_mesh *m);
@@ -236,7 +259,8 @@ EXPORT(mesh_make) module_mesh *module_mesh_make(const asked_mesh *asked, shade_r
 module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result)
 {
     void *const given[] = { asked->positions, asked->normals, asked->colors,
-                            asked->uv, asked->indices, asked->texels };
+                            asked->uv, asked->indices, asked->map.texels, asked->relief.texels,
+                            asked->glow.texels };
     module_mesh *m = (module_mesh *)calloc(1, sizeof *m);
     *result = SHADE_ERROR_CAPACITY;
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
@@ -257,7 +281,7 @@ module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result)
     m->mesh.texcoords = asked->uv;
     *result = make_normals(m, asked);
     if (!*result) *result = make_chunks(m);
-    if (!*result) *result = make_map(m, asked);
+    if (!*result) *result = make_maps(m, asked);
     if (!*result) return m;
     module_mesh_free(m);
     return NULL;
@@ -373,13 +397,23 @@ static shade_result lines_of(const asked_item *asked, python_item *item)
 
 /* ---- drawing -------------------------------------------------------------------------------- */
 
+static const shade_texture *texture_of(const module_map *map)
+{
+    return map->texture.pixels ? &map->texture : NULL;
+}
+
 static shade_result item_of(const asked_item *asked, python_item *item)
 {
     memset(item, 0, sizeof *item);
     item->mesh = asked->mesh->mesh;
     item->state.material = &asked->material;
     item->state.model = asked->pose;
-    if (asked->mesh->map.pixels) item->state.diffuse_map = &asked->mesh->map;
+    item->state.diffuse_map = texture_of(&asked->mesh->map);
+    item->relief = texture_of(&asked->mesh->relief);
+    item->relief_heights = asked->mesh->relief_heights;
+    item->relief_strength = asked->strength;
+    item->glow_map = texture_of(&asked->mesh->glow);
+    item->glow = asked->glow;
     item->two_sided = asked->two_sided;
     item->blended = asked->blended;
     item->opacity = asked->opacity;

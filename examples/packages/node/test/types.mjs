@@ -16,7 +16,8 @@ const view: Viewpoint = [30, 20], camera: Camera = { view: [], projection: [] };
 const lamp: Light = { position: [1, 2, 3, 0], color: [1, 1, 1], spotCosCutoff: 0.5, linear: 1 };
 const light: Lighting = { lights: [lamp], ambient: [0, 0, 0], model: "phong", flags: 4 };
 const options: Options = { light, view, size: 64, samples: 2, background: null, ortho: true, up: "y", depth: true };
-const mesh = new Mesh({ ...source, uv: [0, 0, 0, 0, 0, 0], texture });
+const mesh = new Mesh({ ...source, uv: [0, 0, 0, 0, 0, 0], texture, relief: texture, strength: 2, glow: texture,
+    glowFactor: [1, 1, 0.5] });
 const picture: Picture = render([mesh, source], options);
 render(mesh, { view: camera, size: [1, 2] });
 const bytes: Uint8ClampedArray = picture.data, depth: Float32Array | null = picture.depth;
