@@ -241,7 +241,8 @@ export namespace mujoco {
     }
 }
 
-/** Decodes the bytes of a picture in a model, of "image/png" or "image/jpeg", or null: it is left out. */
+/** Decodes the bytes of a picture in a model, of "image/png" or "image/jpeg", or null: it is left out.  Each is
+    decoded once, where a face shows it: colours, reliefs, what shines, and metal and roughness of glTF. */
 export type Decoder = (bytes: Uint8Array, mimeType: string | undefined) => Texture | null;
 
 /** Hands over a file that lies beside a model, by the name that the model has for it; null: there is none. */

@@ -1,9 +1,9 @@
 // Reads models by the module.  Each surface becomes one mesh, as render takes them.  What 3MF has packed is
 // unpacked by the platform, before it is read.
-import { ShadeError, WRAPS, choice, encoded, record } from "./arguments.js";
+import { ShadeError, WRAPS, choice, encoded, record, texture } from "./arguments.js";
 
-// python_model and python_part of module.c, in words of four bytes
-const MODEL = 16, PART = 33;
+// module_model, python_part and python_picture of module.c, in words of four bytes
+const MODEL = 16, PART = 30, PICTURE = 7;
 
 /** Alpha that does not count becomes 255. */
 function opaque(image) {
@@ -44,51 +44,80 @@ const FORMATS = ["obj", "stl", "ply", "off", "gltf", "glb", "3mf"];
 
 /** readModel and its kin, with what index.js has of the module; files become what the module calls. */
 export function readersOf({ library, withMemory, take, put, floats, words, text, files }) {
-    if (library.size(6) !== 4 * MODEL || library.size(7) !== 4 * PART) {
-        throw new Error("model.js and module.js do not fit");
+    [[6, MODEL], [7, PART], [10, PICTURE]].forEach(([i, count]) => {
+        if (library.size(i) !== 4 * count) throw new Error("model.js and module.js do not fit");
+    });
+
+    /** A picture as the caller has decoded it; null: it is left out. */
+    function decoded(name, at, size, kind, { picture, beside }, warn) {
+        const bytes = at ? new Uint8Array(library.memory.buffer, at, size).slice() : beside?.(name);
+        if (!bytes) warn(`${name}: the option beside has no such file; its faces are drawn without it`);
+        const image = bytes ? picture(bytes, kind || undefined) : null;
+        return image ? { data: image.data, width: image.width, height: image.height } : null;
     }
 
-    /** The image of a part, decoded by the caller; null where there is none. */
-    function imageOf(part, { picture, beside }, images, warn) {
-        const [map, physical, at, size, kind] = [part[6], part[10], part[26], part[27], part[30]];
-        if (!at && (!map || physical)) return null;
-        if (!picture) {
-            warn("it has pictures, which the option picture decodes; its faces are drawn without them");
-            return null;
-        }
-        const name = at || text(map);
-        if (!images.has(name)) {
-            const bytes = at ? new Uint8Array(library.memory.buffer, at, size).slice() : beside?.(name);
-            if (!bytes) warn(`${name}: the option beside has no such file; its faces are drawn without it`);
-            images.set(name, bytes ? picture(bytes, text(kind) || undefined) : null);
-        }
-        return images.get(name);
+    /** Hands the pixels of a picture over to the model. */
+    function setPixels(model, number, image) {
+        const { data, width, height } = texture("picture", image);
+        const failed = withMemory((room) =>
+            library.picture_set(model, number, put(room(data.length), data), width, height));
+        if (failed) throw new RangeError("memory is not enough for the pictures of the model");
     }
 
-    function meshOf(all, at, image) {
+    /** The pictures that faces show, by their numbers.  What they say of their surfaces, such as metal and
+     *  roughness, then stands in the parts. */
+    function picturesOf(model, options, warn) {
+        const images = new Map(), known = new Map();    // by number, by name
+        withMemory((room) => {
+            const at = room(4 * PICTURE), from = room(4), count = library.pictures(model, from);
+            const besideFrom = words(from, 1)[0];
+            for (let number = 0; number < count; number++) {
+                if (!library.picture_shown(model, number)) continue;
+                library.picture_of(model, number, at);
+                const [named, kind, bytes, size, u, v] = words(at, PICTURE), name = text(named);
+                if (!bytes && number < besideFrom) continue;    // that it cannot be read has been told
+                if (!options.picture) {
+                    warn("it has pictures, which the option picture decodes; its faces are drawn without them");
+                    break;
+                }
+                if (!known.has(name)) known.set(name, decoded(name, bytes, size, text(kind), options, warn));
+                const image = known.get(name);
+                if (!image) continue;
+                setPixels(model, number, image);
+                images.set(number, { ...image, wrap: [WRAPS[u], WRAPS[v]] });
+            }
+        });
+        library.heed_pictures(model);
+        return images;
+    }
+
+    function meshOf(all, at, images) {
         const ints = words(at, PART).slice(), values = floats(at, PART).slice();
         const corners = words(all.indices, all.corners).slice(ints[0], ints[0] + ints[1]);
         const used = Uint32Array.from(new Set(corners)).sort(), place = new Map();
         used.forEach((vertex, i) => place.set(vertex, i));
         const of = (name, width, change) => rows(floats(all[name], width * all.vertices), width, used, change);
-        const k = [...values.subarray(11, 24)], [isOpaque, isBlended] = [ints[8], ints[25]];
-        const blend = isBlended || values[5] > 0, cutoff = ints[10] || isOpaque || blend ? values[24] : 0.5;
-        const surface = image && { ...(isOpaque ? opaque(image) : image), wrap: [WRAPS[ints[28]], WRAPS[ints[29]]] };
+        const k = [...values.subarray(8, 21)], [isSet, isOpaque, isBlended] = ints.subarray(3, 6);
+        const [transparency, cutoff] = values.subarray(6, 8), blend = isBlended || transparency > 0;
+        const [map, relief, glow] = [...ints.subarray(23, 26)].map((number) => images.get(number));
         const material = { emission: k.slice(0, 3), ambient: k.slice(3, 6), diffuse: k.slice(6, 9),
                            specular: k.slice(9, 12), shininess: k[12] };
         return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
-                 indices: corners.map((vertex) => place.get(vertex)), ...(ints[7] ? { material, metal: values[31], roughness: values[32] } : {}),
-                 ...(blend ? { blend: true, opacity: 1 - values[5] } : {}),
-                 ...(image && cutoff > 0 ? { cutoff } : {}),
+                 indices: corners.map((vertex) => place.get(vertex)),
+                 ...(isSet ? { material, metal: values[21], roughness: values[22] } : {}),
+                 ...(blend ? { blend: true, opacity: 1 - transparency } : {}),
+                 ...(map && cutoff > 0 ? { cutoff } : {}),
                  ...(all.smooth ? { normals: of("normals", 3) } : {}),
                  ...(all.colors ? { colors: of("colors", 3, displayed) } : {}),
-                 ...(image && all.uv ? { uv: of("uv", 2, (x, axis) => (axis ? 1 - x : x)),
-                                         texture: surface } : {}) };
+                 ...(map || relief || glow ? { uv: of("uv", 2, (x, axis) => (axis ? 1 - x : x)) } : {}),
+                 ...(map ? { texture: isOpaque ? opaque(map) : map } : {}),
+                 ...(relief ? { relief, strength: values[26] } : {}),
+                 ...(glow ? { glow, glowFactor: [...values.subarray(27, 30)] } : {}) };
     }
 
     function meshesOf(model, options) {
         return withMemory((room) => {
-            const at = room(4 * MODEL), part = room(4 * PART), told = new Set(), images = new Map();
+            const at = room(4 * MODEL), part = room(4 * PART), told = new Set();
             library.model_of(model, at);
             const [positions, normals, uv, colors, indices, vertices, corners, parts, smooth, warning] = words(at, 10);
             const all = { positions, normals, uv, colors, indices, vertices, corners, smooth,
@@ -98,10 +127,10 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 told.add(line);
             };
             if (text(warning)) warn(unnamed(text(warning)));
+            const images = picturesOf(model, options, (line) => warn(`model: ${line}`));
             return Array.from({ length: parts }, (_, i) => {
                 library.model_part(model, i, part);
-                const image = imageOf(words(part, PART).slice(), options, images, (line) => warn(`model: ${line}`));
-                return meshOf(all, part, image);
+                return meshOf(all, part, images);
             });
         });
     }

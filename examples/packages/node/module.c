@@ -568,6 +568,7 @@ model *module_model_open(const void *bytes, size_t size, const char *name, char 
     said.path = name;
     said.beside = module_load;
     said.inflate = module_inflate;
+    said.polish_wanted = 1;
     if (!m || model_read_with(bytes, size, name, m, &q, &said)) {
         free(m);
         return NULL;
@@ -592,6 +593,19 @@ void module_model_of(const model *m, module_model *out)
 
 EXPORT(model_part) void module_model_part(const model *m, int i, python_part *part);
 void module_model_part(const model *m, int i, python_part *part) { python_part_of(m, i, part); }
+
+/* 1: a surface of the mesh shows picture i, or shines as it says. */
+EXPORT(picture_shown) int module_picture_shown(const model *m, int i);
+int module_picture_shown(const model *m, int i)
+{
+    if (!m->surface_count || !m->mesh.texcoords) return 0;
+    for (int k = 0; k < m->part_count; k++) {
+        const model_surface *s = &m->surface[m->part[k].surface];
+        if (s->picture == i || s->relief.picture == i || s->glow_picture == i || s->polish == i)
+            return 1;
+    }
+    return 0;
+}
 
 /* ---- words, colours and sizes --------------------------------------------------------------- */
 
@@ -618,8 +632,8 @@ int module_size(int which)
                                    sizeof(shade_light), sizeof(renderer_object),
                                    sizeof(renderer_picture), sizeof(module_model),
                                    sizeof(python_part), sizeof(shade_mesh),
-                                   sizeof(renderer_image) };
-    return which >= 0 && which < 10 ? (int)size[which] : 0;
+                                   sizeof(renderer_image), sizeof(python_picture) };
+    return which >= 0 && which < 11 ? (int)size[which] : 0;
 }
 
 EXPORT(take) void *module_take(size_t bytes);
