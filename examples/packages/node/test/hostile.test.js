@@ -160,6 +160,9 @@ function anyMesh() {
     if (random() < 0.3) mesh.colors = wild(numbers(one([24, 36]), 300));
     if (random() < 0.2) mesh.uv = wild(numbers(16, 4));
     if (random() < 0.2) mesh.texture = wild({ data: wild(numbers(12, 255)), width: wild(2), height: wild(2) });
+    if (mesh.uv && random() < 0.5) mesh[one(["relief", "glow"])] = { data: numbers(12, 255), width: 2, height: 2 };
+    if (random() < 0.2) mesh.strength = wild(9 * random() - 4);
+    if (random() < 0.2) mesh.glowFactor = wild(numbers(3, 2));
     if (random() < 0.3) mesh.material = wild(one([one(PRESETS), { diffuse: numbers(3, 1) }]));
     if (random() < 0.2) mesh.pose = wild(numbers(16, 5));
     if (random() < 0.4) mesh.edges = wild(random() < 0.5);
@@ -649,4 +652,206 @@ test("the highlight and the emission of an MTL are drawn", async () => {
         assert.ok(Math.abs(bytes[40 * width + k] - c) <= 1, `${bytes.slice(40 * width, 40 * width + 3)}`);
     }));
     made.free();
+});
+
+// ---- reliefs, what shines, metal and roughness
+
+/** The values of a display's bytes in linear light, and back */
+const toLinear = (x) => (x / 255 <= 0.04045 ? x / 255 / 12.92 : ((x / 255 + 0.055) / 1.055) ** 2.4);
+const toByte = (x) => Math.round(255 * Math.min(1, x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055));
+const texel = (...data) => ({ data, width: 1, height: 1 });
+
+/** A square that looks along z and its picture, whose u grows along one way and v, upward, along another */
+function square(right, up, more) {
+    const positions = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], uv = [];
+    for (let i = 0; i < 12; i += 3) {
+        for (const way of [right, up]) uv.push((1 + positions[i] * way[0] + positions[i + 1] * way[1]) / 2);
+    }
+    return { positions, indices: [0, 1, 2, 0, 2, 3], uv, ...more };
+}
+
+/** The same without a picture, but with one normal everywhere */
+function tilted(normal, { uv, relief, strength, texture, ...rest }) {
+    return { ...rest, normals: [...normal, ...normal, ...normal, ...normal] };
+}
+
+const lamp = { lights: [{ position: [0.6, 0.3, 0.9, 0] }], ambient: [0.1, 0.1, 0.1] }, dark = { lights: [] };
+
+/** The number of bytes that differ by more than 1 */
+const unlike = (a, b) => a.filter((x, i) => Math.abs(x - b[i]) > 1).length;
+
+test("a normal map is lit as the normals that it holds", () => {
+    const ways = [[[1, 0], [0, 1]], [[0, 1], [-1, 0]], [[-1, 0], [0, 1]], [[0, 1], [1, 0]], [[1, 0], [0, -1]]];
+    const flat = render(square([1, 0], [0, 1], { texture: texel(255, 255, 255) }), { ...front, light: lamp }).data;
+    for (const [right, up] of ways) {
+        for (const bytes of [[191, 128, 238], [64, 128, 238], [128, 200, 230], [90, 60, 220], [128, 128, 255]]) {
+            for (const strength of [1, 0.5, 2, undefined]) {
+                const [x, y, z] = bytes.map((byte) => 2 * byte / 255 - 1), s = strength ?? 1;
+                const normal = [0, 1].map((k) => s * (x * right[k] + y * up[k]));
+                const own = { relief: texel(...bytes), color: "steel", ...(strength ? { strength } : {}) };
+                const whole = square(right, up, own), other = tilted([...normal, z], whole);
+                for (const light of [lamp, "quick", "studio"]) {
+                    const options = { ...front, light, size: light === "studio" ? 9 : 32 };
+                    const [got, wanted] = [whole, other].map((mesh) => render(mesh, options).data);
+                    assert.equal(unlike(got, wanted), 0, `${bytes} ${right} ${up} ${strength} ${light}`);
+                    if (light === lamp && bytes[0] !== 128) assert.ok(unlike(got, flat) > 500);
+                }
+            }
+        }
+    }
+    // a place of its own turns it, and does not lean on how long u and v are
+    const pose = [0, 0, -2, 0, 0, 3, 0, 0, 1, 0, 0, 0, 5, 6, 7, 1], view = "right";
+    const whole = square([1, 0], [0, 1], { relief: texel(191, 128, 238), pose, color: "steel" });
+    const normal = [191, 128, 238].map((byte) => 2 * byte / 255 - 1);
+    const [got, wanted] = [whole, tilted(normal, whole)].map((mesh) => render(mesh, { ...front, view, up: "y" }).data);
+    assert.equal(unlike(got, wanted), 0);
+});
+
+test("a bump map is lit by its slope", () => {
+    const step = 20, width = 8, ramp = (along, across) => {
+        const height = (i) => 40 + step * (i % 8) * along + step * Math.floor(i / 8) * across;
+        const data = Array.from({ length: 64 }, (_, i) => height(i));
+        return { data: data.flatMap((x) => [x, x, x]), width, height: 8, wrap: ["clamp", "clamp"] };
+    };
+    for (const [along, across] of [[1, 0], [0, 1]]) {    // brighter to the right, or downward
+        for (const strength of [0.3, 1, -0.5]) {
+            const whole = square([1, 0], [0, 1], { relief: ramp(along, across), strength, color: "steel" });
+            const slope = strength * step / 255 * width / 2;    // the picture is 2 wide
+            const [got, wanted] = [whole, tilted([-slope * along, slope * across, 1], whole)].map((mesh) =>
+                render(mesh, { ...front, light: lamp }).data.subarray(4 * (16 * 32 + 16), 4 * (16 * 32 + 16) + 4));
+            assert.equal(unlike(got, wanted), 0, `${got} ${wanted}`);
+        }
+    }
+});
+
+test("what shines by itself needs no light", () => {
+    const centre = ({ data }) => [...data.subarray(4 * (16 * 32 + 16), 4 * (16 * 32 + 16) + 3)];
+    const near = (got, wanted) => assert.ok(!unlike(got, wanted), `${got} and not ${wanted}`);
+    const bytes = [200, 100, 30], options = { ...front, light: dark };
+    for (const glowFactor of [undefined, [0.5, 1, 3], [0, 0.25, 1]]) {
+        const own = { glow: texel(...bytes), ...(glowFactor ? { glowFactor } : {}) };
+        const wanted = bytes.map((x, k) => toByte(toLinear(x) * (glowFactor ?? [1, 1, 1])[k]));
+        near(centre(render(square([1, 0], [0, 1], own), options)), wanted);
+        near(centre(render(square([1, 0], [0, 1], { ...own, texture: texel(0, 9, 255) }), options)), wanted);
+    }
+    const read = (material, images) => readGltf(glb((json) => {
+        json.materials[0] = material;
+        json.textures = images.map((_, source) => ({ source }));
+        json.images = images.map((image) => ({ uri: `data:image/png;base64,${btoa(String.fromCharCode(...image))}` }));
+    }), { picture: (image) => texel(...image) })[0];
+    const pbrMetallicRoughness = { baseColorTexture: { index: 0 }, metallicFactor: 0 }, emissiveFactor = [0.5, 0.25, 0];
+    near(centre(render(read({ pbrMetallicRoughness, emissiveFactor }, [[9, 200, 99]]), options)),
+         emissiveFactor.map(toByte));
+    const shining = { pbrMetallicRoughness, emissiveFactor, emissiveTexture: { index: 1 } };
+    near(centre(render(read(shining, [[9, 200, 99], bytes]), options)),
+         bytes.map((x, k) => toByte(toLinear(x) * emissiveFactor[k])));
+});
+
+test("reliefs, metal and roughness of a GLB", () => {
+    const asked = [], texels = [[90, 200, 230], [255, 250, 245], [77, 100, 60]];
+    const picture = ([number]) => { asked.push(number); return texel(...texels[number]); };
+    const read = (material, others = []) => readGltf(glb((json) => {
+        json.materials = [material, ...others];
+        json.textures = texels.map((_, source) => ({ source }));
+        json.images = ["AA==", "AQ==", "Ag=="].map((words) => ({ uri: `data:image/png;base64,${words}` }));
+    }), { picture });
+    const lit = { ...front, light: lamp }, factors = { metallicFactor: 0.8, roughnessFactor: 0.9 };
+
+    // v of the file points down, and grows upward here: the picture stands on its head
+    const plain = { baseColorFactor: [0.5, 0.5, 0.5, 1], ...factors };
+    const [bent] = read({ pbrMetallicRoughness: plain, normalTexture: { index: 0, scale: 1.5 } });
+    assert.deepEqual([bent.strength, bent.relief.data, bent.texture], [1.5, [90, 200, 230], undefined]);
+    const [x, y, z] = [90, 200, 230].map((byte) => 2 * byte / 255 - 1);
+    const wanted = render(tilted([1.5 * x, -1.5 * y, z], bent), lit).data;
+    assert.equal(unlike(render(bent, lit).data, wanted), 0);
+
+    // blue is metal and green roughness, as they are: 60 and 100 of 255
+    for (const base of [{}, { baseColorTexture: { index: 1 } }]) {
+        const own = { ...base, baseColorFactor: [1, 0.6, 0.3, 1] };
+        const [by] = read({ pbrMetallicRoughness: { ...own, ...factors, metallicRoughnessTexture: { index: 2 } } });
+        const means = { metallicFactor: 0.8 * 60 / 255, roughnessFactor: 0.9 * 100 / 255 };
+        const [same] = read({ pbrMetallicRoughness: { ...own, ...means } });
+        const [other] = read({ pbrMetallicRoughness: { ...own, ...factors } });
+        for (const light of ["quick", "studio", lamp]) {
+            const [a, b, c] = [by, same, other].map((mesh) => render(mesh, { ...front, light }).data);
+            assert.deepEqual(a, b);
+            assert.notDeepEqual(a, c);
+        }
+    }
+
+    // a picture is decoded once, and not at all where no face shows it
+    asked.length = 0;
+    const [shown, hidden] = [0, 1].map((index) => ({ pbrMetallicRoughness: { baseColorTexture: { index } } }));
+    read({ normalTexture: { index: 0 }, emissiveTexture: { index: 0 }, ...shown }, [hidden]);
+    assert.deepEqual(asked, [0]);
+});
+
+test("pictures of an MTL", async () => {
+    const line = (words) => new TextEncoder().encode(words), said = [], asked = [], { warn } = console;
+    const obj = line("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n");
+    const read = async (statements, pixels) => {
+        const files = { "a.mtl": `newmtl m\nKd 1 1 1\n${statements}` };
+        for (const name of Object.keys(pixels)) files[name] = name;
+        const beside = (name) => (files[name] ? line(files[name]) : null);
+        const picture = (bytes) => {
+            const name = new TextDecoder().decode(bytes), data = pixels[name];
+            asked.push(name);
+            return { data: [...data, ...data], width: data.length / 4, height: 2 };
+        };
+        return (await readModel(obj, { beside, picture }))[0];
+    };
+    const colors = [9, 8, 7, 255, 6, 5, 4, 255], ramp = [0, 0, 0, 255, 255, 255, 255, 255];
+    const all = await read("map_Kd a.png\nmap_Ke a.png\nmap_Bump -bm 0.01 b.png\n", { "a.png": colors, "b.png": ramp });
+    assert.deepEqual(asked, ["a.png", "b.png"]);
+    const first = ({ data }) => [...data.slice(0, 8)];    // of two rows
+    assert.deepEqual([all.texture, all.glow, all.relief].map(first), [colors, colors, ramp]);
+    assert.deepEqual(all.glowFactor, [1, 1, 1]);
+    assert.ok(Math.abs(all.strength - 0.01) < 1e-6);
+    render(all, small);
+    const bare = await read("norm b.png\n", { "b.png": [128, 128, 255, 255] });
+    assert.deepEqual([bare.strength, bare.texture, bare.glow], [1, undefined, undefined]);
+    console.warn = (words) => said.push(words);
+    try { assert.equal((await read("map_Bump c.png\nmap_Ke c.png\n", {})).relief, undefined); }
+    finally { console.warn = warn; }
+    assert.equal(said.join(), "shade-h: model: c.png: the option beside has no such file; " +
+                              "its faces are drawn without it");
+
+    // alpha is holes where it is all or nothing, else it blends
+    const alpha = async (a, b) => read("map_Kd a.png\nmap_d a.png\n", { "a.png": [9, 9, 9, a, 9, 9, 9, b] });
+    const [holes, glass, solid] = [await alpha(0, 255), await alpha(100, 200), await alpha(255, 255)];
+    assert.deepEqual([holes, glass, solid].map(({ cutoff, blend }) => [cutoff, blend]),
+                     [[0.5, undefined], [undefined, true], [undefined, undefined]]);
+    for (const image of [texel(1, 2), { data: [1, 2, 3] }, { data: "abc", width: 1, height: 1 }, 7]) {
+        const beside = (name) => line(name === "a.mtl" ? "newmtl m\nmap_Kd a.png\n" : "a");
+        await assert.rejects(readModel(obj, { beside, picture: () => image }), (error) =>
+            error instanceof ShadeError && error.message.startsWith("picture."));
+    }
+});
+
+test("reliefs and what shines that are wrong are refused", () => {
+    const uv = new Float32Array(16), relief = texel(128, 128, 255);
+    refused(/^uv and relief belong together/, { ...box(), relief });
+    refused(/^uv and glow belong together/, { ...box(), glow: relief });
+    refused(/^relief.width must be a whole number/, { ...box(), uv, relief: { data: [1, 2, 3] } });
+    refused(/^glow.data must hold 3 or 4 bytes a pixel, not 2/, { ...box(), uv, glow: texel(1, 2) });
+    refused(/^relief.wrap must be two names/, { ...box(), uv, relief: { ...relief, wrap: "clamp" } });
+    refused(/^strength must be a number from/, { ...box(), uv, relief, strength: "1" });
+    refused(/^strength must be a number from/, { ...box(), uv, relief, strength: Infinity });
+    refused(/^glowFactor must hold 3 finite numbers/, { ...box(), uv, glow: relief, glowFactor: [1, 2] });
+    // a picture folded into one point has no directions: its relief is flat
+    const flat = { ...box(), uv, texture: texel(255, 255, 255) };
+    assert.deepEqual(render({ ...flat, relief: texel(191, 128, 238) }, small).data, render(flat, small).data);
+    // cameras of a Renderer leave both out
+    const view = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                   projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const { positions, indices, ...mapped } = square([1, 0], [0, 1]);
+    const more = { ...mapped, relief: texel(191, 128, 238), glow: texel(255, 0, 0) };
+    const [plain, dressed] = [{}, more].map((own) => {
+        const made = new Renderer(16, 16);
+        made.add(made.mesh(new Mesh({ positions, indices, ...own })));
+        const { color } = made.render(view);
+        made.free();
+        return color;
+    });
+    assert.deepEqual(dressed, plain);
 });
