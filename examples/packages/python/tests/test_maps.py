@@ -194,3 +194,9 @@ def test_a_section_keeps_the_maps():
     with pytest.warns(UserWarning):
         cut = section.cut(bent, np.array([0.5, 0.5, 0]), np.array([1.0, 0, 0]))
     assert all(piece.relief is not None and piece.glow is not None for piece in cut.pieces[:1])
+
+
+def test_a_renderer_tells_what_it_leaves_out():
+    renderer = shade.Renderer(32, 32)
+    with pytest.warns(UserWarning, match="its normal, bump and emissive maps are left out"):
+        renderer.mesh(square(glow=np.zeros((2, 2, 3), np.uint8)))
