@@ -1630,7 +1630,7 @@ SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
 SHADE__INLINE float shade__number(uint32_t n) { return (float)(int32_t)n; }
 
 /* |x| */
-SHADE__INLINE double shade__size(double x)
+SHADE__INLINE double shade__abs(double x)
 {
     return shade__bits_double(shade__double_bits(x) & 0x7FFFFFFFFFFFFFFFu);
 }
@@ -1652,7 +1652,7 @@ SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 }
 
 /* clamp(x, 0, 1); NaN gives 0. */
-SHADE__INLINE float shade__unit(float x)
+SHADE__INLINE float shade__saturate(float x)
 {
     const int32_t i = shade__ordinal(shade__keep(x, shade__mask(x > 0)));
     return shade__from_ordinal(shade__min(i, 0x3F800000));
@@ -2113,7 +2113,7 @@ SHADE__INLINE float shade__power_log(float x, float n)
 
 SHADEDEF float shade_power(float x, float n)
 {
-    float c = shade__unit(x), subnormal = 0;
+    float c = shade__saturate(x), subnormal = 0;
     if (!(n > 0)) return 1;
     if (!shade__within(n, FLT_MAX)) n = FLT_MAX;
     if (c > 0 && c < FLT_MIN) {    /* c 2^24 is normal; from n = 8 on the result is 0 anyway */
@@ -2155,13 +2155,13 @@ SHADE__INLINE float shade__decode_curve(float c, float u)
 /* The same with c clamped, out of line, for code outside of lane loops. */
 static SHADE__NOINLINE float shade__encode(float c)
 {
-    c = shade__unit(c);
+    c = shade__saturate(c);
     return shade__encode_curve(c, shade__encode_log(c));
 }
 
 static SHADE__NOINLINE float shade__decode(float c)
 {
-    c = shade__unit(c);
+    c = shade__saturate(c);
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
@@ -3040,7 +3040,7 @@ SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 }
 
 /* amount *= visibility.  An amount of 0, outside the cone, stays 0 even for a visibility of NaN. */
-SHADE__INLINE void shade__hide(shade__in visibility, const int n, shade__out amount)
+SHADE__INLINE void shade__shadow(shade__in visibility, const int n, shade__out amount)
 {
     SHADE__FOR(i, n) {
         amount[i] = shade__keep(amount[i] * visibility[i], shade__mask(amount[i] != 0));
@@ -3185,7 +3185,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
     if (!(any | s->open | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
-    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
+    if (visibility) shade__shadow(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
     if (SHADE__HAS(SHADE__PLAIN) && !r->rows->albedo && !r->rows->specular)
         shade__combine(r, albedo, albedo, 1, n, rgb);
     else shade__combine(r, albedo, shade__factors(r->rows->specular), 0, n, rgb);
@@ -3455,7 +3455,7 @@ struct shade__draw {
     shade__bounds  bounds;
     shade__batch   batch;
     shade__setup   setup;
-    union { shade__incoming in; shade__queue queue; } u;    /* in until a batch has its places */
+    union { shade__incoming incoming; shade__queue queue; } u;    /* in until a batch has its places */
 };
 
 /* vertices: takes the next triangles and their vertices, up to SHADE_LANES; then shades these */
@@ -3613,15 +3613,15 @@ SHADE__INLINE void shade__place_body(shade__draw *d, const shade_vertices *verti
 
     shade__classify(vertices, plan->zero_to_one, &p);
     shade__project(plan->half_width, plan->half_height, plan->zero_to_one, &p);
-    shade__gather(plan, d->u.in.ids.count, vertices, &p, &d->batch);
+    shade__gather(plan, d->u.incoming.ids.count, vertices, &p, &d->batch);
 }
 SHADE__DISPATCH_AVX2(shade__place, (shade__draw *d, const shade_vertices *vertices), (d, vertices),
                      shade__place_body(d, vertices))
 
 static void shade__shade_vertices(shade__draw *d)
 {
-    shade_vertices *v = &d->u.in.vertices;
-    shade_vertex_ids *ids = &d->u.in.ids;
+    shade_vertices *v = &d->u.incoming.vertices;
+    shade_vertex_ids *ids = &d->u.incoming.ids;
     const int varyings = d->plan.varyings;
 
     for (int i = ids->count; i < SHADE_LANES; i++) ids->index[i] = ids->index[ids->count - 1];
@@ -3661,7 +3661,7 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indi
 /* Makes a batch of the next triangles of the draw; its count is 0 at the end. */
 static void shade__take_batch(shade__draw *d)
 {
-    shade__incoming *in = &d->u.in;
+    shade__incoming *in = &d->u.incoming;
     shade__batch *b = &d->batch;
     shade__supply *s = d->supply;
     /* up to room vertices one more triangle fits */
@@ -3775,7 +3775,7 @@ SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c, shad
         double x2 = c->x[2][i] - c->x[0][i], y2 = c->y[2][i] - c->y[0][i];
         double a = x1 * y2 - x2 * y1;
         area[i] = (float)a;
-        inverse[i] = 256 / (shade__size(a) + (a == 0 ? 1 : 0));
+        inverse[i] = 256 / (shade__abs(a) + (a == 0 ? 1 : 0));
     }
 }
 
@@ -3825,7 +3825,7 @@ SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b, shade__in_ints
 }
 
 /* The nearest integer   pre: |x| < 2^51 */
-SHADE__INLINE int64_t shade__whole(double x)
+SHADE__INLINE int64_t shade__round(double x)
 {
     return (int64_t)(shade__double_bits(x + 6755399441055744.0) - 0x4338000000000000u);
 }
@@ -3845,7 +3845,7 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k
         const double y = s->y0[i] * 256 + 128 - c->y[k][i];
         const double bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;
         const double e = dx * y - dy * x + bias;
-        s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
+        s->e[k][i] = shade__round(e * (1 / 256.0) - 127.5 / 256);
         s->ex[k][i] = -dy;
         s->ey[k][i] = dx;
     }
@@ -4435,7 +4435,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
         const int n = shade__count_bits(set);
         shade__run *run = &r->run[count];
         shade__run *open = &r->run[joined ? r->open[k] : SHADE__RUNS];
-        int goes_on;
+        int extends;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
             r->count = count;    /* the set is several runs */
@@ -4445,12 +4445,12 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
         }
         shade__set_run(run, triangle, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u),
                        tile->y + k, n);
-        goes_on = joined && open->x + open->n == run->x;
+        extends = joined && open->x + open->n == run->x;
         if (joined) {
-            open->n += goes_on ? n : 0;
-            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;    /* or the sentinel */
+            open->n += extends ? n : 0;
+            r->open[k] = extends ? r->open[k] : n ? count : SHADE__RUNS;    /* or the sentinel */
         }
-        count += n && !goes_on;
+        count += n && !extends;
     }
     r->count = count;
     return pixels;
@@ -5620,7 +5620,7 @@ SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
    rounded up if its fraction reaches 1 - threshold. */
 SHADE__INLINE uint32_t shade__pack_channel(float c, const shade__layout *l, int k, float threshold)
 {
-    const int32_t number = (int32_t)(shade__unit(c) * (float)l->full[k] + threshold);
+    const int32_t number = (int32_t)(shade__saturate(c) * (float)l->full[k] + threshold);
     return (uint32_t)number << shade__shift(l, k);
 }
 
@@ -5682,7 +5682,7 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const fl
         float *c = rgba + k * SHADE_LANES;
         SHADE_ALIGNED float u[SHADE_LANES];
         SHADE__EACH_BLOCK(i, blocks) {
-            c[i] = shade__unit(c[i]);
+            c[i] = shade__saturate(c[i]);
             u[i] = shade__encode_log(c[i]);
         }
         SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
@@ -5854,7 +5854,7 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result
      way     draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
-             ladders of the calls.  shade__mesh_rows is laid out here, because a draw that needs
+             ladders of the calls.  shade__mesh_varyings is laid out here, because a draw that needs
              more than SHADE_MAX_VARYINGS rows is refused                                  >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
@@ -5938,13 +5938,13 @@ SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
      state.fragment                P        N        albedo   u v at 9; always all 11 rows
 
    A map multiplies the light of vertices, but not the rest of it (emission, highlights). */
-typedef struct shade__mesh_rows {
+typedef struct shade__mesh_varyings {
     int point, normal, light, rest, albedo, uv;
     int count;
-} shade__mesh_rows;
+} shade__mesh_varyings;
 
 /* Takes the next n rows if they are wanted. */
-static int shade__take_rows(shade__mesh_rows *r, int n, int wanted)
+static int shade__take_varyings(shade__mesh_varyings *r, int n, int wanted)
 {
     const int first = r->count;
     if (!wanted) return -1;
@@ -5952,20 +5952,20 @@ static int shade__take_rows(shade__mesh_rows *r, int n, int wanted)
     return first;
 }
 
-static shade__mesh_rows shade__rows_of_mesh(const shade_draw_state *state, int map, int tinted,
+static shade__mesh_varyings shade__varyings_of(const shade_draw_state *state, int map, int tinted,
                                             int pn_unread)
 {
     const int custom = state->fragment != NULL;
     const int by_pixel = state->shading == SHADE_SHADING_PER_FRAGMENT && !pn_unread;
     const int by_vertex = state->shading != SHADE_SHADING_PER_FRAGMENT && !pn_unread;
-    shade__mesh_rows r;
+    shade__mesh_varyings r;
     SHADE__ZERO(r);
-    r.point = shade__take_rows(&r, 3, by_pixel);
-    r.normal = shade__take_rows(&r, 3, by_pixel);
-    r.light = shade__take_rows(&r, 3, by_vertex);
-    r.rest = shade__take_rows(&r, 3, by_vertex && map);
-    r.albedo = shade__take_rows(&r, 3, !by_vertex && (custom || tinted));
-    r.uv = shade__take_rows(&r, 2, custom || map);
+    r.point = shade__take_varyings(&r, 3, by_pixel);
+    r.normal = shade__take_varyings(&r, 3, by_pixel);
+    r.light = shade__take_varyings(&r, 3, by_vertex);
+    r.rest = shade__take_varyings(&r, 3, by_vertex && map);
+    r.albedo = shade__take_varyings(&r, 3, !by_vertex && (custom || tinted));
+    r.uv = shade__take_varyings(&r, 2, custom || map);
     return r;
 }
 
@@ -5979,7 +5979,7 @@ SHADE__INLINE const char *shade__state_fault(const shade_mesh *m, const shade_dr
         return "state.alpha_cutoff must be from 0 (nothing is cut) to 1.";
     if (state->fragment && state->shading != SHADE_SHADING_PER_FRAGMENT)
         return "state.fragment needs state.shading to be SHADE_SHADING_PER_FRAGMENT.";
-    if (shade__rows_of_mesh(state, state->diffuse_map && m->texcoords, m->colors != NULL, 0).count >
+    if (shade__varyings_of(state, state->diffuse_map && m->texcoords, m->colors != NULL, 0).count >
         SHADE_MAX_VARYINGS)
         return "SHADE_MAX_VARYINGS is too small for this draw, which needs 6 varyings, 9 with "
                "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment; lit by "
@@ -6091,7 +6091,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, doub
     for (int k = 0; k < 4; k++) {
         const double a = (double)shade__entries(m)[4 * k + row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
-        f->size[k][i] = shade__size(a) + shade__size(limit * w) + (double)FLT_MIN;
+        f->size[k][i] = shade__abs(a) + shade__abs(limit * w) + (double)FLT_MIN;
     }
 }
 
@@ -6127,16 +6127,16 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 lo
     for (int k = 0; k < 3; k++) {
         c[k] = (from[k] + h[k]) / 2;
         h[k] -= c[k];
-        m[k] = shade__size(c[k]) + h[k];
+        m[k] = shade__abs(c[k]) + h[k];
     }
     if (!(m[0] + m[1] + m[2] <= DBL_MAX)) return 1;
     SHADE__FOR(i, SHADE__PLANES) {
         double most = f->k[0][i] * c[0] + f->k[1][i] * c[1] + f->k[2][i] * c[2] + f->k[3][i];
         double off = f->size[0][i] * m[0] + f->size[1][i] * m[1];
         off += f->size[2][i] * m[2] + f->size[3][i];
-        most += shade__size(f->k[0][i]) * h[0];
-        most += shade__size(f->k[1][i]) * h[1];
-        most += shade__size(f->k[2][i]) * h[2];
+        most += shade__abs(f->k[0][i]) * h[0];
+        most += shade__abs(f->k[1][i]) * h[1];
+        most += shade__abs(f->k[2][i]) * h[2];
         signs |= shade__double_bits(most + off * (1 / 1048576.0));
     }
     return !(signs >> 63);
@@ -6255,7 +6255,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
     /* lanes without a vertex or triangle compute too: their input must be defined */
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.setup);
-    SHADE__ZERO(d.u.in.slot_of);
+    SHADE__ZERO(d.u.incoming.slot_of);
     d.bounds.across = 0;
     d.supply = supply;
     d.stats.triangles = supply->end;
@@ -6370,7 +6370,7 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
      way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: run_draw, or
              draw_chunks, which calls it; it calls the shaders.  mesh_vertex: fetch_vertices,
              fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map; mesh_alpha.  Which
-             rows of the varyings they use: shade__mesh_rows in >>check
+             rows of the varyings they use: shade__mesh_varyings in >>check
      holds   Where faces have values of their own (normals or light), every corner of a triangle is
              a vertex: its index is 3 times the triangle's plus the corner's number.  Where no
              shader reads P and N, they are not computed: textured floors without lamps are drawn
@@ -6393,7 +6393,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int tinted;                          /* the mesh has colours that somebody reads */
     int lit_vertices;                    /* light at its vertices, also where that is once a face */
     int pn_unread;                       /* no shader reads P and N */
-    shade__mesh_rows row;
+    shade__mesh_varyings first;          /* of each attribute */
 } shade__scene;
 
 enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
@@ -6531,7 +6531,7 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
 }
 
 /* The rows of a varying, or spare ones where the draw does not have it. */
-SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *spare)
+SHADE__INLINE shade__v3 *shade__varying_rows(shade_vertices *out, int row, shade__v3 *spare)
 {
     return row < 0 ? spare : shade__three_rows(out->varying[row]);
 }
@@ -6544,9 +6544,9 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
     shade__v3 spare[3];
-    shade__v3 *point = shade__rows_at(out, s->row.point, &spare[0]);
-    shade__v3 *normal = shade__rows_at(out, s->row.normal, &spare[1]);
-    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &spare[2]);
+    shade__v3 *point = shade__varying_rows(out, s->first.point, &spare[0]);
+    shade__v3 *normal = shade__varying_rows(out, s->first.normal, &spare[1]);
+    shade__v3 *albedo = shade__varying_rows(out, s->first.albedo, &spare[2]);
 
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
@@ -6559,9 +6559,9 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->lit_vertices)
         shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL,
-                              out->varying[s->row.light]);
-    if (s->row.uv >= 0 && s->mesh->texcoords)
-        shade__fetch_texcoords(s, in, out->varying[s->row.uv]);
+                              out->varying[s->first.light]);
+    if (s->first.uv >= 0 && s->mesh->texcoords)
+        shade__fetch_texcoords(s, in, out->varying[s->first.uv]);
 }
 
 /* The row of alpha holds the map's alpha, the fragment shader's, or 1.  It is multiplied by the
@@ -6598,7 +6598,7 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_ro
 }
 
 /* The rows of a varying; NULL where the draw does not have it. */
-SHADE__INLINE const float *shade__row(const shade_fragments *in, int row)
+SHADE__INLINE const float *shade__varying_row(const shade_fragments *in, int row)
 {
     return row < 0 ? NULL : in->varying[row];
 }
@@ -6608,10 +6608,10 @@ SHADE__INLINE const float *shade__row(const shade_fragments *in, int row)
 static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHADE_RESTRICT in,
                                shade_colors *SHADE_RESTRICT out)
 {
-    const shade__mesh_rows *row = &s->row;
+    const shade__mesh_varyings *first = &s->first;
     float *to = out->color[0];
     if (s->map)
-        shade_sample_lanes(s->map, in->varying[row->uv], in->varying[row->uv + 1],
+        shade_sample_lanes(s->map, in->varying[first->uv], in->varying[first->uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (!s->has_picture) return;
     if (s->white_map)
@@ -6620,15 +6620,15 @@ static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHA
     if (!s->lit_vertices) {
         shade_rows rows;
         SHADE__ZERO(rows);
-        rows.position = shade__row(in, row->point);
-        rows.normal = shade__row(in, row->normal);
-        rows.albedo = shade__row(in, row->albedo);
+        rows.position = shade__varying_row(in, first->point);
+        rows.normal = shade__varying_row(in, first->normal);
+        rows.albedo = shade__varying_row(in, first->albedo);
         if (s->map) shade__lit_map(s, &rows, to);
         else shade__lit_packet(&s->surface, &rows, to);
     } else if (s->map) {
-        const float *light = in->varying[row->light], *rest = in->varying[row->rest];
+        const float *light = in->varying[first->light], *rest = in->varying[first->rest];
         for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = light[i] * to[i] + rest[i];
-    } else SHADE_MEMCPY(to, in->varying[row->light], 3 * sizeof in->varying[0]);
+    } else SHADE_MEMCPY(to, in->varying[first->light], 3 * sizeof in->varying[0]);
 }
 
 static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -6651,7 +6651,7 @@ static void shade__plan_scene(shade__scene *s)
     s->lit_vertices = !per_fragment && !s->pn_unread;
     s->corners = s->face_normals && !s->pn_unread;
     s->tinted = m->colors && (s->has_picture || state->fragment);
-    s->row = shade__rows_of_mesh(state, s->map != NULL, s->tinted, s->pn_unread);
+    s->first = shade__varyings_of(state, s->map != NULL, s->tinted, s->pn_unread);
 }
 
 /* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
@@ -6714,10 +6714,10 @@ static shade_result shade__draw_scene(const shade_target *target, const shade__s
     p.may_discard = may_discard;
     p.fragment = fragment;
     p.uniforms = scene;
-    p.varyings = scene->row.count;
+    p.varyings = scene->first.count;
     if (scene->map && (scene->map->mipmap_count || state->fragment)) {
         p.lod_texture = scene->map;
-        p.lod_varying = scene->row.uv;
+        p.lod_varying = scene->first.uv;
     }
     if (state->shading == SHADE_SHADING_PER_FACE && !scene->map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
@@ -6992,7 +6992,7 @@ SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
 /* Makes v unit, however long; zero where it is zero or not finite. */
 static void shade__direction3(double *v)
 {
-    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
+    const double sum = shade__abs(v[0]) + shade__abs(v[1]) + shade__abs(v[2]);
     for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
     shade__unit3(v);
 }
@@ -7043,8 +7043,8 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
         c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
     }
     shade__cross3(c->row[0], c->row[1], way);
-    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
-                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    c->perspective = shade__abs(shade__dot3(c->row[3], way)) >
+                     shade__abs(shade__dot3(c->row[2], way)) * (1 / 65536.0);
     shade__ray_through(c, 0, 0, c->eye, c->sight);
     c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
     for (int k = 0; k < 3; k++) {
@@ -7086,9 +7086,9 @@ static int shade__sum_is_zero(double x[6])
     double rough = 0, size = 0;
     for (int i = 0; i < 6; i++) {
         rough += x[i];
-        size += shade__size(x[i]);
+        size += shade__abs(x[i]);
     }
-    if (shade__size(rough) > size * 1e-15) return 0;    /* beyond what five roundings err by */
+    if (shade__abs(rough) > size * 1e-15) return 0;    /* beyond what five roundings err by */
     for (int i = 1; i < 6; i++) {
         for (int k = 0; k < i; k++) {
             const double a = x[i], b = x[k], sum = a + b, rounded = sum - a;
@@ -7415,7 +7415,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
     shade__doubles(shade__entries(&view), 16, v);
     if (camera.perspective) step = shade__step_back(&projection, v, low, high);
     v[14] -= step;
-    view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
+    view.col[3].z = (float)(v[14] - shade__abs(v[14]) * 6e-8);
     view = shade__mat4_product(&frame, &view);
     if (!is_box || !shade__finite3(toward_eye) || !shade__finite3(up) || !shade__is_finite(&view))
         return shade_mat4_identity();
@@ -7674,9 +7674,9 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
     shade__sub3(ray.origin, shade__xyz(m->col[3]), origin);
     s->reach = (double)FLT_MIN;    /* world positions and t may be denormal */
     for (int k = 0; k < 3; k++) {
-        s->size[k] = shade__size(column[k][0]) + shade__size(column[k][1]) +
-                     shade__size(column[k][2]);
-        s->reach += shade__size(origin[k]) + 2 * shade__size(column[3][k]);
+        s->size[k] = shade__abs(column[k][0]) + shade__abs(column[k][1]) +
+                     shade__abs(column[k][2]);
+        s->reach += shade__abs(origin[k]) + 2 * shade__abs(column[3][k]);
     }
     for (int k = 0; k < 3; k++) {
         const int a = k < 2 ? k + 1 : 0, b = k > 0 ? k - 1 : 2;
@@ -7701,7 +7701,7 @@ static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_ve
     shade__double3(low, from);
     shade__double3(high, to);
     for (int k = 0; k < 3; k++) {
-        const double a = shade__size(from[k]), b = shade__size(to[k]);
+        const double a = shade__abs(from[k]), b = shade__abs(to[k]);
         size += s->size[k] * (a > b ? a : b);
     }
     for (int k = 0; k < 3; k++) {
@@ -7815,7 +7815,7 @@ typedef struct shade__survey {
     int              own_lamps;          /* lamp is in use, not state.lighting.lights */
     uint32_t         white_map;          /* the map has its holes, but no colours */
     float            apart;              /* depths this near to farthest do not count */
-    int              stored;             /* pixels count that the caller's picture has lit */
+    int              lit_only;           /* pixels count that the caller's picture has lit */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
@@ -7859,7 +7859,7 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
 
 /* Is the caller's picture brighter than 8 of 255 there, or has it any light in floats?
    pre: the pixel is in the clip rectangle, and there is a picture */
-static int shade__is_stored(const shade_target *t, int x, int y)
+static int shade__is_lit_there(const shade_target *t, int x, int y)
 {
     const shade__layout *l = &shade__layouts[t->format];
     const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
@@ -7887,7 +7887,7 @@ static void shade__judge(const void *uniforms, const shade_fragments *SHADE_REST
         int counts = !(trial->least > 0);
         for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
         if (s->apart > 0) counts &= !shade__within(in->z[i] - s->farthest, s->apart);
-        if (s->stored) counts &= shade__is_stored(s->target, (int)in->x[i], (int)in->y[i]);
+        if (s->lit_only) counts &= shade__is_lit_there(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
         if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
     }
@@ -8043,15 +8043,15 @@ static int shade__few(const shade__survey *s, long long n, long long all)
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
-    int told = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
+    int known = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
     shade__survey q = *s;
     long long n;
-    if (!s->exact && told) {
+    if (!s->exact && known) {
         shade__look_through(&q, SHADE_COMPARE_EQUAL);
-        told = !shade__coincides(&q);
+        known = !shade__coincides(&q);
     }
     n = shade__count(&q, least) - shade__count(&q, most);
-    return n > 0 && (s->exact || told || n == shade__covered(s));
+    return n > 0 && (s->exact || known || n == shade__covered(s));
 }
 
 /* Is a pixel that the picture shows brighter than 12 of 255, more than 8 in each format? */
@@ -8201,7 +8201,7 @@ static uint32_t shade__outside(const shade__survey *s)
         all &= shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
     }
     if (s->camera.perspective &&
-        shade__size(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__size(z[3]))
+        shade__abs(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__abs(z[3]))
         all &= ~(uint32_t)(SHADE__OUT_NEAR | SHADE__OUT_FAR);
     return all;
 }
@@ -9234,9 +9234,9 @@ static int shade__aspect_is_wrong(const shade__survey *s)
     wide = shade__dot3(x, x) * w * w;
     high = shade__dot3(y, y) * h * h;
     if (s->state.projection.col[3].w != 0 || !shade__faces_ahead(&c) ||
-        shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
-        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high) ||
-        shade__size(wide - high) <= 0.06 * wide)
+        shade__abs(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
+        (h < 128 && shade__abs(wide - 4 * high) < 0.24 * high) ||
+        shade__abs(wide - high) <= 0.06 * wide)
         return 0;
     for (int k = 0; k < 4; k++)
         mended.state.projection.col[k].x *= shade__sqrt((float)(high / wide));
@@ -9334,7 +9334,7 @@ static int shade__is_dark(const shade__survey *seen, float least)
     shade__survey q = *seen;
     if ((!q.whole && shade__is_band(q.target)) || shade__black_is_meant(&q)) return 0;
     if (!q.exact) shade__look_in_clip(&q);
-    q.stored = 1;
+    q.lit_only = 1;
     return !shade__count(&q, least);
 }
 
@@ -9509,7 +9509,7 @@ static int shade__is_camera(const shade_mat4 *m)
     const shade_mat4 one = shade_mat4_identity();
     shade__camera c;
     shade__camera_of(m, &one, &c);
-    return shade__faces_ahead(&c) && shade__size(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
+    return shade__faces_ahead(&c) && shade__abs(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
 }
 
 static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
@@ -10074,15 +10074,15 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
      source  [Kilgard94]                                                                   >>refs */
 
 /* One row of the table: name; k_a, k_d, k_s, shininess / 128. */
-typedef struct shade__preset_row {
+typedef struct shade__preset_entry {
     const char *name;
     float ar, ag, ab, dr, dg, db, sr, sg, sb, shininess;
-} shade__preset_row;
+} shade__preset_entry;
 
 /* NULL where there is no such material. */
-static const shade__preset_row *shade__preset(int preset)
+static const shade__preset_entry *shade__preset(int preset)
 {
-    static const shade__preset_row table[SHADE_PRESET_COUNT] = {
+    static const shade__preset_entry table[SHADE_PRESET_COUNT] = {
         { "emerald", 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
             0.633f, 0.727811f, 0.633f, 0.6f },
         { "jade", 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
@@ -10125,7 +10125,7 @@ static const shade__preset_row *shade__preset(int preset)
 
 SHADEDEF shade_material shade_preset_material(shade_preset preset)
 {
-    const shade__preset_row *row = shade__preset((int)preset);
+    const shade__preset_entry *row = shade__preset((int)preset);
     shade_material m = shade__white_lambert();
     if (!row) return m;
     m.ambient = shade_v3(row->ar, row->ag, row->ab);
@@ -10137,7 +10137,7 @@ SHADEDEF shade_material shade_preset_material(shade_preset preset)
 
 SHADEDEF const char *shade_preset_name(shade_preset preset)
 {
-    const shade__preset_row *row = shade__preset((int)preset);
+    const shade__preset_entry *row = shade__preset((int)preset);
     return row ? row->name : "";
 }
 
