@@ -65,23 +65,23 @@
        >>lamps     2434  attenuation, cones    >>terms     2686  one term at one point
        >>surface   2761  material and lights   >>lit       2878  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3267  who owns what         >>vertices  3476  shading, projection
-       >>triangles 3685  dropped, cut, edges   >>clip      4044  near, far, behind the eye
-       >>tiles     4236  pixels, depth test    >>cover     4599  what is hidden, tile by tile
-       >>fragments 4869  interpolation, lod    >>texture   5153  texels, filters
-       >>store     5601  blending, packing
+       >>state     3267  who owns what         >>vertices  3479  shading, projection
+       >>triangles 3688  dropped, cut, edges   >>clip      4047  near, far, behind the eye
+       >>tiles     4239  pixels, depth test    >>cover     4602  what is hidden, tile by tile
+       >>fragments 4872  interpolation, lod    >>texture   5156  texels, filters
+       >>store     5603  blending, packing
      Inside: calls of the renderer
-       >>check     5851  refusals              >>seen      6056  what can be seen, chunks
-       >>drive     6178  shade_draw            >>mesh      6367  shade_draw_mesh
+       >>check     5853  refusals              >>seen      6058  what can be seen, chunks
+       >>drive     6180  shade_draw            >>mesh      6369  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6772  shade_draw_lines      >>camera    6963  where a draw is seen from
-       >>shape     7057  normals, edges        >>chunks    7425  how boxes are made
-       >>rays      7594  shade_pick            >>survey    7782  experiments on a draw
-       >>explain   8244  why nothing is seen   >>replay    9414  of lines, pipelines
-       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
+       >>lines     6774  shade_draw_lines      >>camera    6965  where a draw is seen from
+       >>shape     7059  normals, edges        >>chunks    7427  how boxes are made
+       >>rays      7596  shade_pick            >>survey    7784  experiments on a draw
+       >>explain   8246  why nothing is seen   >>replay    9416  of lines, pipelines
+       >>image     9742  makes mipmaps, PPM    >>presets  10074  classic materials
      Sources
-       >>refs     10157                        >>history  10187
-       >>license  10193
+       >>refs     10159                        >>history  10189
+       >>license  10195
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3420,9 +3420,9 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* up to shade__flush varyings are over w in perspective,
-                                         and lod is the squared step in texels */
+    shade_fragments f;                /* with perspective, varyings are over w until the flush */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
+    float    step[SHADE_LANES];       /* in texels to the next pixel, squared; lod comes of it */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
@@ -3455,7 +3455,10 @@ struct shade__draw {
     shade__bounds  bounds;
     shade__batch   batch;
     shade__setup   setup;
-    union { shade__incoming incoming; shade__queue queue; } u;    /* in until a batch has its places */
+    union {                           /* one after the other in the same memory: */
+        shade__incoming incoming;     /* until shade__place has returned */
+        shade__queue    queue;        /* from shade__triangles to its last flush */
+    } u;
 };
 
 /* vertices: takes the next triangles and their vertices, up to SHADE_LANES; then shades these */
@@ -4940,9 +4943,9 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
 
 /* The squared length, in texels, of the longer step of (u, v) to the next pixel, in 8 lanes.  With
    u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
-SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
-                                     const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
-                                     int back, shade__in rw, shade__out lod)
+SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
+                                      const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
+                                      int back, shade__in rw, shade__out step)
 {
     const int k = plan->lod;
     const float w = (float)plan->pipe->lod_texture->width;
@@ -4957,8 +4960,8 @@ SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
         float a = (ux - u * qx) * r * w, b = (vx - v * qx) * r * h;
         float c = (uy - u * qy) * r * w, e = (vy - v * qy) * r * h;
         float right = a * a + b * b, below = c * c + e * e;
-        float step = shade__select(right, below, shade__mask(below > right));
-        lod[i] = shade__select(step, lod[i], shade__mask(i < back));
+        float longer = shade__select(right, below, shade__mask(below > right));
+        step[i] = shade__select(longer, step[i], shade__mask(i < back));
     }
 }
 
@@ -5060,8 +5063,8 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
         else shade__append(d, t, value, p, 8);
         if (plan->lod)
             for (int i = 0; i < width; i += 8)
-                shade__append_lod(plan, t, value, p.x + i, back, q->rw + p.lane + i,
-                                  q->f.lod + p.lane + i);
+                shade__append_step(plan, t, value, p.x + i, back, q->rw + p.lane + i,
+                                   q->step + p.lane + i);
         x += take;
         n -= take;
         q->f.count += take;
@@ -5099,7 +5102,7 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
 
     for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
     shade__repeat(q->rw, n);
-    shade__repeat(q->f.lod, n);
+    shade__repeat(q->step, n);
     if (plan->inputs_unread) return;
     shade__repeat(q->f.x, n);
     shade__repeat(q->f.y, n);
@@ -5130,9 +5133,9 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
     if (plan->divided == SHADE__FIRST && plan->varyings)
         shade__undivide(q->rw, q->f.varying[0], plan->varyings);
-    if (plan->lod) {    /* log2(square) / 2, of the squared step; NaN counts as 0 */
+    if (plan->lod) {    /* log2 of the step; NaN counts as a step of 0 */
         SHADE_EACH_LANE(i) {
-            float square = shade__keep(q->f.lod[i], shade__mask(q->f.lod[i] >= 0));
+            float square = shade__keep(q->step[i], shade__mask(q->step[i] >= 0));
             q->f.lod[i] = -0.5f * shade__neg_log2(square);
         }
     }
@@ -5355,12 +5358,12 @@ SHADE__INLINE float shade__blend_four(float a, float b, float c, float d, float 
     return top + y * (low - top);
 }
 
-/* The same for channel k of packed texels. */
-SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, uint32_t a, uint32_t b,
-                                    uint32_t c, uint32_t d, float x, float y)
+/* The same for channel k of packed texels, a pair above and a pair below. */
+SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, const uint32_t *above,
+                                    const uint32_t *below, float x, float y)
 {
-    return shade__blend_four(shade__texel(a, l, k), shade__texel(b, l, k), shade__texel(c, l, k),
-                             shade__texel(d, l, k), x, y);
+    return shade__blend_four(shade__texel(above[0], l, k), shade__texel(above[1], l, k),
+                             shade__texel(below[0], l, k), shade__texel(below[1], l, k), x, y);
 }
 
 /* Blends all channels of packed texels. */
@@ -5370,13 +5373,12 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
     const uint32_t *second = texel + 2 * SHADE_LANES;
     const shade__layout l = *r->layout;
     SHADE__EACH_BLOCK(i, r->blocks) {
-        const uint32_t a = texel[2 * i], b = texel[2 * i + 1];
-        const uint32_t c = second[2 * i], d = second[2 * i + 1];
+        const uint32_t *above = texel + 2 * i, *below = second + 2 * i;
         const float x = r->x.f[i], y = r->y.f[i];
-        red[i] = shade__bilinear(&l, 0, a, b, c, d, x, y);
-        green[i] = shade__bilinear(&l, 1, a, b, c, d, x, y);
-        blue[i] = shade__bilinear(&l, 2, a, b, c, d, x, y);
-        alpha[i] = shade__bilinear(&l, 3, a, b, c, d, x, y);
+        red[i] = shade__bilinear(&l, 0, above, below, x, y);
+        green[i] = shade__bilinear(&l, 1, above, below, x, y);
+        blue[i] = shade__bilinear(&l, 2, above, below, x, y);
+        alpha[i] = shade__bilinear(&l, 3, above, below, x, y);
     }
 }
 
@@ -5430,8 +5432,8 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
     shade__look_up(&l, above, &t);
     /* alpha first, while the stores of what was looked up end: 2 to 4 % */
     SHADE__FOR(i, SHADE__BLOCK) {
-        out[3 * SHADE_LANES + i] = shade__bilinear(&l, 3, above[2 * i], above[2 * i + 1],
-                                                   below[2 * i], below[2 * i + 1], x[i], y[i]);
+        out[3 * SHADE_LANES + i] =
+            shade__bilinear(&l, 3, above + 2 * i, below + 2 * i, x[i], y[i]);
     }
     for (int k = 0; k < 3; k++) {
         const float *a = t.c[k][0], *b = t.c[k][1], *c = t.c[k][2], *d = t.c[k][3];
@@ -5953,7 +5955,7 @@ static int shade__take_varyings(shade__mesh_varyings *r, int n, int wanted)
 }
 
 static shade__mesh_varyings shade__varyings_of(const shade_draw_state *state, int map, int tinted,
-                                            int pn_unread)
+                                               int pn_unread)
 {
     const int custom = state->fragment != NULL;
     const int by_pixel = state->shading == SHADE_SHADING_PER_FRAGMENT && !pn_unread;
