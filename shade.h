@@ -67,21 +67,21 @@
      Inside: the way of a triangle
        >>state     3267  who owns what         >>vertices  3479  shading, projection
        >>triangles 3688  dropped, cut, edges   >>clip      4047  near, far, behind the eye
-       >>tiles     4239  pixels, depth test    >>cover     4602  what is hidden, tile by tile
-       >>fragments 4872  interpolation, lod    >>texture   5156  texels, filters
-       >>store     5603  blending, packing
+       >>tiles     4239  pixels, depth test    >>cover     4604  what is hidden, tile by tile
+       >>fragments 4876  interpolation, lod    >>texture   5160  texels, filters
+       >>store     5607  blending, packing
      Inside: calls of the renderer
-       >>check     5853  refusals              >>seen      6058  what can be seen, chunks
-       >>drive     6180  shade_draw            >>mesh      6369  shade_draw_mesh
+       >>check     5857  refusals              >>seen      6062  what can be seen, chunks
+       >>drive     6184  shade_draw            >>mesh      6373  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6774  shade_draw_lines      >>camera    6965  where a draw is seen from
-       >>shape     7059  normals, edges        >>chunks    7427  how boxes are made
-       >>rays      7596  shade_pick            >>survey    7784  experiments on a draw
-       >>explain   8246  why nothing is seen   >>replay    9416  of lines, pipelines
-       >>image     9742  makes mipmaps, PPM    >>presets  10074  classic materials
+       >>lines     6778  shade_draw_lines      >>camera    6969  where a draw is seen from
+       >>shape     7063  normals, edges        >>chunks    7431  how boxes are made
+       >>rays      7600  shade_pick            >>survey    7788  experiments on a draw
+       >>explain   8250  why nothing is seen   >>replay    9420  of lines, pipelines
+       >>image     9746  makes mipmaps, PPM    >>presets  10078  classic materials
      Sources
-       >>refs     10159                        >>history  10189
-       >>license  10195
+       >>refs     10163                        >>history  10193
+       >>license  10199
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -4283,6 +4283,7 @@ typedef struct shade__tile {
     int      skip, columns;           /* columns to leave out on the left; all columns */
     float   *depth;                   /* of the first pixel */
     int      stride;
+    const shade__edges *edges;        /* that the pixels are tested by */
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
     uint32_t any;                     /* 0: all sets are empty */
@@ -4476,10 +4477,11 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, floa
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
-                                       const shade__edges *SHADE_RESTRICT edges,
                                        shade__tile *SHADE_RESTRICT tile, int at, const int width,
-                                       const int less_only, const int full)
+                                       const int copy)
 {
+    const int less_only = copy & SHADE__LESS, full = copy & SHADE__FULL;
+    const shade__edges *edges = tile->edges;
     const shade__compare test = plan->tile_test;
     const float zx = t->zx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const int x = tile->x + at, skip = tile->skip - at, i0 = x - edges->x, j0 = tile->y - edges->y;
@@ -4525,8 +4527,8 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
 /* Tests a tile, with a specialised copy for the commonest depth test. */
 SHADE__INLINE void shade__test_tile(const shade__plan *plan,
                                     const shade__triangle *SHADE_RESTRICT t,
-                                    const shade__edges *edges, shade__tile *SHADE_RESTRICT tile,
-                                    const int width, const int full)
+                                    shade__tile *SHADE_RESTRICT tile, const int width,
+                                    const int full)
 {
     const int less = SHADE__HAS(SHADE__LESS) && plan->less_only;
     const int slim = width > 8 && tile->columns <= 8;
@@ -4538,24 +4540,24 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
         tile->row_z[r] = shade__row_depth(t, tile->y + r);
     }
     if (slim) {
-        if (less) shade__test_columns(plan, t, edges, tile, 0, 8, 1, 0);
-        else shade__test_columns(plan, t, edges, tile, 0, 8, 0, 0);
+        if (less) shade__test_columns(plan, t, tile, 0, 8, SHADE__LESS);
+        else shade__test_columns(plan, t, tile, 0, 8, 0);
         return;
     }
     for (int at = tile->skip & -width; at < tile->columns; at += width) {
-        if (less) shade__test_columns(plan, t, edges, tile, at, width, 1, full);
-        else shade__test_columns(plan, t, edges, tile, at, width, 0, full);
+        if (less) shade__test_columns(plan, t, tile, at, width, SHADE__LESS | full);
+        else shade__test_columns(plan, t, tile, at, width, full);
     }
 }
 
 /* Tests a tile of a medium or large triangle, with a copy for tiles that are wholly inside. */
 SHADE__DISPATCH(shade__test_large,
                 (const shade__plan *plan, const shade__triangle *SHADE_RESTRICT t,
-                 const shade__edges *edges, shade__tile *SHADE_RESTRICT tile, int full),
-                (plan, t, edges, tile, full),
+                 shade__tile *SHADE_RESTRICT tile, int full),
+                (plan, t, tile, full),
                 if (SHADE__HAS(SHADE__FULL) && full)
-                    shade__test_tile(plan, t, edges, tile, SHADE__TILE, 1);
-                else shade__test_tile(plan, t, edges, tile, shade__width, 0))
+                    shade__test_tile(plan, t, tile, SHADE__TILE, SHADE__FULL);
+                else shade__test_tile(plan, t, tile, shade__width, 0))
 
 /* The columns of a tile for n pixels from x on: 8, or whole vectors.  A tile that would leave the
    clip rectangle is moved to the left, and skips the columns before x. */
@@ -4579,7 +4581,7 @@ SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 /* Tests a tile wider than the n columns of the clip rectangle: each row is copied, tested and
    copied back. */
 static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shade__triangle *t,
-                                             const shade__edges *edges, int n, shade__tile *tile)
+                                             int n, shade__tile *tile)
 {
     const size_t bytes = (size_t)n * sizeof(float);
     float copy[SHADE__TILE];
@@ -4592,7 +4594,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
     for (int r = 0; r < tile->rows; r++, row.y++) {
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
-        shade__test_large(plan, t, edges, &row, 0);
+        shade__test_large(plan, t, &row, 0);
         if (plan->tile_test.write) SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
         tile->any |= tile->set[r];
@@ -4710,6 +4712,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
     int pixels = 0, inside;
 
     SHADE__ZERO(edges);    /* as for tiles that are inside */
+    tile.edges = &edges;
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
         int first = s->x, last = s->last;
         tile.y = y;
@@ -4724,8 +4727,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
                                 SHADE__TILE / 2, &tile);
             inside = s->inside || shade__tile_edges(t, &tile, &edges);
             shade__tile_depth(plan, &tile);
-            if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
-            else shade__test_large(plan, t, &edges, &tile,
+            if (across < tile.columns) shade__test_copy(plan, t, across, &tile);
+            else shade__test_large(plan, t, &tile,
                                    inside && tile.columns - tile.skip == SHADE__TILE);
             pixels += shade__add_tile(d, runs, t->index, &tile, 1);
         }
@@ -4767,6 +4770,7 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
     int pixels = 0;
 
     for (int k = 0; k < 3; k++) t->edges.e[k] = (int32_t)t->e[k];
+    tile.edges = &t->edges;
     for (int x = t->x0; x <= (narrow ? t->x0 : t->x1); x += SHADE__TILE) {
         const int n = t->x1 - x + 1;
         shade__tile_columns(plan, x, narrow ? n : shade__min(SHADE__TILE, n), width, &tile);
@@ -4774,8 +4778,8 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
             tile.rows = shade__min(SHADE__TILE_ROWS, t->y1 - tile.y + 1);
             if (!narrow && shade__tile_outside(&t->edges, &tile)) continue;
             shade__tile_depth(plan, &tile);
-            if (narrow) shade__test_tile(plan, t, &t->edges, &tile, width, 0);
-            else shade__test_large(plan, t, &t->edges, &tile, 0);
+            if (narrow) shade__test_tile(plan, t, &tile, width, 0);
+            else shade__test_large(plan, t, &tile, 0);
             pixels += shade__add_tile(d, runs, t->index, &tile, 0);
         }
     }
