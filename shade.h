@@ -3541,7 +3541,6 @@ SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w, int ze
     const uint32_t nearer = shade__mask(z < (zero_to_one ? 0 : -w)) & SHADE__OUT_NEAR;
     const uint32_t farther = shade__mask(z > w) & SHADE__OUT_FAR;
     const uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w);
-
     return shade__sides_passed(x, y, w) | nearer | farther | (bad & SHADE__OUT_BAD) |
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
@@ -3551,7 +3550,6 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int z
                                    shade__placed *SHADE_RESTRICT p)
 {
     shade__in cx = v->clip[0], cy = v->clip[1], cz = v->clip[2], cw = v->clip[3];
-
     SHADE_EACH_LANE(i) {
         const float x = cx[i], y = cy[i], z = cz[i], w = cw[i];
         const uint32_t out = shade__outcode(x, y, z, w, zero_to_one) |
@@ -3569,7 +3567,6 @@ SHADE__INLINE void shade__project(double half_width, double half_height, int zer
                                   shade__placed *SHADE_RESTRICT p)
 {
     const double scale = zero_to_one ? 1 : 0.5, offset = zero_to_one ? 0 : 0.5;
-
     SHADE_EACH_LANE(i) { p->x_fx8[i] = shade__snap(p->x[i], p->w[i], half_width, half_width); }
     SHADE_EACH_LANE(i) { p->y_fx8[i] = shade__snap(p->y[i], p->w[i], -half_height, half_height); }
     SHADE_EACH_LANE(i) { p->z[i] = shade__window_depth(p->z[i], p->w[i], scale, offset); }
@@ -3583,7 +3580,6 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
                                  shade__batch *SHADE_RESTRICT b)
 {
     const int stride = plan->value_stride, varyings = plan->varyings;
-
     b->out = 0;
     for (int i = 0; i < n; i++) {
         shade__vertex *to = &b->vertex[i];
@@ -3613,7 +3609,6 @@ SHADE__INLINE void shade__place_body(shade__draw *d, const shade_vertices *verti
 {
     const shade__plan *plan = &d->plan;
     shade__placed p;
-
     shade__classify(vertices, plan->zero_to_one, &p);
     shade__project(plan->half_width, plan->half_height, plan->zero_to_one, &p);
     shade__gather(plan, d->u.incoming.ids.count, vertices, &p, &d->batch);
@@ -3626,7 +3621,6 @@ static void shade__shade_vertices(shade__draw *d)
     shade_vertices *v = &d->u.incoming.vertices;
     shade_vertex_ids *ids = &d->u.incoming.ids;
     const int varyings = d->plan.varyings;
-
     for (int i = ids->count; i < SHADE_LANES; i++) ids->index[i] = ids->index[ids->count - 1];
     SHADE__ZERO(v->clip);
     if (varyings) SHADE_MEMSET(v->varying, 0, (size_t)varyings * sizeof v->varying[0]);
@@ -3643,7 +3637,6 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indi
 {
     uint32_t *index_of = in->ids.index, at = 3 * first;
     int n = 0, vertices = in->ids.count;
-
     for (; n < most && vertices <= room; n++) {
         for (int k = 0; k < 3; k++, at++) {
             const uint32_t index = shade__index(indices, at);
@@ -3746,7 +3739,6 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stri
 {
     SHADE_ALIGNED int32_t xy[3][2 * SHADE__TRIANGLES];
     SHADE_ALIGNED float zw[3][2 * SHADE__TRIANGLES];
-
     for (int i = s->count; i < SHADE__TRIANGLES; i++) SHADE_MEMCPY(s->corner[i], s->corner[0], 4);
     for (int i = 0; i < SHADE__TRIANGLES; i++) {
         for (int k = 0; k < 3; k++) {
@@ -3841,7 +3833,6 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k
                                shade__setup *SHADE_RESTRICT s)
 {
     const int next = k < 2 ? k + 1 : 0;
-
     SHADE__FOR(i, SHADE__TRIANGLES) {
         const int32_t dx = c->x[next][i] - c->x[k][i], dy = c->y[next][i] - c->y[k][i];
         const double x = s->x0[i] * 256 + 128 - c->x[k][i];
@@ -3896,7 +3887,6 @@ SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull, s
     const uint32_t front = shade__mask(cull == SHADE_CULL_FRONT);
     const int n = s->count;
     int culled = 0;
-
     SHADE__FOR(i, SHADE__TRIANGLES) {
         uint32_t none = shade__mask(area[i] == 0), facing = shade__mask(area[i] < 0);
         uint32_t gone = (none | (facing & front) | (~facing & back)) & shade__mask(i < n);
@@ -3915,7 +3905,6 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     SHADE_ALIGNED double inverse[SHADE__TRIANGLES];
     shade__corner_rows c;
     shade__turns turns;
-
     shade__fetch_corners(s, plan->value_stride, &c);
     shade__areas(&c, area, inverse);
     shade__choose_turns(&c, area, &turns, s->turn);
@@ -3940,7 +3929,6 @@ SHADE__DISPATCH_AVX2(shade__set_up, (shade__draw *d), (d), shade__set_up_body(d)
 static void shade__draw_setup(shade__draw *d)
 {
     const int n = d->setup.count;
-
     if (!n) return;
     shade__set_up(d);
     d->setup.count = 0;
@@ -3952,7 +3940,6 @@ SHADE__INLINE void shade__add_triangles(shade__draw *d, uint8_t (*corner)[4], in
                                         uint32_t primitive)
 {
     shade__setup *s = &d->setup;
-
     while (count > 0) {
         const int n = shade__min(count, SHADE__TRIANGLES - s->count);
         for (int i = 0; i < n; i++) {
@@ -3973,7 +3960,6 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
     const shade_cull cull = d->plan.pipe->raster.cull;
     shade__setup *s = &d->setup;
     shade__polygon fan;
-
     if (!shade__clip(d, corner, &fan)) {
         d->stats.clipped++;
         return;
@@ -4008,7 +3994,6 @@ SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle, uint32_t primit
     const uint8_t *corner = d->batch.corner[triangle];
     const uint32_t out0 = v[corner[0]].out, out1 = v[corner[1]].out, out2 = v[corner[2]].out;
     const uint32_t any = out0 | out1 | out2;
-
     if (any) {
         if (any & SHADE__OUT_BAD) {
             d->stats.rejected++;
@@ -4029,7 +4014,6 @@ SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle, uint32_t primit
 static void shade__triangles(shade__draw *d)
 {
     shade__batch *b = &d->batch;
-
     d->setup.vertex = b->vertex;
     d->setup.value = b->value;
     d->setup.count = 0;
@@ -4071,7 +4055,6 @@ static void shade__triangles(shade__draw *d)
 static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_one)
 {
     double p[4];
-
     shade__doubles(clip, 4, p);
     const double x = p[0], y = p[1], z = p[2], w = p[3];
     switch (plane) {
@@ -4102,7 +4085,6 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     double t = d_in / (d_in - d_out), s = t;
     const int v = SHADE__LOWEST_BIT(~p->taken), stride = plan->value_stride;
     const float *from = p->vertex[in].clip, *to = p->vertex[out].clip;
-
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
     p->taken |= 1u << v;
     if (p->in_front) {
@@ -4125,7 +4107,6 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32
     const int zero_to_one = plan->zero_to_one;
     uint8_t kept[SHADE__CLIP_VERTICES];
     int count = 0;
-
     for (int i = 0; i < p->count; i++) {
         if (p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {    /* an edge adds one at most */
             p->count = 0;    /* rounding made it concave, and no place is free: drop it */
@@ -4154,7 +4135,6 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
 {
     const int stride = plan->value_stride;
     uint32_t out = 0;
-
     p->count = 3;
     p->taken = 7;
     p->in_front = 1;
@@ -4179,7 +4159,6 @@ static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 {
     const int zero_to_one = plan->zero_to_one;
     const double half_width = plan->half_width, half_height = plan->half_height;
-
     for (int i = 0; i < p->count; i++) {
         shade__vertex *v = &p->vertex[p->corner[i]];
         float w = shade__maxf(v->clip[3], shade__w_least), rw = 1 / w;
@@ -4222,7 +4201,6 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
     const uint32_t out = shade__polygon_of(plan, &d->batch, corner, fan);
     uint8_t order[SHADE__CLIP_VERTICES];
     int apex;
-
     for (uint32_t plane = SHADE__OUT_NEAR; plane <= SHADE__OUT_W && fan->count; plane *= 2)
         if (out & plane) shade__clip_plane(plan, fan, plane);
     if (fan->count < 3) return 0;
@@ -4334,7 +4312,6 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
     const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
     const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
     const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
-
     *least = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
     return e;
 }
@@ -4364,7 +4341,6 @@ SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile 
                                     shade__edges *edges)
 {
     int inside = 1;
-
     edges->x = tile->x;
     edges->y = tile->y;
     for (int k = 0; k < 3; k++) {
@@ -4430,7 +4406,6 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
                                   const shade__tile *tile, const int joined)
 {
     int pixels = 0, count;
-
     if (!tile->any) return 0;
     if (SHADE__UNLIKELY(r->count > SHADE__RUNS_AHEAD)) shade__send(d, r);
     count = r->count;
@@ -4494,7 +4469,6 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
     uint32_t all = 0;
-
     for (int i = 0; i < width; i++) {
         e0[i] = i < skip ? SHADE__CUT : a + i * ax;
         e1[i] = b + i * bx;
@@ -4532,7 +4506,6 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
 {
     const int less = SHADE__HAS(SHADE__LESS) && plan->less_only;
     const int slim = width > 8 && tile->columns <= 8;
-
     SHADE__TILE_TESTED();
     tile->any = 0;
     SHADE__FOR(r, SHADE__TILE_ROWS) {
@@ -4573,7 +4546,6 @@ SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n, co
 SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 {
     const size_t early = (size_t)plan->early, row = (size_t)(tile->y - plan->row_offset);
-
     tile->depth = plan->tested + early * (row * (size_t)plan->stride + (size_t)tile->x);
     tile->stride = plan->early * plan->stride;
 }
@@ -4586,7 +4558,6 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
     const size_t bytes = (size_t)n * sizeof(float);
     float copy[SHADE__TILE];
     shade__tile row = *tile;
-
     SHADE__ZERO(copy);
     row.rows = 1;
     row.depth = copy;
@@ -4634,7 +4605,6 @@ typedef struct shade__stretch { int x, y, last, bottom, end, inside; } shade__st
 static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
 {
     int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
-
     b->log_width = 5;
     b->log_height = 3;
     while (((w >> b->log_width) + 1) * ((h >> b->log_height) + 1) > SHADE__BOUNDS) {
@@ -4657,7 +4627,6 @@ SHADE__INLINE float shade__key(float away, const shade__triangle *t, float row_z
 SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t least[3], int right)
 {
     int64_t crossed = 0;
-
     for (int k = 0; k < 3; k++) crossed |= least[k] + (int64_t)t->edges.ex[k] * right;
     return crossed >= 0;
 }
@@ -4710,7 +4679,6 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
     shade__edges edges;
     shade__tile tile;
     int pixels = 0, inside;
-
     SHADE__ZERO(edges);    /* as for tiles that are inside */
     tile.edges = &edges;
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
@@ -4751,7 +4719,6 @@ SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
 SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__tile *tile)
 {
     int32_t most = 0;
-
     for (int k = 0; k < 3; k++) {
         const int32_t ex = edges->ex[k], ey = edges->ey[k];
         const int right = ex > 0 ? SHADE__TILE - 1 : 0, down = ey > 0 ? tile->rows - 1 : 0;
@@ -4768,7 +4735,6 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
     const shade__plan *plan = &d->plan;
     shade__tile tile;
     int pixels = 0;
-
     for (int k = 0; k < 3; k++) t->edges.e[k] = (int32_t)t->e[k];
     tile.edges = &t->edges;
     for (int x = t->x0; x <= (narrow ? t->x0 : t->x1); x += SHADE__TILE) {
@@ -4793,7 +4759,6 @@ static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs
     const shade__plan *plan = &d->plan;
     shade__triangle t;
     int pixels;
-
     if (d->bounds.across || plan->x1 - plan->x0 < SHADE__TILE ||
         !shade__is_small(&d->setup, index, 4 * SHADE__TILE))
         return 0;
@@ -4811,7 +4776,6 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     shade__triangle t;
     shade__stretch s;
     int bounded;
-
     shade__triangle_of(&d->setup, index, &t);
     bounded = SHADE__HAS(SHADE__BOUNDED) && t.x1 - t.x0 >= SHADE__TILE - 1 &&
               t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->away != 0;
@@ -4842,7 +4806,6 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     const shade__setup *s = &d->setup;
     const int wide = plan->x1 - plan->x0 >= SHADE__TILE;
     int pixels = 0, i = runs->next;
-
     for (; i < count; i++) {
         shade__triangle t;
         if (((s->x1[i] - s->x0[i]) | (s->y1[i] - s->y0[i])) < 0) continue;
@@ -4861,7 +4824,6 @@ SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int coun
 static void shade__cover(shade__draw *d, int count)
 {
     shade__runs runs;
-
     runs.count = 0;
     runs.run[SHADE__RUNS].x = runs.run[SHADE__RUNS].n = -1;
     for (runs.next = 0; runs.next < count; runs.next++) {
@@ -4924,7 +4886,6 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
     const float *v1 = s->value + corner[turn[1]] * stride;
     const float *v2 = s->value + corner[turn[2]] * stride;
     const shade_vec4 side = shade_v4(s->side[0][i], s->side[1][i], s->side[2][i], s->side[3][i]);
-
     shade__slopes(v0, v1, v2, side, stride, t);
     t->base[0] = s->z0[i];    /* with the bias */
     t->z_low = s->z_low[i];
@@ -4957,7 +4918,6 @@ SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
     const float u0 = value[k], v0 = value[k + 1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
     const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
-
     SHADE__FOR(i, 8) {
         float px = (float)(x + i) + x_ref, r = 1 / rw[i];
         float u = (u0 + ux * px) * r, v = (v0 + vx * px) * r;
@@ -4985,7 +4945,6 @@ SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, fl
 {
     const float centre = (float)p.y + 0.5f, zx = t->gx[0];
     const int x = p.x, c = p.lane, back = p.back;
-
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float z = shade__clamp_bits(row_z + zx * px[i], t->z_low, t->z_high);
@@ -5009,7 +4968,6 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     const uint32_t offset = above + (uint32_t)p.x;
     const int x = p.x, c = p.lane, back = p.back;
     float px[SHADE__WIDE];
-
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float rw;
@@ -5029,7 +4987,6 @@ SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int 
                                      shade__out value)
 {
     const float py = (float)y + t->y_ref;
-
     for (int s = 0; s < count; s += 8) {
         SHADE__FOR(k, 8) { value[s + k] = t->base[s + k] + t->gy[s + k] * py; }
     }
@@ -5043,7 +5000,6 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
     shade__queue *q = &d->u.queue;
     int x = run->x, n = run->n;
     shade__piece p;
-
     p.y = run->y;
     /* a short run fits one piece: 5 % of a dense mesh */
     if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
@@ -5080,7 +5036,6 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
 {
     shade__planes t;
     SHADE_ALIGNED float value[SHADE__VALUES_MAX];
-
     for (int k = 0; k < runs; k++) {
         if (!k || run[k].triangle != run[k - 1].triangle)
             shade__make_planes(&d->plan, &d->setup, run[k].triangle, &t);
@@ -5095,7 +5050,6 @@ SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), 
 static void shade__repeat(void *row, int n)
 {
     shade__word *to = shade__words(row);
-
     for (int i = n; i < SHADE_LANES; i++) to[i] = to[n - 1];
 }
 
@@ -5103,7 +5057,6 @@ static void shade__repeat(void *row, int n)
 static void shade__replicate(shade__queue *q, const shade__plan *plan)
 {
     const int n = q->f.count;
-
     for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
     shade__repeat(q->rw, n);
     shade__repeat(q->step, n);
@@ -5120,7 +5073,6 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
 SHADE__INLINE void shade__undivide(shade__in rw, shade__out varying, int n)
 {
     SHADE_ALIGNED float w[SHADE_LANES];
-
     SHADE_EACH_LANE(i) { w[i] = 1 / rw[i]; }
     for (int k = 0; k < n; k++, varying += SHADE_LANES) {
         SHADE_EACH_LANE(i) { varying[i] *= w[i]; }
@@ -5132,7 +5084,6 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
     shade_colors c;
-
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
     if (plan->divided == SHADE__FIRST && plan->varyings)
@@ -6126,7 +6077,6 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 lo
 {
     double from[3], c[3], h[3], m[3];
     uint64_t signs = 0;
-
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
     shade__double3(low, from);
     shade__double3(high, h);
@@ -6152,7 +6102,6 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 lo
 static int shade__next_chunk(shade__draw *d)
 {
     shade__supply *s = d->supply;
-
     for (; s->chunks > 0; s->chunks--) {
         const shade_chunk *c = s->chunk++;
         d->stats.triangles += c->count;
@@ -6553,7 +6502,6 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
     shade__v3 *point = shade__varying_rows(out, s->first.point, &spare[0]);
     shade__v3 *normal = shade__varying_rows(out, s->first.normal, &spare[1]);
     shade__v3 *albedo = shade__varying_rows(out, s->first.albedo, &spare[2]);
-
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
     if (!s->pn_unread) {
