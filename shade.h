@@ -45,43 +45,43 @@
    reflections or physically based materials.                                            >>about
 
    >>contents
-     The number is the line in which a section's banner begins.  The tag that ends a banner names
-     the next section; in and out are what a section takes and gives, holds is what must stay true.
-     A way is the order of calls, in names without shade__: "a: b, c; d" is a, which calls b and
-     then c, followed by d.  A function stands below those that it calls: read a section from its
-     end up, along its way.
+     The number is the line of a section's banner.  In a banner, in and out are the input and the
+     output, holds is an invariant, and the tag at the end names the next section.  way is the order
+     of calls, in names without shade__.  For example, "a: b, c; d" means that a calls b, then c,
+     and that d follows a.  Callees stand above their callers: read a section from its end upward,
+     along its way.
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     127  options               >>types      254  materials, lamps, targets, states
-       >>light      431  the equation, colour  >>draw       538  shaders, meshes, pixels
-       >>tools      682  why, lines, rays, ... >>plumbing   862  compilers, flags and bits
-       >>math      1000  vectors and matrices
-     Inside: words that the rest is written in
-       >>machine   1360  processors            >>base      1585  bits, masks, rows of vectors
-       >>matrix    1783  cameras, inverses     >>power     2060  x^n
-       >>pixels    2126  formats, sRGB
+       >>config     129  options               >>types      256  materials, lamps, targets, states
+       >>light      434  the equation, colour  >>draw       541  shaders, meshes, pixels
+       >>tools      687  explain, lines, rays  >>plumbing   879  compilers, flags and bits
+       >>math      1018  vectors and matrices
+     Inside: the vocabulary of the rest
+       >>machine   1378  processors            >>base      1603  bits, masks, rows of vectors
+       >>matrix    1801  cameras, inverses     >>power     2078  x^n
+       >>pixels    2144  formats, sRGB
      Inside: light
-       >>lamps     2434  attenuation, cones    >>terms     2686  one term at one point
-       >>surface   2761  material and lights   >>lit       2878  the whole sum, at many points
+       >>lamps     2452  attenuation, cones    >>terms     2704  one term at one point
+       >>surface   2779  material and lights   >>lit       2896  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3267  who owns what         >>vertices  3479  shading, projection
-       >>triangles 3688  dropped, cut, edges   >>clip      4047  near, far, behind the eye
-       >>tiles     4239  pixels, depth test    >>cover     4604  what is hidden, tile by tile
-       >>fragments 4876  interpolation, lod    >>texture   5160  texels, filters
-       >>store     5607  blending, packing
+       >>state     3285  fields by owner       >>vertices  3497  shading, projection
+       >>triangles 3699  culling, edge setup   >>clip      4049  near, far, guard band
+       >>tiles     4235  edges and depth test  >>cover     4593  triangles, tile by tile
+       >>fragments 4856  interpolation, lod    >>texture   5129  texels, filters
+       >>store     5576  blending, packing
      Inside: calls of the renderer
-       >>check     5857  refusals              >>seen      6062  what can be seen, chunks
-       >>drive     6184  shade_draw            >>mesh      6373  shade_draw_mesh
-     Inside: tools, which call the renderer; it names none of them
-       >>lines     6778  shade_draw_lines      >>camera    6969  where a draw is seen from
-       >>shape     7063  normals, edges        >>chunks    7431  how boxes are made
-       >>rays      7600  shade_pick            >>survey    7788  experiments on a draw
-       >>explain   8250  why nothing is seen   >>replay    9420  of lines, pipelines
-       >>image     9746  makes mipmaps, PPM    >>presets  10078  classic materials
+       >>check     5826  refusals              >>seen      6031  view volume, chunks
+       >>drive     6151  shade_draw            >>mesh      6340  shade_draw_mesh
+     Inside: the tools, which call the renderer; it never calls them
+       >>lines     6744  shade_draw_lines      >>camera    6935  eye and line of sight
+       >>shape     7029  normals, edges        >>chunks    7397  sorting and boxes
+       >>rays      7566  shade_pick            >>survey    7754  experiments on a draw
+       >>explain   8216  why nothing is seen   >>replay    9386  the same for lines, pipelines
+       >>image     9712  makes mipmaps, PPM    >>presets  10044  classic materials
      Sources
-       >>refs     10163                        >>history  10193
-       >>license  10199
+       >>refs     10129                        >>history  10159
+       >>license  10165
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -99,6 +99,8 @@
      Directions   N, L, V, H and R are unit vectors and all point AWAY from the surface.
      Colour       linear light, unclamped.  Formats of 8 and 5-6-5 bits store clamp(c, 0, 1),
                   rounded to nearest, and 0 for NaN.
+     Rows         of a packet: SHADE_LANES numbers, one a lane; a vector takes three rows.  Of a
+                  picture: the pixels of one y.
      Names        shade__x is private.  _fx8 24.8 fixed point, rw 1/w.
 
    >>model   The equation of light ("iteration four") and its symbols:
@@ -128,23 +130,23 @@
    Options.  Define them before the #include, with the same value in every file of a program.
 
      SHADE_IMPLEMENTATION     compiles the function bodies too; define it in one file only
-     SHADE_STATIC             makes all functions static: a private copy in this file, of which the
-                              compiler leaves out what is not called
+     SHADE_STATIC             makes all functions static: a private copy in this file, from which
+                              the compiler drops those that you do not call
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
-     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
-     SHADE_LANES              vertices or fragments of a packet, which a shader takes at once: a
+     SHADE_ASSERT(x)          checks the library's own invariants; default assert(x)
+     SHADE_LANES              vertices or fragments in a packet, the unit that shaders work on: a
                               power of two from 8 to 256; default 128; 16 suits small stacks
-     SHADE_MAX_VARYINGS       floats that a vertex can hand to fragments, 1 .. 64; default 16.
+     SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
-                              both 11; with a fragment shader of their own 11
+                              both 11; with a fragment shader of your own 11
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
-                              and leaves assertions out
+                              and turns assertions off
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        compiles each hot loop once, for the target of -march
      SHADE_ALLOW_FAST_MATH    lets clang compile the implementation with -ffast-math; the bits
-                              change, and NaN may get through
+                              change, and checks for NaN may fail
 
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
@@ -153,8 +155,8 @@
    also e, g, i, j, o and q.
                                                                                           >>types */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
-/* Within a namespace the three headers below would declare their types there: hundreds of errors.
-   This makes one of them, and its name tells what to do. */
+/* If you include this file inside a namespace, the three headers below would declare their types
+   there, with hundreds of errors.  This makes one error instead, and its name says what to do. */
 struct shade__before_the_namespace_include_float_h_stddef_h_stdint_h;
 typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__global;
 #endif
@@ -291,7 +293,7 @@ typedef struct shade_light {
     shade_vec3 specular;           /* I_s */
     float      constant, linear, quadratic;    /* a, b, c of 1/(a + b r + c r^2); all zero: 1 */
     shade_vec3 spot_direction;     /* where the lamp points, any length; zero: not a spotlight */
-    float      spot_exponent;      /* e; 0: a cone of even light */
+    float      spot_exponent;      /* e; 0: even light within the cone */
     float      spot_cos_cutoff;    /* cos(beta), beta from the axis to the edge of the cone */
 } shade_light;
 
@@ -316,16 +318,17 @@ enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The light that falls on a scene, and the equation for what surfaces reflect.  Positions, normals
-   and eye must be in one space with orthogonal axes of equal scale: world or eye space, never clip
-   space.  On the outline of a coarse mesh some interpolated normals point away from the viewer.
+/* The lights of a scene, and the equation that surfaces are lit by.  Positions, normals and eye
+   must be in one space with orthogonal axes of equal scale: world or eye space, never clip space.
+   On the outline of a coarse mesh some interpolated normals point away from the viewer.
    SHADE_FLAG_TWO_SIDED flips these, which shows as specks; a finer mesh has fewer.
-     Unlit: terms SHADE_TERM_AMBIENT and ambient 1, 1, 1 show k_a times vertex colour and map. */
+     To draw a mesh unlit, set terms to SHADE_TERM_AMBIENT and ambient to 1, 1, 1: you see k_a times
+   vertex colour and map. */
 typedef struct shade_lighting {
-    const shade_light *lights;         /* NULL: none; shade_draw_mesh refuses it with a count */
+    const shade_light *lights;         /* NULL: none; shade_draw_mesh then refuses a count */
     int         light_count;           /* a negative one counts as 0 */
     shade_vec3  ambient;               /* I_a, one for the scene */
-    shade_model model;                 /* an unknown one is BLINN_PHONG; shade_draw_mesh refuses */
+    shade_model model;                 /* unknown: BLINN_PHONG; shade_draw_mesh refuses it */
     unsigned    flags;                 /* SHADE_FLAG_... */
     unsigned    terms;                 /* SHADE_TERM_... */
     shade_vec3  cool, warm;            /* for COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
@@ -364,7 +367,7 @@ typedef struct shade_texture {
     int          mipmap_count;
 } shade_texture;
 
-/* A picture and its depth buffer in the caller's memory. */
+/* A picture and its depth buffer, in your memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
     int   stride;                /* pixels from row to row, of color and depth; 0: width */
@@ -373,8 +376,8 @@ typedef struct shade_target {
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* draws and clears change pixels of this rectangle alone, */
-    int   clip_width, clip_height;    /* and none if it is empty; four zeros: the whole picture */
+    int   clip_x, clip_y;        /* draws and clears change only this rectangle, and nothing */
+    int   clip_width, clip_height;    /* if it is empty; four zeros: the whole picture */
     int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
                                  /* row_count rows; count 0: all rows of the picture */
 } shade_target;
@@ -413,14 +416,14 @@ typedef enum shade_shading {
     SHADE_SHADING_PER_FACE             /* each face is lit at its centroid, with its own normal */
 } shade_shading;
 
-/* What became of the triangles of one call; every call starts from zero.
+/* What happened to the triangles of one call; each call starts from zero.
      triangles = skipped + culled + clipped + rejected + drawn
    Without chunks skipped is 0, and none of the six numbers depends on the clip rectangle. */
 typedef struct shade_stats {
     long long triangles;
     long long skipped;           /* their chunk cannot be seen in the clip rectangle */
     long long culled;            /* they face the wrong way, or have no area after snapping */
-    long long clipped;           /* nothing of them is inside the view volume; not those cut */
+    long long clipped;           /* wholly outside the view volume, not merely cut by it */
     long long rejected;          /* a corner in clip space is NaN, infinite or beyond 1e30 */
     long long drawn;
     long long fragments;         /* pixels in the clip rectangle that passed the depth test */
@@ -441,7 +444,7 @@ SHADE__OPEN
    coefficients >= 0, k <= 1 and lights up to 1e6, away from the jumps of the equation: N.L, L.S -
    cos(beta) and, with SHADE_FLAG_TWO_SIDED, N.V must differ from 0 by more than 1e-6, and |L + V|
    must exceed 2e-6.  A power with an exponent between 0 and 1 is infinitely steep at 0: its base
-   must differ from 0 by 1e-3.  A lamp with another w than 0 and 1 stands at xyz / w, rounded to
+   must differ from 0 by 1e-3.  A lamp with w other than 0 and 1 stands at xyz / w, rounded to
    floats.                                                                                 >>draw */
 
 /* Lamps of one colour: I_d = I_s = color, no ambient light, no attenuation.  direction_of_travel is
@@ -456,7 +459,7 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 
 /* How much of a lamp arrives at P if nothing is in the way: spot / (a + b r + c r^2), a factor of
    I_d and I_s.  It is 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P
-   toward the lamp; it is zero where P is the lamp, which is dark there if its cos(beta) > 0.
+   toward the lamp.  Where P is the lamp, L is zero, and a cone with cos(beta) > 0 gives no light.
    *distance becomes r, or FLT_MAX for a lamp at infinity.  Either may be NULL.  For light NULL all
    three are zero. */
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
@@ -478,8 +481,8 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
-/* The surface points of a packet, in rows of SHADE_LANES floats.  A vector takes three rows that
-   follow each other: pass in->varying[k], for example, or n[0] of a float n[3][SHADE_LANES]. */
+/* The surface points of a packet, in rows of SHADE_LANES floats.  A vector is three consecutive
+   rows: for example in->varying[k], or n[0] of your own float n[3][SHADE_LANES]. */
 typedef struct shade_rows {
     const float *position;      /* P: 3 rows, x, y and z */
     const float *normal;        /* N: 3 rows, of any length */
@@ -488,15 +491,15 @@ typedef struct shade_rows {
     const float *visibility;    /* 1 row for each light, multiplies its I_d and I_s; NULL: 1 */
 } shade_rows;
 
-/* shade_lit for a packet; fragment shaders call it.  Lane i of the rows gives lane i of rgb, three
-   rows that must not overlap the others.  A lane depends on itself alone and has the bits of
-   shade_lit.  Visibility 0 is full shadow, and any other value multiplies as it is; it never hides
-   ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting, rows, position or normal
-   is NULL. */
+/* shade_lit for a packet: call it in your fragment shader.  Lane i of the rows gives lane i of rgb,
+   three rows that must not overlap the others.  A lane depends on itself alone and has the bits of
+   shade_lit.  Visibility 0 is full shadow; 0.5, for example, halves the lamp, and values are not
+   clamped.  It never hides ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting,
+   rows, position or normal is NULL. */
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const shade_rows *rows, float *rgb);
 
-/* The single terms.  They take N, L and V as given: unit vectors. */
+/* The single terms.  Pass unit vectors as N, L and V: they are used as they are. */
 
 /* max(0, N.L) */
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light);
@@ -541,14 +544,15 @@ SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
    indices.  Nothing is ever written outside the target's rows, width and clip rectangle.
                                                                                           >>tools */
 
-/* What a result means and which fields to look at, in English; never NULL. */
+/* What a result means and which fields to check, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
 /* Fills the clip rectangle of both buffers.  NaN as depth is SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
-/* The texture's linear RGBA at u, v.  lod is the level of detail: log2 of texels per pixel.  A
-   negative lod counts as 0, and so do NaN and infinity in u, v and lod. */
+/* The texture's linear RGBA at u, v.  lod is the level of detail, log2 of texels per pixel: for
+   example 1 where a pixel is two texels wide.  A negative lod counts as 0, and so do NaN and
+   infinity in u, v and lod. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
 /* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0; rgba is 4 rows that must
    not overlap the others. */
@@ -589,10 +593,10 @@ typedef void shade_vertex_shader(const void *uniforms, const shade_vertex_ids *S
 typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                    shade_colors *SHADE_RESTRICT out);
 
-/* What shade_draw draws with.  Where lod_texture is set, fragments have a lod for
-   shade_sample_lanes: log2 of the longer of the two steps, in texels of level 0, that (u, v) makes
-   to the next pixel right and below.  The steps are the exact derivatives of the perspective
-   interpolation at the pixel, whatever the interpolation is. */
+/* What shade_draw draws with.  If you set lod_texture, fragments have a lod for shade_sample_lanes:
+   log2 of the longer of the two steps, in texels of level 0, that (u, v) makes to the next pixel
+   right and below.  The steps are the exact derivatives of the perspective interpolation at the
+   pixel, whatever the interpolation is. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
     shade_fragment_shader *fragment;              /* NULL: depth only */
@@ -612,13 +616,13 @@ typedef struct shade_pipeline {
      The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
    it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
    1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
-     Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
-   the same as from one thread, to the bit. */
+     To use threads, let each draw the same triangles with its own clip rectangle or target; the
+   pixels are the same as from one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats);
 
-/* A mesh in the caller's arrays.  Strides are in BYTES and multiples of 4; 0 means tight. */
+/* A mesh in your arrays.  Strides are in BYTES, multiples of 4; 0 means tightly packed. */
 typedef struct shade_mesh {
     const float *positions;  int position_stride;    /* x, y, z */
     const float *normals;    int normal_stride;      /* any length; NULL: each face has its own */
@@ -653,7 +657,8 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
     const void *uniforms;                         /* passed to it */
 } shade_draw_state;
 
-/* The first rows of what a fragment shader of a draw state finds in shade_fragments.varying. */
+/* Where the fragment shader of a draw state finds its input: the first row of each vector in
+   shade_fragments.varying. */
 enum {
     SHADE_VARYING_POSITION = 0,                   /* P, world space */
     SHADE_VARYING_NORMAL = 3,                     /* N, world space; unit at the vertices alone */
@@ -665,43 +670,47 @@ enum {
    camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
    the centroid, with the face's normal and the colour of the first vertex; a map still varies from
    pixel to pixel.
-     Light takes the eye from view alone: highlights are wrong where projection moves the centre of
-   projection, and where the camera looks along +z, as left-handed ones do, the backward axis points
-   away from the viewer; negate eye there in a shader of your own.  shade_explain reports both.
+     Light takes the eye from view alone.  If your projection moves the centre of projection,
+   highlights are wrong.  If your camera looks along +z, as left-handed ones do, its backward axis
+   points away from the viewer: negate eye in a shader of your own.  shade_explain reports both.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments with an alpha below alpha_cutoff are
    discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
    the SHADE_VARYING_... above, lod of diffuse_map, and the eye of the equations: pass in->eye to
-   shade_lit_lanes.  It samples maps itself.  Alpha is (1 - transparency) times its color[3]; ADD,
-   OVER and alpha_cutoff use that.  In depth-only draws it is called only where alpha_cutoff > 0. */
+   shade_lit_lanes, and sample maps yourself.  Alpha is (1 - transparency) times your color[3]; ADD,
+   OVER and alpha_cutoff use that.  Depth-only draws call your shader only if alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
 /*------------------------------------------------------------------------------------------ >>tools
-   What calls the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
+   Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
                                                                                        >>plumbing */
+
+/* ---- explanations */
 
 /* Says in one sentence why a draw gives no picture, or a wrong one, and which field to change; ""
    where nothing is suspicious; never NULL.  Call it after shade_draw_mesh, with the same arguments
-   and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
-   names the field of every refusal, and recognises matrices that are transposed, swapped or made
-   from degrees, meshes out of view, culling, depth that was not cleared, and light that does not
-   arrive or clips.
-   It writes nothing: it draws the mesh again and again, with one thing changed after the other, and
-   counts pixels.  When it says that something is missing, no pixel shows it.  It takes the time of
-   many frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
+   and the stats and depth that it wrote; without stats it cannot say everything.  It names the
+   field of every refusal, and recognises matrices that are transposed, swapped or made from
+   degrees, meshes out of view, culling, depth that was not cleared, and light that does not arrive
+   or clips.
+     It writes nothing: it draws the mesh again and again, changing one thing at a time, and counts
+   pixels.  If it says that something is missing, no pixel shows it.  It takes the time of many
+   frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
    picture is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
 /* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
-   or NULL.  It runs the draw again without a picture, several times, and counts what the shaders
-   give: positions that are NaN or out of view, discarded, black or transparent pixels, what
-   raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
+   or NULL.  It runs the draw again without a picture, several times, and counts what your shaders
+   return: positions that are NaN or out of view, discarded, black or transparent pixels, and what
+   raster.cull, the depth test and the clip rectangle leave out.  It does not change the target. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
                                         const uint32_t *indices, int index_count, int vertex_count,
                                         const shade_stats *stats);
+
+/* ---- chunks */
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
@@ -709,27 +718,29 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
 /* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
    Chunks that the mesh already has are ignored; a corner that is NaN or infinite does not count for
    its box.
-     With indices NULL the triangles stay in their order, which is good where neighbours in the list
-   are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
-   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
-   it, and mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and
-   the halves again, in n log n steps and without further memory.  The order is the same on every
-   machine.
+     With indices NULL the triangles stay in their order, which is good if neighbours in the list
+   are neighbours in space.  Otherwise give indices room for index_count entries, or vertex_count if
+   the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it, and
+   mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and the
+   halves again, in n log n steps, without further memory.  The order is the same on every machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
 /* 0 only if nothing in the box can reach a pixel of the target's clip rectangle and strip.
-   shade_draw_mesh skips chunks by this test; programs with their own pipelines can skip ranges of
-   indices by it.  It allows for all rounding of transforms and clipping, and for any w.  A zero
-   matrix is the identity.  1 for NaN, for low > high, and for a bad target. */
+   shade_draw_mesh skips chunks by this test; use it to skip ranges of indices in your own
+   pipelines.  It allows for all rounding of transforms and clipping, and for any w.  A zero matrix
+   is the identity.  1 for NaN, for low > high, and for a bad target. */
 SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
+
+/* ---- lines */
+
 typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
     float         width;                          /* in pixels; 0 means 1, above 2^25 as 2^25 */
-    shade_cap     cap;                            /* SQUARE adds half the width: joints close */
+    shade_cap     cap;                            /* SQUARE adds half the width, to close joints */
     shade_vec4    color;
     shade_raster  raster;                         /* cull is ignored */
 } shade_line_state;
@@ -739,11 +750,13 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
-/* Says in one sentence why lines are not seen, as shade_explain_draw does; "" where nothing is
+/* Says in one sentence why your lines do not show, as shade_explain_draw does; "" where nothing is
    suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
 SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
                                          int point_count, const shade_line_state *state,
                                          const shade_stats *stats);
+
+/* ---- shape: boxes, normals, edges */
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
@@ -751,30 +764,30 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
-   off-centre frustum that exclude the view axis are ignored.  A projection may turn and move the
-   eye: the view undoes it, for example with a left-handed one, which looks along +z.  Without
-   perspective the eye is one diagonal of the box away.  The identity for NaN, infinity and low >
-   high. */
+   off-centre frustum that exclude the view axis are ignored.  If your projection turns or moves the
+   eye, the view undoes it: for example a left-handed one, which looks along +z.  Without
+   perspective the eye is one diagonal of the box away.  Returns the identity for NaN, infinity and
+   low > high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
-/* Fills normals[vertex_count] with the unit mean of the normals of the faces around each vertex,
-   weighted by their angles there.  Faces with all corners exactly on a line do not count.  The
-   normal of a vertex without faces is zero.                                          [Thurmer98] */
+/* Fills normals[vertex_count].  The normal of a vertex is the mean of the normals of its faces,
+   weighted by the angle of each face there, and made unit.  Faces with all corners exactly on a
+   line do not count.  The normal of a vertex without faces is zero.                  [Thurmer98] */
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
 /* Fills one normal for each corner of each triangle, index_count of them or, without indices,
-   vertex_count: the mean, as above, over the faces around the corner's position that turn by at
-   most the crease angle, n . n_face >= cos_crease, from the corner's own face.  Vertices of equal
-   position count as one.  Time grows with the square of the number of faces around a position.
-   memory must be aligned to 4 and have the bytes that shade_mesh_corner_normals_bytes tells, which
-   are 0 for a bad mesh. */
+   vertex_count.  It is the mean, as above, over those faces around the corner's position that
+   differ from the corner's own face by at most the crease angle: n . n_face >= cos_crease.  For
+   example, cos_crease 0.5 keeps edges of more than 60 degrees hard.  Vertices of equal position
+   count as one.  Time grows with the square of the number of faces around a position.  memory must
+   be aligned to 4 and have shade_mesh_corner_normals_bytes bytes (0 for a bad mesh). */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
 
 /* Lists each edge of a mesh once, with a < b and its one or two triangles (-1: no second one); a
-   third triangle makes a further entry.  Entries are sorted by a, then b.  Room for index_count of
-   them is enough; less gives SHADE_ERROR_CAPACITY, with the number needed in *count. */
+   third triangle makes a further entry.  Entries are sorted by a, then b.  Give edges room for
+   index_count entries; with less you get SHADE_ERROR_CAPACITY, and the number needed in *count. */
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
@@ -784,16 +797,18 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 /* n0.n1 <= threshold, for unit normals. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
+/* ---- rays */
+
 /* The world-space ray through window point x, y (pixel centres are at + 1/2), for every camera that
    draws.  Only the product of projection and view counts, not which of the two holds the camera.
-     The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
-   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
-   by less than 3e-5 of itself from near to far, it starts where clip z = -w: on the near plane or,
-   where z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows, so
-   that it meets first what SHADE_COMPARE_LESS draws.
+     In a perspective, left-handed or not, the ray starts at the eye, where clip x, y and w are 0,
+   and points to where w grows.  Rays are parallel if w is constant along them, or changes by less
+   than 3e-5 of itself from near to far.  Then the ray starts where clip z = -w: on the near plane
+   or, if z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows,
+   and so meets first what SHADE_COMPARE_LESS draws.
      Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
-   camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
-   zero matrices of a draw state pass shade_mat4_identity(). */
+   camera (both w and depth are constant), and for a zero matrix, which is not the identity here: in
+   place of the zero matrices of a draw state pass shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -805,15 +820,17 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 /* The index of the nearest triangle of a mesh that a world-space ray meets, in the sense of
    shade_intersect; ties go to the lowest index.  model places the mesh (zero: identity).
    Degenerate triangles are never hit, nor is a point that rounding puts outside of its triangle's
-   box.  -1: no triangle is hit, or the mesh is bad; *t and *barycentric do not change then.  Either
-   may be NULL.  The call looks at every triangle, or with chunks at the triangles of each box that
-   the ray meets; indices of other triangles are not checked. */
+   box.  Returns -1 if no triangle is hit, or if the mesh is bad; *t and *barycentric do not change
+   then.  Either may be NULL.  The call looks at every triangle, or with chunks at the triangles of
+   each box that the ray meets; indices of other triangles are not checked. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 
+/* ---- pictures and presets */
+
 /* Writes the picture, or the rows of a strip, as a binary PPM ("P6").  RGBA32F is clamped, and
-   encoded where srgb is set.  A sink that returns non-zero ends the call with SHADE_ERROR_IO; a
-   file that could not be written whole stays behind. */
+   encoded if srgb is set.  If your sink returns non-zero, the call ends with SHADE_ERROR_IO.  A
+   file that could not be written completely is not removed. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
@@ -896,7 +913,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
-   The implementation's are SHADE__INLINE: files with other options have other ones. */
+   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
+   the file. */
 #define SHADE__INLINE static SHADE__ALWAYS_INLINE
 #ifdef __cplusplus
 #define SHADE__EXPORT SHADE__ALWAYS_INLINE
@@ -904,7 +922,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__EXPORT SHADE__INLINE
 #endif
 
-/* Compilers fold the builtin with -ffreestanding as well. */
+/* Compilers optimise the builtin even with -ffreestanding. */
 #ifndef SHADE_MEMCPY
 #ifdef SHADE__GNU
 #define SHADE_MEMCPY __builtin_memcpy
@@ -922,9 +940,9 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__SQRT sqrtf
 #endif
 
-/* A product in an inline function.  Where the processor has a fused a b + c, gcc fuses the sums of
-   your file, and a product that it inlines there, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  The fused a b + -0 has the bits of a b, and cannot be fused again. */
+/* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
+   and sums in your file, those of inlined functions too, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
 #if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
     (defined(__cplusplus) || !defined(__STRICT_ANSI__))
 #define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
@@ -955,7 +973,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #else
 #define SHADE__COUNTER int
 #endif
-#ifdef __clang__    /* gathers, with AVX-512, what takes less time one by one */
+#ifdef __clang__    /* AVX-512 gathers take longer than loads one by one */
 #define SHADE__ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
 #else
 #define SHADE__ONE_BY_ONE
@@ -966,8 +984,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 /* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
    processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
-   caller to an inlined function: the implementation is exact, and so are the inline functions that
-   it calls; those that you call have SHADE__TIMES.  clang still applies -ffast-math to ?: and to
+   caller to an inlined function.  So the implementation is exact, with the inline functions that
+   it calls; those that you call use SHADE__TIMES.  clang still applies -ffast-math to ?: and to
    calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
    where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
    contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
@@ -1171,7 +1189,7 @@ SHADE__EXPORT shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 }
 
 /* (b - a) x (c - a) made unit: it points to the side from which a, b, c are counter-clockwise.
-   Zero where b or c is a; of three points in a line zero, or some unit vector by rounding. */
+   Zero where b or c is a.  For three points in a line it is zero or, by rounding, some unit vector. */
 SHADE__EXPORT shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
@@ -1327,8 +1345,8 @@ SHADEDEF float      shade_radians(float degrees);
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 
 /* World to eye space: eye goes to the origin, center to the -z axis, up to the upper half of the
-   y-z plane.  Where up is parallel to the line of sight, up is arbitrary.  Where eye =
-   center, the camera looks down -z. */
+   y-z plane.  If up is parallel to the line of sight, another up is chosen.  If eye = center, the
+   camera looks down -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
 /* Eye to clip space.  fovy is the whole vertical angle in radians, aspect is width / height, near
