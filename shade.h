@@ -69,19 +69,19 @@
        >>triangles 3699  culling, edge setup   >>clip      4049  near, far, guard band
        >>tiles     4235  edges and depth test  >>cover     4593  triangles, tile by tile
        >>fragments 4856  interpolation, lod    >>texture   5129  texels, filters
-       >>store     5576  blending, packing
+       >>store     5577  blending, packing
      Inside: calls of the renderer
-       >>check     5826  refusals              >>seen      6031  view volume, chunks
-       >>drive     6151  shade_draw            >>mesh      6340  shade_draw_mesh
+       >>check     5827  refusals              >>seen      6034  view volume, chunks
+       >>drive     6154  shade_draw            >>mesh      6343  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6744  shade_draw_lines      >>camera    6935  eye and line of sight
-       >>shape     7029  normals, edges        >>chunks    7397  sorting and boxes
-       >>rays      7566  shade_pick            >>survey    7754  experiments on a draw
-       >>explain   8216  why nothing is seen   >>replay    9386  the same for lines, pipelines
-       >>image     9712  makes mipmaps, PPM    >>presets  10044  classic materials
+       >>lines     6747  shade_draw_lines      >>camera    6939  eye and line of sight
+       >>shape     7033  normals, edges        >>chunks    7401  sorting and boxes
+       >>rays      7570  shade_pick            >>survey    7758  experiments on a draw
+       >>explain   8220  why nothing is seen   >>replay    9392  the same for lines, pipelines
+       >>image     9719  makes mipmaps, PPM    >>presets  10051  classic materials
      Sources
-       >>refs     10129                        >>history  10159
-       >>license  10165
+       >>refs     10136                        >>history  10166
+       >>license  10172
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1775,13 +1775,13 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT:
-        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not fit";
+        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match";
     case SHADE_ERROR_TARGET:
         return "bad target: width, height, stride, format, color and depth both NULL, "
                "clip_width, clip_height, row_offset, row_count";
     case SHADE_ERROR_MESH:
-        return "bad mesh: positions NULL, a negative count, a stride that is negative or no "
-               "multiple of 4, chunks outside of the triangles";
+        return "bad mesh: positions NULL, a negative count, a stride that is negative or not a "
+               "multiple of 4, chunks beyond the triangles";
     case SHADE_ERROR_STATE:
         return "bad state: an unknown enumerator, transparency, alpha_cutoff, depth_bias, width, "
                "varyings, cos_crease, or a fragment shader without per-fragment shading";
@@ -1791,7 +1791,7 @@ SHADEDEF const char *shade_result_string(shade_result result)
         return "bad texture: pixels NULL, width, height, stride, format, wrap, filter, or "
                "lod_varying";
     case SHADE_ERROR_INDEX:
-        return "bad indices: one at or past vertex_count, or no whole number of triangles";
+        return "bad indices: one at or past vertex_count, or not a whole number of triangles";
     case SHADE_ERROR_CAPACITY: return "not enough room in the caller's memory";
     case SHADE_ERROR_IO: return "writing failed";
     default: return "unknown result";
@@ -5144,11 +5144,12 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
         return "The texture's width and height must be from 1 to 16384 texels.";
     if (t->stride && t->stride < t->width)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
-    if (!shade__is_format(t->format)) return "The texture's format is no SHADE_FORMAT_... value.";
+    if (!shade__is_format(t->format))
+        return "The texture's format is not a SHADE_FORMAT_... value.";
     if (!SHADE__KNOWN(t->wrap_u, SHADE_WRAP_MIRROR) || !SHADE__KNOWN(t->wrap_v, SHADE_WRAP_MIRROR))
-        return "The texture's wrap_u or wrap_v is no SHADE_WRAP_... value.";
+        return "The texture's wrap_u or wrap_v is not a SHADE_WRAP_... value.";
     if (!SHADE__KNOWN(t->filter, SHADE_FILTER_TRILINEAR))
-        return "The texture's filter is no SHADE_FILTER_... value.";
+        return "The texture's filter is not a SHADE_FILTER_... value.";
     return NULL;
 }
 
@@ -5879,7 +5880,8 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
         return "mesh.index_count is negative; it counts indices, three a triangle.";
     if (strides < 0 || strides % 4)
         return "mesh.position_stride, normal_stride, texcoord_stride or color_stride is negative "
-               "or no multiple of 4; strides count bytes, not floats, and 0 means tightly packed.";
+               "or not a multiple of 4; strides count bytes, not floats, and 0 means tightly "
+               "packed.";
 
     if (m->chunk_count < 0) return "mesh.chunk_count is negative; it counts mesh.chunks.";
     if (!m->chunks)
@@ -5893,11 +5895,12 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
 
 SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
 {
-    if (!SHADE__KNOWN(r->cull, SHADE_CULL_FRONT)) return "raster.cull is no SHADE_CULL_... value.";
+    if (!SHADE__KNOWN(r->cull, SHADE_CULL_FRONT))
+        return "raster.cull is not a SHADE_CULL_... value.";
     if (!SHADE__KNOWN(r->depth_test, SHADE_COMPARE_ALWAYS))
-        return "raster.depth_test is no SHADE_COMPARE_... value.";
+        return "raster.depth_test is not a SHADE_COMPARE_... value.";
     if (!SHADE__KNOWN(r->blend, SHADE_BLEND_ADD))
-        return "raster.blend is no SHADE_BLEND_... value.";
+        return "raster.blend is not a SHADE_BLEND_... value.";
     if (!shade__within(r->depth_bias, FLT_MAX))
         return "raster.depth_bias is NaN or infinite; 0 means none.";
     return NULL;
@@ -5947,7 +5950,7 @@ static shade__mesh_varyings shade__varyings_of(const shade_draw_state *state, in
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m, const shade_draw_state *state)
 {
     if (!SHADE__KNOWN(state->shading, SHADE_SHADING_PER_FACE))
-        return "state.shading is no SHADE_SHADING_... value.";
+        return "state.shading is not a SHADE_SHADING_... value.";
     if (!(state->transparency >= 0 && state->transparency <= 1))
         return "state.transparency must be from 0 (opaque) to 1 (invisible).";
     if (!(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
@@ -5967,7 +5970,7 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
     if (!l->lights && l->light_count > 0)
         return "lighting.lights is NULL while lighting.light_count is not 0.";
     if (!SHADE__KNOWN(l->model, SHADE_MODEL_COOL_TO_WARM))
-        return "lighting.model is no SHADE_MODEL_... value.";
+        return "lighting.model is not a SHADE_MODEL_... value.";
     for (int i = 0; i < l->light_count; i++)
         if (l->lights[i].spot_cos_cutoff != l->lights[i].spot_cos_cutoff)
             return "A light's spot_cos_cutoff is NaN: shade_spot_light takes a cutoff from 0 to pi "
@@ -5978,7 +5981,7 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
 SHADE__INLINE const char *shade__pipeline_fault(const shade_pipeline *p)
 {
     if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT))
-        return "pipeline.interpolation is no SHADE_INTERPOLATION_... value.";
+        return "pipeline.interpolation is not a SHADE_INTERPOLATION_... value.";
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS)
         return "pipeline.varyings must be from 0 to SHADE_MAX_VARYINGS.";
     return shade__raster_fault(&p->raster);
@@ -6270,10 +6273,10 @@ SHADE__INLINE shade_result shade__draw_refusal(const shade_target *t, const shad
     if (*why) return SHADE_ERROR_TEXTURE;
 
     if (index_count % 3)
-        *why = "index_count is no multiple of 3; it counts indices, three a triangle.";
+        *why = "index_count is not a multiple of 3; it counts indices, three a triangle.";
     else if (shade__check_indices(list, 0, index_count, vertex_count))
-        *why = "indices hold one at or past vertex_count, or without indices index_count exceeds "
-               "vertex_count, which counts vertices, not floats.";
+        *why = "indices holds an index at or past vertex_count or, without indices, index_count "
+               "exceeds vertex_count, which counts vertices, not floats.";
     return *why ? SHADE_ERROR_INDEX : SHADE_OK;
 }
 
@@ -6719,11 +6722,11 @@ SHADE__INLINE shade_result shade__mesh_refusal(const shade_target *t, const shad
     if (*why) return SHADE_ERROR_TEXTURE;
 
     if (shade__corner_count(m) % 3)
-        *why = "mesh.index_count is no multiple of 3, or without mesh.indices mesh.vertex_count "
-               "is none; they count indices and vertices, three a triangle.";
+        *why = "mesh.index_count is not a multiple of 3 or, without mesh.indices, "
+               "mesh.vertex_count is not; they count indices and vertices, three a triangle.";
     else if (shade__check_corners(m))
         *why = "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
-               "vertices, not floats, and indices are 32 bits wide, those of mesh.indices16 16.";
+               "vertices, not floats, and indices are 32 bits wide, or 16 in mesh.indices16.";
     return *why ? SHADE_ERROR_INDEX : SHADE_OK;
 }
 
@@ -6872,7 +6875,8 @@ SHADE__INLINE const char *shade__stroke_fault(const shade_line_state *state)
     shade_raster raster = state->raster;
     if (!shade__within(state->width, FLT_MAX) || state->width < 0)
         return "state.width must be a number of pixels; 0 means 1.";
-    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE)) return "state.cap is no SHADE_CAP_... value.";
+    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE))
+        return "state.cap is not a SHADE_CAP_... value.";
     raster.cull = SHADE_CULL_NONE;
     return shade__raster_fault(&raster);
 }
@@ -8297,9 +8301,9 @@ static const char *shade__bad_matrix(const shade__survey *s)
     if (shade__scales_w(model) || shade__scales_w(view))
         return "The last row of state.model or state.view is not 0, 0, 0, 1: set col[3].w to 1.";
     if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
-        return "state.projection is what cameras give for bad arguments: fovy must be in radians "
-               "and below pi (use shade_radians for degrees), near and far above 0 and different, "
-               "the aspect not 0, left not equal to right, bottom not to top.";
+        return "state.projection is the matrix that cameras return for bad arguments: fovy must be "
+               "in radians and below pi (use shade_radians for degrees), near and far above 0 and "
+               "different, the aspect not 0, left not equal to right, bottom not to top.";
     if (!shade__is_affine(view) || (!shade__is_rigid(view) && shade__is_rigid(p) &&
                                     !shade__is_zero(shade__xyz(p->col[3]))))
         return "state.view holds a projection, which belongs in state.projection: light takes the "
@@ -8317,8 +8321,8 @@ static const char *shade__bad_lamp(const shade_light *l)
     for (size_t k = 0; k < sizeof *l / sizeof *number; k++)
         if (number[k] != number[k]) return "A light of lighting.lights holds a NaN.";
     if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
-        return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the angle, "
-               "not the angle; make the light with shade_spot_light.";
+        return "A light's spot_cos_cutoff is outside -1 .. 1: it is the cosine of the angle, not "
+               "the angle; make the light with shade_spot_light.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
@@ -8356,8 +8360,8 @@ static const char *shade__bad_number(const shade__survey *s)
     const shade_lighting *l = &s->state.lighting;
     const char *why = shade__bad_matrix(s);
     if (s->given_stats && s->given_stats->triangles != shade__triangles_of(s->given_mesh))
-        return "stats are not of this draw: their triangles are not as many as the mesh has; pass "
-               "what shade_draw_mesh wrote.";
+        return "stats are not of this draw: they do not count as many triangles as the mesh has; "
+               "pass the stats that shade_draw_mesh wrote.";
     if (!why && l->light_count < 0)
         why = "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
     for (int i = 0; i < l->light_count && !why; i++) why = shade__bad_lamp(&l->lights[i]);
@@ -8400,10 +8404,10 @@ static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
 
 static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
-    "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
+    "drawn: pass all the chunks that shade_mesh_chunks made, and check its result.";
 static const char shade__wrong_box[] =
-    "A box of mesh.chunks does not hold its triangles, which may vanish: make the chunks again "
-    "with shade_mesh_chunks after the positions have changed.";
+    "A box of mesh.chunks does not contain its triangles, so that they may vanish: call "
+    "shade_mesh_chunks again after positions change.";
 
 static int shade__chunks_are_few(shade__survey *q)
 {
@@ -8489,8 +8493,8 @@ static const shade__rung shade__nothing[] = {
     { shade__chunks_are_few, shade__left_out },
     { shade__appears, shade__wrong_box },
     { shade__culled_inside,
-      "raster.cull leaves out every triangle in view, and the eye lies inside of the mesh's box: "
-      "set state.view, or move the eye out." },
+      "raster.cull leaves out every triangle in view, and the eye lies inside the mesh's box: set "
+      "state.view, or move the eye out." },
     { shade__fronts_are_culled,
       "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
       "SHADE_CULL_BACK or SHADE_CULL_NONE." },
@@ -8510,7 +8514,7 @@ static const shade__rung shade__nothing[] = {
       "translation in col[3]; pass it through shade_mat4_transpose." },
     { shade__model_projects, NULL },
     { shade__projection_is_none,
-      "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, or no "
+      "Every triangle lies outside the cube from -1 to 1: state.projection is unset, or not a "
       "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
     { shade__beyond_far,
       "The whole mesh lies beyond the far plane of state.projection; raise far, or move the eye "
@@ -8653,22 +8657,23 @@ static const shade__rung shade__unseen[] = {
       "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
       "clip_height; all four zero mean everywhere." },
     { shade__shader_discards,
-      "state.fragment discards all pixels of the mesh, or leaves them an alpha below "
+      "state.fragment discards all pixels of the mesh, or gives them an alpha below "
       "state.alpha_cutoff." },
     { shade__nothing_is_equal,
-      "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds the mesh's own depth "
-      "nowhere: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
+      "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the mesh's own "
+      "depth: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
     { shade__depth_uncleared,
       "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
       "0 for a reversed projection." },
     { shade__depth_is_far,
-      "Every depth of the mesh is the far plane's, so that nothing passes raster.depth_test: near "
-      "of state.projection is too small beside far for floats; raise near." },
+      "Every pixel of the mesh has the depth of the far plane, so that nothing passes "
+      "raster.depth_test: near of state.projection is too small for floats, compared with far; "
+      "raise near." },
     { shade__depth_hides,
-      "The mesh is hidden by depth that target.depth already holds: of other meshes, of the frame "
-      "before without a shade_clear, or of the mesh itself, which then needs "
-      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh behind." },
+      "The mesh is hidden by depth that target.depth already holds: from other meshes, from the "
+      "frame before if shade_clear was not called, or from the mesh itself, which then needs "
+      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh back." },
     { NULL, NULL }
 };
 
@@ -8810,29 +8815,29 @@ static const char shade__transparent[] =
     "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
     "state.transparency, times the alpha of state.diffuse_map.";
 static const char shade__coarse[] =
-    "state.shading lights vertices or middles of faces, which no light reaches, though it "
-    "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
+    "state.shading lights only vertices, or centroids of faces, and no light reaches these, though "
+    "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
 static const char shade__no_terms[] =
     "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
     "terms, and the model SHADE_MODEL_BLINN_PHONG.";
 static const char shade__black_material[] =
-    "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
-    "or specular, lighting.ambient needs material.ambient; NULL is white.";
+    "state.material reflects nothing, or almost nothing, of the light in the scene: lamps need "
+    "diffuse or specular, lighting.ambient needs material.ambient; NULL is white.";
 static const char shade__behind[] =
     "Every lamp is behind nine tenths or more of the visible pixels, on the side that the normals "
-    "point away from: turn mesh.normals (without them the winding), move light.position, set "
-    "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside of the mesh?";
+    "point away from: turn mesh.normals (or the winding, if there are no normals), move "
+    "light.position, set SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside the mesh?";
 static const char shade__black_colors[] =
     "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
     "check mesh.texcoords and the picture.";
 static const char shade__no_normals[] =
-    "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
-    "shade_mesh_normals, or make mesh.normals NULL.";
+    "mesh.normals are zero or NaN, so that no lamp lights them; fill them with shade_mesh_normals, "
+    "or make mesh.normals NULL.";
 static const char shade__fall_off[] =
     "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
     "constant, linear or quadratic, or raise the light's diffuse and specular.";
 static const char shade__no_cone[] =
-    "No cone of the lights shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
+    "No cone of a spotlight shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
     "the cosine of an angle in radians.";
 static const char shade__no_color[] =
     "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
@@ -9082,10 +9087,11 @@ static const shade__rung shade__wrong_light[] = {
     { shade__colors_are_zero, shade__black_colors },
     { shade__normals_turned,
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
-      "fill them by shade_mesh_normals, or reverse the winding, as a mirroring model does." },
+      "fill them with shade_mesh_normals, or reverse the winding, as a mirroring model does." },
     { shade__eye_is_astray,
-      "Highlights belong to another eye: light takes it from state.view, in which +z points back "
-      "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
+      "Highlights belong to another eye: light takes the eye from state.view, in which +z points "
+      "back to the viewer, but state.projection moves the eye or looks along +z; do that in "
+      "state.view." },
     { shade__wound_inward, shade__inward },
     { shade__normals_disagree,
       "mesh.normals have no negative component, and lie behind some of the faces: are they stored "
@@ -9184,7 +9190,7 @@ static const char *shade__doubt_of_map(const shade__survey *s)
         (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
         (!map->mipmaps || map->mipmap_count <= 0))
         return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
-               "fill them by shade_build_mipmaps.";
+               "fill them with shade_build_mipmaps.";
     if (shade__u_reaches(&s->mesh, map->width))
         return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
                "1 over the map, whatever its size.";
@@ -9226,8 +9232,8 @@ static const char *shade__doubt_of_view(const shade__survey *s)
                "the target as floats to shade_mat4_perspective.";
     if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && p->col[3].x == 0 &&
         p->col[3].y == 0 && shade__eye_inside(s))
-        return "state.view is unset, so that the eye is at the origin, inside of the mesh's box; "
-               "make it with shade_mat4_look_at.";
+        return "state.view is unset, so that the eye is at the origin, inside the mesh's box; make "
+               "it with shade_mat4_look_at.";
     return NULL;
 }
 
@@ -9238,8 +9244,8 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     if (s->target->color && !d->fragment && d->lighting.light_count > 0 && !d->lighting.terms &&
         e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
         d->lighting.model < SHADE_MODEL_EMISSIVE && !shade__is_zero(s->material.diffuse))
-        return "state.material.emission alone makes all white, whatever light arrives: it is what "
-               "the surface sends out, and 0 for most.";
+        return "state.material.emission alone makes everything white, whatever light arrives: it "
+               "is the light that a surface emits by itself, 0 for most.";
     return NULL;
 }
 
@@ -9362,8 +9368,8 @@ static const char *shade__clip_fault(const shade_target *t)
     int clip[4];
     picture.row_offset = picture.row_count = 0;
     if (!shade__clip_rectangle(&picture, clip))
-        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
-               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
+        return "The clip rectangle is empty or outside the picture: check target.clip_x, clip_y, "
+               "clip_width and clip_height; all four zero mean everywhere.";
     return shade__clip_rectangle(t, clip) ? NULL : "";
 }
 
@@ -9491,8 +9497,8 @@ static const char *shade__why_matrix(const shade__replay *r, const shade__tally 
     shade__replay by_rows = *r;
     shade__stroke stroke = *(const shade__stroke *)r->pipe.uniforms;
     if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
-        return "Every line lies outside of the cube from -1 to 1: state.clip_from_points is unset, "
-               "or no projection; it is projection times view, in this order.";
+        return "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or "
+               "not a projection; it is projection times view, in this order.";
     /* w = -z, but the rest is no perspective */
     if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
         (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
@@ -9531,8 +9537,8 @@ static const char *shade__why_outside(const shade__replay *r)
     if (r->lines) points.pipe.vertex = shade__point_vertex;
     t = shade__run_again(&points);
     if (!t.any_w)
-        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 where no "
-               "matrix projects; or the matrix is not projection times view, in this order.";
+        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 without a "
+               "projection; or the matrix is not projection times view, in this order.";
     if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
         return "All positions lie beyond the far plane, as if projection had near = far, degrees "
                "for radians, or an aspect of 0; or raise far, or move the eye nearer.";
@@ -9591,13 +9597,14 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
                "depth of 1, or 0 for a reversed projection.";
     raster->depth_bias *= 2e-6f;    /* of two planes that are one, depths differ by less */
     if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
-        return "The lines lie in surfaces that target.depth holds, which hide them: use "
-               "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
+        return "The lines lie in surfaces that target.depth already holds, and these hide them: "
+               "use SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
     if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
         return NULL;    /* one of many things in a scene may well be hidden */
-    return "Everything is hidden by depth that target.depth already holds: of other draws, or of "
-           "the frame before without a shade_clear; or raster.depth_bias pushes it back.";
+    return "Everything is hidden by depth that target.depth already holds: from other draws, or "
+           "from the frame before if shade_clear was not called; or raster.depth_bias pushes it "
+           "back.";
 }
 
 /* ---- pixels are drawn, but wrongly */
