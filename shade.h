@@ -58,30 +58,30 @@
        >>tools      687  explain, lines, rays  >>plumbing   879  compilers, flags and bits
        >>math      1018  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1378  processors            >>base      1603  bits, masks, rows of vectors
-       >>matrix    1801  cameras, inverses     >>power     2078  x^n
-       >>pixels    2144  formats, sRGB
+       >>machine   1379  processors            >>base      1614  bits, masks, rows of vectors
+       >>matrix    1811  cameras, inverses     >>power     2088  x^n
+       >>pixels    2154  formats, sRGB
      Inside: light
-       >>lamps     2452  attenuation, cones    >>terms     2704  one term at one point
-       >>surface   2779  material and lights   >>lit       2896  the whole sum, at many points
+       >>lamps     2462  attenuation, cones    >>terms     2714  one term at one point
+       >>surface   2789  material and lights   >>lit       2906  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3285  fields by owner       >>vertices  3497  shading, projection
-       >>triangles 3699  culling, edge setup   >>clip      4049  near, far, guard band
-       >>tiles     4235  edges and depth test  >>cover     4593  triangles, tile by tile
-       >>fragments 4856  interpolation, lod    >>texture   5129  texels, filters
-       >>store     5577  blending, packing
+       >>state     3295  fields by owner       >>vertices  3507  shading, projection
+       >>triangles 3709  culling, edge setup   >>clip      4061  near, far, guard band
+       >>tiles     4247  edges and depth test  >>cover     4605  triangles, tile by tile
+       >>fragments 4871  interpolation, lod    >>texture   5144  texels, filters
+       >>store     5593  blending, packing
      Inside: calls of the renderer
-       >>check     5827  refusals              >>seen      6034  view volume, chunks
-       >>drive     6154  shade_draw            >>mesh      6343  shade_draw_mesh
+       >>check     5843  refusals              >>seen      6050  view volume, chunks
+       >>drive     6170  shade_draw            >>mesh      6359  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6747  shade_draw_lines      >>camera    6939  eye and line of sight
-       >>shape     7033  normals, edges        >>chunks    7401  sorting and boxes
-       >>rays      7570  shade_pick            >>survey    7758  experiments on a draw
-       >>explain   8220  why nothing is seen   >>replay    9392  the same for lines, pipelines
-       >>image     9719  makes mipmaps, PPM    >>presets  10051  classic materials
+       >>lines     6763  shade_draw_lines      >>camera    6954  eye and line of sight
+       >>shape     7048  normals, edges        >>chunks    7415  sorting and boxes
+       >>rays      7584  shade_pick            >>survey    7772  experiments on a draw
+       >>explain   8234  why nothing is seen   >>replay    9411  the same for lines, pipelines
+       >>image     9738  makes mipmaps, PPM    >>presets  10070  classic materials
      Sources
-       >>refs     10136                        >>history  10166
-       >>license  10172
+       >>refs     10155                        >>history  10185
+       >>license  10191
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -941,7 +941,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
-   and sums in your file, those of inlined functions too, whatever the pragmas of this file say; gcc
+   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
    -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
 #if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
     (defined(__cplusplus) || !defined(__STRICT_ANSI__))
@@ -1189,7 +1189,8 @@ SHADE__EXPORT shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 }
 
 /* (b - a) x (c - a) made unit: it points to the side from which a, b, c are counter-clockwise.
-   Zero where b or c is a.  For three points in a line it is zero or, by rounding, some unit vector. */
+   Zero where b or c is a.  For three points in a line it is zero or, by rounding, some unit
+   vector. */
 SHADE__EXPORT shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
@@ -1484,13 +1485,23 @@ typedef uint32_t shade__word;
 
 /* On x86-64 gcc and clang compile each hot loop three times from one always-inlined body: for any
    processor, for AVX2 and for AVX-512.  A call runs the best build that the processor supports.
-   All builds give the same bits, because none uses FMA.
+   All builds give the same bits, because none uses FMA.  For example,
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   defines shade__push_any, shade__push_avx2 and shade__push_avx512.  They differ in the
-   instructions they may use and in shade__width, the number of floats in a vector.  It also defines
+   becomes four functions.  Three are builds.  Each is a SHADE__BUILD, for example
+
+     __attribute__((target("avx2"))) static SHADE__HOT void
+     shade__push_avx2(shade__draw *d, const shade__run *run, int runs)
+     {
+         enum { shade__width = 8 };
+         shade__push_body(d, run, runs);
+     }
+
+   where shade__width is the number of floats in a vector: bodies may use it, since they are written
+   out here.  shade__push_any and shade__push_avx512 are the others.  SHADE__CALL_BEST makes the
+   last function, the one to call, and the two builds that SHADE__DISPATCH_AVX2 has, too:
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
@@ -1500,8 +1511,8 @@ typedef uint32_t shade__word;
          else shade__push_any(d, run, runs);
      }
 
-   Tests define SHADE__LEVEL as an int expression, 0, 1 or 2, to force a build, and
-   SHADE__TILE_TESTED to count tested tiles. */
+   Elsewhere shade__push calls shade__push_any, the only build.  Tests define SHADE__LEVEL as an int
+   expression, 0, 1 or 2, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
 #ifndef SHADE__TILE_TESTED
 #define SHADE__TILE_TESTED() ((void)0)
 #endif
@@ -1530,7 +1541,7 @@ typedef uint32_t shade__word;
 #endif
 #endif
 #ifdef SHADE__ASK_PROCESSOR
-/* EBX of a leaf of cpuid; its ECX goes to *ecx. */
+/* Returns EBX of a leaf of cpuid, and sets *ecx to its ECX. */
 SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
 {
     uint32_t ebx, edx;
@@ -1601,8 +1612,7 @@ SHADE__INLINE int shade__best_build(void)
 #endif
 
 /*------------------------------------------------------------------------------------------- >>base
-   The vocabulary of the rest: floats as bit patterns, selects and clamps without branches, rows of
-   vectors.
+   The vocabulary: floats as bit patterns, selects and clamps without branches, rows of vectors.
      holds   Loops over lanes select by masks and clamp as integers, because gcc turns float selects
              into branches and leaves the loop scalar.  A mask is all ones or all zeros.
                                                                                          >>matrix */
@@ -1733,7 +1743,7 @@ SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
     rows->z[i] = v.z;
 }
 
-/* The same for four rows, stride floats apart. */
+/* Puts x, y, z and w into four rows, stride floats apart. */
 SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
 {
     rows[i] = v.x;
@@ -1803,11 +1813,11 @@ SHADEDEF const char *shade_result_string(shade_result result)
      holds   A degenerate camera takes every point to z = 2, w = 1, which is outside near or far in
              every convention of depth: nothing is drawn.                                 >>power */
 
-/* Sine and cosine.  The argument is reduced to r = x - k pi/2: pi/2 is the sum of two parts, the
-   higher of 33 bits, so that k times it is exact and r off by 1e-16 up to |k| = 2^20; beyond, r is
-   off by 2^-53 of x, far less than the distance of two floats.  Floats beyond 1e9 lie 64 or more
-   apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow; their next
-   terms are below 5e-17. */
+/* Sine and cosine.  The argument is reduced to r = x - k pi/2.  pi/2 is split into two parts, and
+   the high one has 33 bits, so that k times it is exact.  Up to |k| = 2^20 r is off by 1e-16;
+   beyond, by 2^-53 of x, far less than the distance between two floats.  Floats beyond 1e9 lie 64
+   or more apart, too far for an angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow;
+   their next terms are below 5e-17. */
 static SHADE__COLD void shade__sincos(float radians, double *sine, double *cosine)
 {
     if (!shade__within(radians, 1e9f)) radians = 0;
@@ -1967,7 +1977,7 @@ static shade_mat4 shade__projection(int good, const double e[16])
 /* Cramer's rule.  Columns come in pairs, 0 with 1 and 2 with 3: row i of the inverse is made of
    column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.
    Not inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
-   double -> float -> double, as they would where it is inlined. */
+   double -> float -> double, as they would after inlining. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double e[16], inverse[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
@@ -2007,7 +2017,7 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
     shade_vec3 f = shade__unit_vector(shade_sub(center, eye)), r, u;
     if (shade__is_zero(f)) f = shade_v3(0, 0, -1);
     r = shade__unit_vector(shade_cross(f, shade__unit_vector(up)));
-    if (shade__is_zero(r)) {     /* up is replaced by an axis that f is far from */
+    if (shade__is_zero(r)) {     /* replace up by an axis far from f */
         up = f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0, 1);
         r = shade__unit_vector(shade_cross(f, up));
     }
@@ -2079,8 +2089,8 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
    x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere, and loops over lanes that
    vectorise.
      in      x in [0, 1], n >= 0          out  a value in [0, 1], absolute error below 5e-7
-     method  minimax polynomials.  log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1]: P makes
-             the error relative to -log2 x least, which stays below 1e-6 in floats.  A power turns
+     method  minimax polynomials.  log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1]: P has the
+             least error relative to -log2 x, which stays below 1e-6 in floats.  A power turns
              that into at most 1e-6 / e.  Two degrees more would give 2.7e-8 and cost 4 to 7 % of
              lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2]: relative error 1.1e-7, in floats 2e-7.
              All figures were measured over all floats in [0, 1].                        >>pixels */
@@ -2119,8 +2129,8 @@ SHADE__INLINE float shade__exp2_neg(float u)
 /* A cosine that does not exist: each of its powers is 0, even the zeroth. */
 #define SHADE__NEVER -2.0f
 
-/* n times -log2(min(x, 1)), for shade__exp2_neg; 126, which gives 0, for x <= least: 0 for n > 0,
-   SHADE__NEVER for n = 0.   pre: n >= 0, finite */
+/* n times -log2(min(x, 1)), for shade__exp2_neg.  For x <= least it is 126, which gives 0; least is
+   0 for n > 0, and SHADE__NEVER for n = 0.   pre: n >= 0, finite */
 SHADE__INLINE float shade__power_log(float x, float n)
 {
     const float least = shade__keep(SHADE__NEVER, shade__mask(!(n > 0)));
@@ -2145,7 +2155,7 @@ SHADEDEF float shade_power(float x, float n)
    Display colours, linear light, and how each format stores a pixel.
      in      bytes of any format, or linear floats          out  linear floats, or a stored pixel
      holds   A new packed format of 1 or 2 bytes, or of four channels of 8 bits, is an enumerator
-             and a row of shade__layouts.
+             and an entry of shade__layouts.
      source  sRGB curve [IEC61966]                                                        >>lamps */
 
 /* From linear light to sRGB and back in two steps, the logarithm and the curve.  Each step gets its
@@ -2539,12 +2549,12 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
-/* What of a lamp arrives at the points of a packet. */
+/* How much of a lamp arrives at the points of a packet. */
 typedef struct shade__arrival {
     SHADE_ALIGNED shade__v3 to_light;    /* L, unit */
     float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
     float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
-    float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
+    float halvings[SHADE_LANES];         /* -log2 of the factor of the cone, (L.S)^e */
     float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
 } shade__arrival;
@@ -2704,7 +2714,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_
 /*------------------------------------------------------------------------------------------ >>terms
    The terms of >>model one by one, for a single point.
      in      unit vectors                  out  cosines, powers, colours
-     holds   Roots are made by sqrtf, not by shade__rsqrt.
+     holds   Square roots come from sqrtf, not from shade__rsqrt.
      source  [Phong75], [Blinn77], [Gooch98]                                            >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
@@ -2777,8 +2787,8 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, s
 SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
 
 /*---------------------------------------------------------------------------------------- >>surface
-   What the points of a call are lit by: defaults are filled in, materials and lights multiplied,
-   terms that are off made zero.
+   The light for all points of a call: defaults are filled in, materials multiplied by lights, and
+   terms that are off set to zero.
      in      a shade_lighting, a material, the eye      out  shade__surface
      way     begin_surface: terms_of, ambient; then begin_tone, or reflect_lamp of the first lamps
                                                                                             >>lit */
@@ -2797,7 +2807,7 @@ typedef struct shade__surface {
     int tone;               /* cool to warm by one lamp; else the equation */
     int lamps;              /* lights to loop over; 0 if no term needs them; 1 for a tone */
     uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
-    uint32_t sign;          /* ANDed to N.L in the diffuse term; TWO_SIDED_ABS: clears its sign */
+    uint32_t sign;          /* a mask for N.L in the diffuse term: TWO_SIDED_ABS clears its sign */
     shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the one of the tone */
 } shade__surface;
 
@@ -3065,7 +3075,7 @@ SHADE__INLINE void shade__shadow(shade__in visibility, const int n, shade__out a
     }
 }
 
-/* A packet of vectors 1, 1, 1, which stands for the rows of factors that a call leaves out. */
+/* A packet of vectors 1, 1, 1, for factors that a call leaves out. */
 #define SHADE__ONES_8 1, 1, 1, 1, 1, 1, 1, 1
 #define SHADE__ONES_16 SHADE__ONES_8, SHADE__ONES_8
 #define SHADE__ONES_32 SHADE__ONES_16, SHADE__ONES_16
@@ -3283,16 +3293,16 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 }
 
 /*------------------------------------------------------------------------------------------ >>state
-   The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB
-   at the defaults, the queue 12.4 and the batch 8.8 of these.  bench/stack.c measures whole calls:
+   The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 26.2 kB
+   at the defaults, the queue 12.9 and the batch 8.8 of these.  bench/stack.c measures whole calls:
    a lit mesh with a map takes up to 45.8 kB where triangles are clipped, 47.4 kB with clang.
 
      plan      >>drive       fixed before the first triangle, read by all stages
-     supply    >>drive       the triangles that are still to come
+     supply    >>drive       the triangles not yet taken
      incoming  >>vertices    vertices of a batch until they have window positions
      batch     >>vertices    vertices in the window and the triangles among them
      setup     >>triangles   up to SHADE__TRIANGLES triangles, a lane each
-     bounds    >>cover       the depths behind which big triangles hide everything
+     bounds    >>cover       depths: big triangles hide all that lies behind them
      queue     >>fragments   pixels that passed the depth test, until a packet of them is shaded
 
      The life of a packet.  A stage calls the next one through its prototype below:
@@ -3344,7 +3354,7 @@ enum {
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
      queued          the fragment shader's result counts              >>tiles (runs go on)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
-     inputs_unread   the shader is of this file, early, no dither     >>fragments
+     inputs_unread   the shader is ours, early is set, no dither      >>fragments
      lod             lod_texture is set; the index of u, else 0       >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
@@ -3357,7 +3367,7 @@ typedef struct shade__plan {
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      values, value_stride;    /* floats of a vertex, and of its place: a multiple of 8 */
     int      divided;                 /* values from this one on are kept divided by w */
-    int      lod;                     /* the value that is u / w, followed by v / w; 0: no lod */
+    int      lod;                     /* u / w is this value, v / w the next; 0: no lod */
     int      varyings;
     int      zero_to_one;
     int      early;                   /* depth is tested by >>tiles */
@@ -3398,7 +3408,7 @@ typedef struct shade__incoming {
     uint8_t  slot_of[2 * SHADE_LANES];    /* and its vertex */
 } shade__incoming;
 
-/* The rest of a clipped triangle: a fan around its first corner. */
+/* What clipping leaves of a triangle: a fan around its first corner. */
 typedef struct shade__polygon {
     shade__vertex vertex[SHADE__CLIP_VERTICES];
     float    value[SHADE__CLIP_VERTICES * SHADE__VALUES_MAX];
@@ -3418,17 +3428,17 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
-    /* what they become.  Corners are counted from here on as turn orders them. */
+    /* the triangles set up.  turn says which corner is the far one, and which are 1 and 2 */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  x0[SHADE__TRIANGLES], y0[SHADE__TRIANGLES];    /* the box of pixels, ends included; */
     int32_t  x1[SHADE__TRIANGLES], y1[SHADE__TRIANGLES];    /* empty where x1 < x0 or y1 < y0 */
-    float    side[4][SHADE__TRIANGLES];      /* from corner 0: x1 y1 x2 y2, over twice the area */
-    float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - corner 0, exact */
-    float    z0[SHADE__TRIANGLES];           /* the plane of depth: at corner 0, */
+    float    side[4][SHADE__TRIANGLES];      /* far corner to 1 and 2, x y x y; over 2 area */
+    float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - far corner, exact */
+    float    z0[SHADE__TRIANGLES];           /* the plane of depth: at the far corner */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
     float    z_low[SHADE__TRIANGLES], z_high[SHADE__TRIANGLES];   /* of the corners, in [0, 1] */
-    uint32_t turn[SHADE__TRIANGLES];  /* order of the corners 0 .. 5; from 3 on front-facing */
+    uint32_t turn[SHADE__TRIANGLES];  /* which order, 0 .. 5; from 3 on front-facing */
 } shade__setup;
 
 typedef struct shade__bounds {
@@ -3500,7 +3510,7 @@ static void shade__store(shade__draw *d, shade_colors *c);
      way     take_batch: take_triangles; shade_vertices: the user's shader, place: classify,
              project, gather
      holds   A vertex is shaded once a batch, or twice if an index that differs by a multiple of
-             2 SHADE_LANES came between.  A vertex without a window position gets a harmless one
+             2 SHADE_LANES comes between.  A vertex without a window position gets a harmless one
              and a bit in its outcode; >>triangles then drops or clips its triangles.
                                                                                       >>triangles */
 
@@ -3547,7 +3557,7 @@ SHADE__INLINE uint32_t shade__beyond(float c)
     return shade__mask(!shade__within(c, 1e30f));
 }
 
-/* Bits 0 .. 3: the point is left of, right of, below or above a square. */
+/* Bits 0 .. 3: the point is left of, right of, below or above the square |x|, |y| <= limit. */
 SHADE__INLINE uint32_t shade__sides_passed(float x, float y, float limit)
 {
     return (shade__mask(x < -limit) & 1) | (shade__mask(x > limit) & 2) |
@@ -3563,7 +3573,7 @@ SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w, int ze
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
 
-/* Outcodes, and clip positions: 0, 0, 0, 1 for vertices that get no window position. */
+/* Outcodes and clip positions.  A vertex without a window position gets 0, 0, 0, 1. */
 SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int zero_to_one,
                                    shade__placed *SHADE_RESTRICT p)
 {
@@ -3591,7 +3601,7 @@ SHADE__INLINE void shade__project(double half_width, double half_height, int zer
     SHADE_EACH_LANE(i) { p->rw[i] = 1 / p->w[i]; }
 }
 
-/* Turns rows into one record a vertex, so that a triangle finds its vertex in one place. */
+/* Turns rows into one record for each vertex, so that a triangle finds its corners in one place. */
 SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
                                  const shade_vertices *SHADE_RESTRICT v,
                                  const shade__placed *SHADE_RESTRICT p,
@@ -3612,7 +3622,7 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
     }
 
     for (int k = SHADE__FIRST; k < plan->values; k++) {
-        const int again = k - varyings - SHADE__FIRST;    /* of u and v, a second time */
+        const int again = k - varyings - SHADE__FIRST;    /* u and v a second time */
         const float *from = v->varying[again < 0 ? k - SHADE__FIRST
                                                  : plan->pipe->lod_varying + again];
         float *to = b->value + k;
@@ -3646,10 +3656,10 @@ static void shade__shade_vertices(shade__draw *d)
     shade__place(d, v);
 }
 
-/* Takes up to most triangles from first on, while there are at most room vertices; returns the
-   number taken.  Branch-free: slot and index are always written, and only the count depends on
-   whether the vertex is known.  A branch would be mispredicted every other time (2 % of a dense
-   mesh). */
+/* Takes up to `most` triangles from `first` on, as long as there are at most `room` vertices;
+   returns the number taken.  There is no branch: slot and index are always written, and only the
+   count depends on whether the vertex is known.  A branch would be mispredicted every other time (2
+   % of a dense mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
                                         int most, int room, uint8_t (*corner)[4])
 {
@@ -3678,7 +3688,7 @@ static void shade__take_batch(shade__draw *d)
     shade__incoming *in = &d->u.incoming;
     shade__batch *b = &d->batch;
     shade__supply *s = d->supply;
-    /* up to room vertices one more triangle fits */
+    /* with this many vertices one more triangle fits */
     const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
 
     SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
@@ -3708,11 +3718,11 @@ static void shade__take_batch(shade__draw *d)
                256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
              A pixel is inside where all three e >= 0.  The coefficients of i and j are multiples
              of 256, so rest is the same for all pixels, and steps of e are exact.  Neighbours get
-             exactly opposite edges.  All values are integers below 2^53, exact in double.  Planes
-             start at corner 0, the farthest: its 1/w is the smallest, and rounding hurts it most.
+             exactly opposite edges.  All values are integers below 2^53, exact in double.
 
              Corners are reordered so that they turn clockwise on the screen and corner 0 is the
-             farthest.  The bias of the three edges 0 1, 1 2, 2 0 is the top-left rule:
+             far corner, the farthest from the eye.  Planes start there: its 1/w is the smallest,
+             and rounding hurts it most.  The bias of the edges 0 1, 1 2, 2 0 is the top-left rule:
 
                  0 -----> 1        top edge, bias 0
                   ^      /         A centre exactly on a shared edge is inside the triangle
@@ -3721,14 +3731,15 @@ static void shade__take_batch(shade__draw *d)
                      2             one of them.  Right and bottom edges: bias -1.
                                                                                            >>clip */
 
-/* Corners of the triangles being set up; x, y and z are reordered, the farthest corner first. */
+/* Corners of the triangles being set up.  shade__turn puts x, y and z into the order of the turn,
+   the far corner first; rw stays as submitted. */
 typedef struct shade__corner_rows {
     SHADE_ALIGNED int32_t x[3][SHADE__TRIANGLES];
     int32_t y[3][SHADE__TRIANGLES];
     float   z[3][SHADE__TRIANGLES], rw[3][SHADE__TRIANGLES];
 } shade__corner_rows;
 
-/* As masks: the corner that becomes the first, and whether the other two are swapped. */
+/* As masks: which corner comes first, and whether the other two are swapped. */
 typedef struct shade__turns {
     SHADE_ALIGNED uint32_t first_is_1[SHADE__TRIANGLES];
     uint32_t first_is_2[SHADE__TRIANGLES], flipped[SHADE__TRIANGLES];
@@ -3792,7 +3803,7 @@ SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c, shad
     }
 }
 
-/* Chooses the order of the corners, and writes its number, 0 .. 5, to order. */
+/* Chooses the order of the corners, far corner first, and writes its number, 0 .. 5, to order. */
 SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT c, shade__in area,
                                        shade__turns *SHADE_RESTRICT t, shade__out_bits order)
 {
@@ -3808,8 +3819,8 @@ SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT 
     }
 }
 
-/* Reorders one value of the three corners: the chosen corner first, then the others in their order,
-   or swapped where flipped is set. */
+/* Reorders one value of the three corners: the far corner first, then the others in their order, or
+   swapped where flipped is set. */
 SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const shade__turns *SHADE_RESTRICT t)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
@@ -3823,7 +3834,7 @@ SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const shade__turns
     }
 }
 
-/* Pixel centres between the extremes of one axis, within lo .. hi, ends included.
+/* The range of pixel centres between three corners along one axis, within lo .. hi, ends included.
    pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
    post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
 SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b, shade__in_ints c, int32_t lo,
@@ -3863,7 +3874,8 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k
     }
 }
 
-/* The sides from corner 0 to 1 and to 2 over twice the area, for planes: x1, y1, x2, y2. */
+/* The sides from the far corner to corners 1 and 2 over twice the area, for planes: x1, y1, x2,
+   y2. */
 SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
                                 const double *SHADE_RESTRICT inverse,
                                 shade__setup *SHADE_RESTRICT s)
@@ -3875,8 +3887,8 @@ SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
         }
 }
 
-/* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because
-   rounding leaves that range on slivers.   post: z_low, z_high in [0, 1] */
+/* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because on
+   slivers rounding leaves that range.   post: z_low, z_high in [0, 1] */
 SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c, float bias,
                                       shade__setup *SHADE_RESTRICT s)
 {
@@ -3898,7 +3910,7 @@ SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c
     }
 }
 
-/* Empties the boxes of culled triangles, with -1 as x1; returns their number. */
+/* Empties the boxes of culled triangles, by x1 = -1; returns their number. */
 SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull, shade__in area)
 {
     const uint32_t back = shade__mask(cull == SHADE_CULL_BACK);
@@ -3987,7 +3999,7 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
         return;
     }
     d->stats.drawn++;
-    shade__draw_setup(d);    /* what was submitted before */
+    shade__draw_setup(d);    /* first the triangles submitted before */
 
     s->vertex = fan.vertex;
     s->value = fan.value;
@@ -4051,11 +4063,11 @@ static void shade__triangles(shade__draw *d)
    most 3 w, plane by plane, and leaves a fan.                                     [Sutherland74]
      in      three vertices of the batch     out  a polygon
      way     clip: polygon_of, clip_plane: new_vertex, place_polygon, apex
-     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds one at most, 2
+     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds at most one, 2
              while a plane cuts, and vertex 0, kept for CONSTANT.  A polygon that rounding made
-             concave may need more vertices, and is dropped.  Other triangles are dropped in
-             >>triangles: by shade__sort_out, if all corners lie outside of one plane, and by
-             shade__draw_fan, if what clipping leaves is culled or has no area.
+             concave may need more vertices, and is dropped.  >>triangles drops other triangles:
+             shade__sort_out those with all corners outside one plane, shade__draw_fan those that
+             clipping leaves culled or without area.
 
                3w  +-----------------------+
                    |      guard band       |      A corner between the picture and the guard band
@@ -4086,7 +4098,7 @@ static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_
     }
 }
 
-/* t of the way from one number to another, rounded once. */
+/* The number at the fraction t between two numbers, rounded once. */
 static float shade__between(float from, float to, double t)
 {
     const double a = (double)from;
@@ -4094,8 +4106,8 @@ static float shade__between(float from, float to, double t)
 }
 
 /* Adds the vertex where an edge crosses a plane, at the fraction t from in to out.  On the screen
-   that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  As d_out is negative, the sum
-   has positive terms and loses no digits, however different the two w are.
+   that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  Since d_out is negative, both
+   terms are positive and no digits are lost, however different the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
 static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int in, int out,
                                  double d_in, double d_out)
@@ -4118,8 +4130,8 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     return (uint8_t)v;
 }
 
-/* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, as each new
-   one takes a bit of taken */
+/* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, since each
+   new one takes a bit of taken */
 static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32_t plane)
 {
     const int zero_to_one = plan->zero_to_one;
@@ -4198,8 +4210,8 @@ static int64_t shade__fan_area(const shade__polygon *p, int a, int i)
                        &p->vertex[p->corner[(a + i + 1) % p->count]]);
 }
 
-/* Returns a corner around which all triangles of the fan turn as the polygon does, or 0: snapping
-   may have dented the polygon. */
+/* Returns a corner around which all triangles of the fan turn as the polygon does, or 0 if there is
+   none: snapping may have dented the polygon. */
 static int shade__apex(const shade__polygon *p)
 {
     for (int a = 0; a < p->count; a++) {
@@ -4238,37 +4250,37 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
      out     depth (early test), runs of pixels for >>fragments
      way     tile_columns, tile_depth, tile_edges; test_tile: test_columns; add_tile: add_set, send
      method  A tile is 32 x 8 pixels.  For each edge, a tile is outside (skipped), inside (the edge
-             is ignored) or crossed, and then |e| <= 32 |ex| + 7 |ey| fits 32 bits, however large
-             the triangle is.  Rows of tiles begin and end at the edges, so that time depends on
-             the number of tiles that it touches.
+             is ignored) or crossed.  In a crossed tile |e| <= 32 |ex| + 7 |ey| fits 32 bits,
+             however large the triangle is.  Rows of tiles begin and end at the edges, so that time
+             depends on the number of tiles that the triangle touches.
 
                x                    x + columns       columns: tested, a multiple of the vectors
                |     skip                |            skip: tested, but left out, because the tile
                . . . | # # # # - - # # # |  row 0           was moved left into the clip rectangle
-               . . . | - # # # # # # # # |  row 1     #: inside, passes; a bit of set[row]
+               . . . | - # # # # # # # # |  row 1     #: inside and passed; a bit of set[row]
                        |     |     |   |
                        run 0       run 1              runs of row 0: x, y, n of pixels in a row
 
-             Where a row has one run, it stays open: the next tile to the right may extend it.
+             The only run of a row stays open: the next tile to the right may extend it.
      holds   Stores stay in the clip rectangle, that is, in the pixels of this thread.  A value at
-             a pixel has the same bits whichever tile it is in: the base of its row plus
-             its step in x times the exact distance.                                      >>cover */
+             a pixel has the same bits in whichever tile it is: the base of its row plus the step
+             in x times the exact distance.                                               >>cover */
 
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
-    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves a place a row */
+    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves one for each row */
     SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
 };
 
-/* Edge functions in 32 bits: at pixel (x, y), and their steps. */
+/* Edge functions in 32 bits: e at pixel (x, y), and their steps in x and y. */
 typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edges;
 
 /* A triangle while its pixels are found. */
 typedef struct shade__triangle {
-    int      x0, y0, x1, y1;          /* pixels with a centre that may be inside; ends included */
+    int      x0, y0, x1, y1;          /* the box of pixels, ends included */
     int      index;                   /* in the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
-    shade__edges edges;               /* the steps; and e, set by shade__cover_columns */
+    shade__edges edges;               /* the steps; e is set by shade__cover_columns alone */
     float    x_ref, y_ref;
     float    z0, zx, zy, z_low, z_high;
 } shade__triangle;
@@ -4276,11 +4288,11 @@ typedef struct shade__triangle {
 /* Up to 32 pixels of up to 8 rows. */
 typedef struct shade__tile {
     int      x, y, rows;
-    int      skip, columns;           /* columns to leave out on the left; all columns */
+    int      skip, columns;           /* columns left out, on the left; columns tested */
     float   *depth;                   /* of the first pixel */
     int      stride;
-    const shade__edges *edges;        /* that the pixels are tested by */
-    float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
+    const shade__edges *edges;        /* what the pixels are tested against */
+    float    row_z[SHADE__TILE_ROWS]; /* depth of each row at the far corner's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
     uint32_t any;                     /* 0: all sets are empty */
 } shade__tile;
@@ -4314,7 +4326,7 @@ SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i, shade__trian
     t->z_high = s->z_high[i];
 }
 
-/* Depth of the triangle's plane in row y, at the x of corner 0. */
+/* Depth of the triangle's plane in row y, at the x of the far corner. */
 SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 {
     return t->z0 + t->zy * ((float)y + t->y_ref);
@@ -4334,8 +4346,8 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
     return e;
 }
 
-/* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in any of
-   the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
+/* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in at least
+   one of the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
    SHADE__SIDE_MAX pixels of t->x0 */
 static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
@@ -4352,8 +4364,8 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, 
     }
 }
 
-/* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns whether
-   all three are.   pre: the tile is not outside an edge by more than a column
+/* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns 1 if
+   all three do.   pre: the tile is not outside an edge by more than a column
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
 SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile *tile,
                                     shade__edges *edges)
@@ -4395,8 +4407,8 @@ SHADE__INLINE void shade__set_run(shade__run *run, int triangle, int x, int y, i
     run->triangle = triangle;
 }
 
-/* The runs of a set; bit i stands for pixel x + i of row y.   post: r has room for a run in each
-   row of a tile */
+/* Adds the runs of a set, in which bit i stands for pixel x + i of row y.   post: r has room for a
+   run in each row of a tile */
 static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int triangle, int x,
                                            int y, uint32_t set)
 {
@@ -4405,7 +4417,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int t
         const int n = SHADE__LOWEST_BIT(~(set >> first));    /* ~ is not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
         shade__set_run(&r->run[r->count++], triangle, x + first, y, n);
-        set &= set + (set & (0u - set));    /* without its lowest run */
+        set &= set + (set & (0u - set));    /* clears its lowest run */
     }
     if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
 }
@@ -4418,8 +4430,8 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
 }
 
 /* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
-   open run of its row ends extends that one.  Nearly every set is one run or empty, so that a loop
-   round writes its run without a branch, and counts it only if it is new. */
+   open run of its row ends extends it.  Nearly every set is one run or empty.  So each row writes
+   its run without a branch, and counts it only if it is new. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
                                   const shade__tile *tile, const int joined)
 {
@@ -4435,7 +4447,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
         int extends;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
-            r->count = count;    /* the set is several runs */
+            r->count = count;    /* the set has several runs */
             shade__add_set(d, r, triangle, tile->x, tile->y + k, set);
             count = r->count;
             continue;
@@ -4455,7 +4467,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
 
 /* ---- pixels */
 
-/* The depth test of z against the stored s, as a mask. */
+/* The depth test of z against the stored depth s, as a mask. */
 SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, float z, float s)
 {
     if (less_only) return shade__mask(z < s);
@@ -4463,10 +4475,10 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, floa
            (shade__mask(z > s) & c.greater) | c.always;
 }
 
-/* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.  Depth that is not written may lie in read-only memory, or be shared with other threads:
-   nothing is stored there, not even what it holds.  The loops are plain because SHADE__FOR makes
-   clang 14 keep the rows in memory.
+/* Tests columns at .. at + width - 1 of a tile by depth and, unless copy has SHADE__FULL, by its
+   three edges.  SHADE__LESS: the test is LESS, and depth is written.  Depth that is not written may
+   lie in read-only memory, or be shared with other threads: nothing is stored there, not even what
+   it holds.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
@@ -4541,7 +4553,7 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
     }
 }
 
-/* Tests a tile of a medium or large triangle, with a copy for tiles that are wholly inside. */
+/* Tests a tile of a medium or large triangle, with a copy for tiles wholly inside it. */
 SHADE__DISPATCH(shade__test_large,
                 (const shade__plan *plan, const shade__triangle *SHADE_RESTRICT t,
                  shade__tile *SHADE_RESTRICT tile, int full),
@@ -4560,7 +4572,7 @@ SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n, co
     tile->skip = x - tile->x;
 }
 
-/* The depths of a tile.  Without an early test all its rows are the one row draw.unread. */
+/* Finds the depths of a tile.  Without an early test all its rows are draw.unread. */
 SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 {
     const size_t early = (size_t)plan->early, row = (size_t)(tile->y - plan->row_offset);
@@ -4597,11 +4609,11 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
      way     cover: cover_small, cover_medium: cover_columns; cover_large: next_stretch,
              cover_stretch
      method  LESS, LESS_EQUAL, GREATER and GREATER_EQUAL only ever bring depth nearer.  Once a
-             triangle fills a rectangle, no pixel there is farther than the triangle's farthest
-             corner of it.  All sums are finite, as slopes are below 2^34, and rounding is
-             monotonic, so that corners bound every depth between, to the bit.  Bounds draw 1000
-             big triangles, 163 Mpixel of overdraw, 3.7 times as fast with AVX-512, and 6.2 times
-             with SSE2.
+             triangle fills a rectangle, no pixel there is farther than the triangle is in the
+             farthest corner of the rectangle.  Slopes are below 2^34, so all sums are finite, and
+             rounding is monotonic: corners bound every depth between them, to the bit.  With bounds
+             1000 big triangles, 163 Mpixel of overdraw, are drawn 3.7 times as fast with AVX-512,
+             and 6.2 times with SSE2.
 
              A triangle in a row of bounds, #, cut into stretches:
 
@@ -4613,7 +4625,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
              bounds.  Stretch 2 fills its bounds, and brings them nearer.             >>fragments */
 
 /* Columns x .. last of rows y .. bottom of a triangle's box.  In these rows the triangle extends to
-   column end.  inside: it has all of their pixels. */
+   column end.  inside: all of these pixels are inside it. */
 typedef struct shade__stretch { int x, y, last, bottom, end, inside; } shade__stretch;
 
 /* ---- bounds */
@@ -4633,15 +4645,15 @@ static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* away times the depth at pixel x, with the bits that are tested.  row_z is the depth at the x of
-   corner 0. */
+/* away times the depth at pixel x, in the bits that the depth test sees.  row_z is the depth at the
+   x of the far corner. */
 SHADE__INLINE float shade__key(float away, const shade__triangle *t, float row_z, int x)
 {
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
-/* least is the least value of each edge in a rectangle.  Is the same rectangle, moved right by so
-   many pixels (left if negative), inside all edges? */
+/* least has the least value of each edge in a rectangle.  Returns 1 if the same rectangle, moved
+   `right` pixels to the right (to the left if negative), lies inside all edges. */
 SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t least[3], int right)
 {
     int64_t crossed = 0;
@@ -4649,10 +4661,10 @@ SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t leas
     return crossed >= 0;
 }
 
-/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Moves s->x to
-   the first column that is not hidden, or beyond s->end if all are, and s->last to the last column
-   before one that is hidden or differs in s->inside.  Brings nearer the bounds that the triangle
-   fills. */
+/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Sets s->x to
+   the first column that is not hidden, or beyond s->end if all are hidden.  Sets s->last to the
+   last column before one that is hidden or differs in s->inside.  Brings nearer the bounds that the
+   triangle fills. */
 static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__bounds *b,
                                                 const shade__triangle *t, shade__stretch *s)
 {
@@ -4687,8 +4699,9 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__
 
 /* ---- triangles */
 
-/* Draws a stretch of a triangle.  In the last stretch of a row tiles begin at the edges and may
-   overrun its end.  In the others they begin at multiples of 32 columns, as bounds do. */
+/* Draws a stretch of a triangle.  In the last stretch of a row, tiles begin at the edges, and the
+   last tile may overrun the end.  In other stretches tiles begin at multiples of 32 columns, as
+   bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t, shade__runs *runs,
                                         const shade__stretch *s)
 {
@@ -4722,8 +4735,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
 
-/* Is the box narrower than columns, and do its edge functions fit 32 bits, 31 pixels of margin
-   included?  They do if two sides span at most 2^17 / 256 = 512 pixels across and down: |step| <=
+/* Is the box narrower than `columns`, and do its edge functions fit 32 bits, with a margin of 31
+   pixels?  They do if two sides span at most 2^17 / 256 = 512 pixels across and down: |step| <=
    2^18 for all three, and |e| <= 2^29 in the box, as corners and pixels are within 2^18. */
 SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
 {
@@ -4745,8 +4758,8 @@ SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__ti
     return most < 0;
 }
 
-/* Draws a small triangle, tile below tile, each tested by all three edges.  narrow: it has one
-   column of tiles.  Returns the number of pixels that passed. */
+/* Draws a small triangle, one column of tiles after the other.  Each tile is tested by all three
+   edges.  narrow: there is only one column of tiles.  Returns the number of pixels that passed. */
 SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade__runs *runs,
                                        const int width, const int narrow)
 {
@@ -4770,8 +4783,9 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
     return pixels;
 }
 
-/* Draws a small triangle of up to four columns of tiles, or returns 0 if it is none.  Once bounds
-   have begun shade__cover_large draws all of them, because it skips what bounds hide. */
+/* Draws a small triangle of up to four columns of tiles and returns 1, or returns 0 for other
+   triangles.  Once bounds have begun, shade__cover_large draws all of them, because it skips hidden
+   tiles. */
 static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
@@ -4786,7 +4800,7 @@ static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs
     return 1;
 }
 
-/* Draws the parts of a triangle that bounds do not hide. */
+/* Draws the parts of any triangle that bounds do not hide. */
 static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
@@ -4815,8 +4829,9 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     }
 }
 
-/* Draws triangles of the setup from runs->next on, up to the first that is not small and narrow, or
-   to count.  In a clip rectangle narrower than a tile none is: shade__test_copy is needed there. */
+/* Draws triangles of the setup from runs->next on, up to count or to the first that is not small
+   and narrow.  If the clip rectangle is narrower than a tile, none is: shade__test_copy is needed
+   there. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
 {
@@ -4838,7 +4853,7 @@ SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int coun
                 (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
 /* Draws all triangles of the setup.  The three functions are called one after the other to save
-   stack; the last can draw any triangle. */
+   stack; the last one can draw any triangle. */
 static void shade__cover(shade__draw *d, int count)
 {
     shade__runs runs;
@@ -4854,14 +4869,14 @@ static void shade__cover(shade__draw *d, int count)
 }
 
 /*-------------------------------------------------------------------------------------- >>fragments
-   Pixels that passed, of all triangles of a batch, get their values and levels of detail and wait
-   in a queue until a packet is full; it is then shaded and stored.  On dense meshes this measured 2
-   to 3 times as fast as a packet for each run.
-     in      runs of pixels; the planes of a triangle are made when its first run comes
+   Pixels that passed the test get their values and wait in a queue, those of all triangles of a
+   batch together.  A full packet is shaded and stored.  On dense meshes this measured 2 to 3 times
+   as fast as a packet for each run.
+     in      runs of pixels; the first run of a triangle makes its planes
      out     packets of fragments for the shader, its colours for >>store
      way     push: make_planes, append; flush: undivide, repeat, the user's shader, store
-     holds   Varyings in the queue are divided by w, and multiplied by w again for the shader.  The
-             lanes from count on repeat the last one.                                   >>texture */
+     holds   With perspective, varyings in the queue are divided by w; the flush multiplies them by
+             w for the shader.  Lanes from count on repeat the last one.                >>texture */
 
 enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels appended at once */
 
@@ -4869,7 +4884,7 @@ enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels ap
 typedef struct shade__planes {
     SHADE_ALIGNED float base[SHADE__VALUES_MAX];
     float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
-    float    x_ref, y_ref;            /* 1/2 - position of corner 0, pixels; exact */
+    float    x_ref, y_ref;            /* 1/2 - position of the far corner; exact */
     float    z_low, z_high, rw_low, rw_high;    /* depth and 1/w are clamped to these */
     uint32_t primitive, front;
 } shade__planes;
@@ -4878,8 +4893,8 @@ typedef struct shade__planes {
    are not written. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
-/* The planes of all values in one loop.  k: the sides from corner 0 to 1 (x, y) and from 0 to 2
-   (z, w), divided by twice the area. */
+/* The planes of all values in one loop.  k: the sides from the far corner to corner 1 (x, y) and to
+   corner 2 (z, w), divided by twice the area. */
 SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2, shade_vec4 k, int stride,
                                  shade__planes *SHADE_RESTRICT t)
 {
@@ -4908,7 +4923,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
     t->base[0] = s->z0[i];    /* with the bias */
     t->z_low = s->z_low[i];
     t->z_high = s->z_high[i];
-    t->rw_low = v0[1];    /* corner 0 is the farthest */
+    t->rw_low = v0[1];    /* of the far corner */
     t->rw_high = shade__maxf(v0[1], shade__maxf(v1[1], v2[1]));
     t->x_ref = s->x_ref[i];
     t->y_ref = s->y_ref[i];
@@ -4924,8 +4939,8 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
     }
 }
 
-/* The squared length, in texels, of the longer step of (u, v) to the next pixel, in 8 lanes.  With
-   u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
+/* Appends the squared length, in texels, of the longer step of (u, v) to the next pixel, in 8
+   lanes. With u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
 SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
                                       const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
                                       int back, shade__in rw, shade__out step)
@@ -4956,7 +4971,7 @@ SHADE__INLINE void shade__append_plane(float value, float step, shade__in px, in
     }
 }
 
-/* Window position, triangle and facing; skipped if they are not read. */
+/* Appends window position, triangle and facing; only called if a shader reads them. */
 SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, float row_z,
                                        shade__piece p, shade__in px,
                                        shade_fragments *SHADE_RESTRICT f, const int width)
@@ -5000,7 +5015,7 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     if (!plan->inputs_unread) shade__append_place(t, value[0], p, px, &q->f, width);
 }
 
-/* Values of the planes in row y, at the x of corner 0. */
+/* Values of the planes in row y, at the x of the far corner. */
 SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count, int y,
                                      shade__out value)
 {
@@ -5019,7 +5034,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
     int x = run->x, n = run->n;
     shade__piece p;
     p.y = run->y;
-    /* a short run fits one piece: 5 % of a dense mesh */
+    /* a short run fits one piece: saves 5 % of a dense mesh */
     if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
         p.x = x;
         p.lane = q->f.count;
@@ -5064,7 +5079,7 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
 SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                 shade__push_body(d, run, runs))
 
-/* Fills the lanes of a row from n on with the one before. */
+/* Fills lanes n, n + 1, ... of a row with lane n - 1. */
 static void shade__repeat(void *row, int n)
 {
     shade__word *to = shade__words(row);
@@ -5114,7 +5129,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     }
 
     SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
-    if (!plan->inputs_unread) {    /* else the shader sets all that is read: 1 % */
+    if (!plan->inputs_unread) {    /* else our shader sets all that is read: saves 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
@@ -5127,8 +5142,8 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Filters texels for blocks of lanes: places and weights along both axes, a pair of texels in each
-   of two rows of the texture, then their blend, one mipmap after the other.
+   Filters texels for blocks of lanes, one mipmap after the other: places and weights along both
+   axes, a pair of texels above and a pair below, and their blend.
      in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
      way     shade_sample_lanes: sample_levels; level: open_level: address; filter: fetch,
              blend_packed, blend_encoded or blend_floats, add_level
@@ -5136,7 +5151,7 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
              1 - |lod - level|), which is trilinear filtering.                      [Williams83]
                                                                                           >>store */
 
-/* The fault of a texture as a sentence, or NULL. */
+/* A sentence about the fault of a texture, or NULL. */
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
     if (!t->pixels) return "The texture's pixels are NULL; point them at its texels.";
@@ -5155,7 +5170,7 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
-/* A block is 16 lanes, or the whole packet if it is smaller.  Loops run over blocks, so that a
+/* A block is 16 lanes, or the whole packet if that is smaller.  Loops run over blocks, so that a
    single sample costs one block. */
 enum {
     SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
@@ -5165,33 +5180,34 @@ enum {
 /* The blocks that hold n lanes. */
 SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHADE__BLOCK; }
 
-/* SHADE__EACH_BLOCK(i, blocks) { ... } runs the code for the lanes i of the first blocks.  The
-   inner loop, over one block, has a constant length: it becomes vector code without a remainder. */
+/* SHADE__EACH_BLOCK(i, blocks) { ... } runs the code for the lanes i of the first blocks: with 2
+   blocks, for example, for i = 0 .. 31.  The inner loop, over one block, has a constant length: it
+   becomes vector code without a remainder. */
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
 
-/* One axis of a level: for each lane, the texels on both sides of its place. */
+/* One axis of a level: for each lane, the texels before and after its place. */
 typedef struct shade__axis {
     int size;                    /* in texels */
     shade_wrap wrap;
-    uint32_t unit;               /* how far apart neighbours are in i */
+    uint32_t unit;               /* the step of i from texel to texel */
     SHADE_ALIGNED uint32_t i[2][SHADE_LANES];
-    float f[SHADE_LANES];        /* the weight of the texel after; 0 if nearest */
+    float f[SHADE_LANES];        /* the weight of the texel after it; 0 if nearest */
 } shade__axis;
 
 /* One level of a texture, and the texels that some blocks of lanes read. */
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* bytes for each unit of y.i: 1, or a row; x.i counts bytes */
+    size_t y_bytes;              /* the bytes of a unit of y.i: 1, or of a row; x.i counts bytes */
     int nearest, blocks;
-    uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
+    uint32_t apart[SHADE__BLOCKS];        /* of a block; 0: each pair is 8 adjacent bytes */
     shade__axis x, y;
     uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
 
-/* Finds the two texels and the weight of each coordinate, which may be any float, even NaN.
+/* Finds the two texels and the weight for each coordinate, which may be any float, even NaN.
    post: 0 <= i[0], i[1] <= (size - 1) unit */
 SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
                                   shade__axis *SHADE_RESTRICT a)
@@ -5207,8 +5223,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const uint32_t unit = a->unit;
     SHADE_ALIGNED float place[SHADE_LANES];    /* from 0 to 1 */
 
-    /* From 2^24 on all floats are even integers, where a period begins: they are replaced by 0.  So
-       are NaN and infinity; a clamped texture replaces only these. */
+    /* From 2^24 on all floats are even integers, where a period begins, so 0 replaces them.  It
+       also replaces NaN and infinity; if the texture clamps, only these. */
     SHADE__EACH_BLOCK(i, blocks) {
         const uint32_t usable = shade__mask(shade__within(c[i], limit));
         place[i] = shade__keep(c[i], usable) * period;
@@ -5231,7 +5247,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     SHADE__EACH_BLOCK(i, blocks) {
         float s = place[i] * n - half;
         int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s), as s >= -1/2 */
-        i0 = shade__min(i0, last);    /* a place of 1 would be beyond the end if nearest */
+        i0 = shade__min(i0, last);    /* nearest: a place of 1 would lie beyond the end */
         a->f[i] = s - (float)i0;
         a->i[0][i] = (uint32_t)(i0 < 0 ? before : i0) * unit;
         a->i[1][i] = (uint32_t)(i0 < last ? i0 + 1 : after) * unit;
@@ -5293,9 +5309,9 @@ SHADE__INLINE void shade__fetch_pair(const uint8_t *left, shade__word *to)
     SHADE_MEMCPY(to, left, 8);
 }
 
-/* Fetches the pairs of the row above (line 0) or below (1), left and right alternating, one word
-   each; of RGBA32F texels, the words of channel k.  Not inlined, because gcc would vectorise the
-   loads, which takes longer. */
+/* Fetches the pairs of the line above (0) or below (1), left and right alternating, one word each;
+   of RGBA32F texels, the words of channel k.  Not inlined, because gcc would vectorise the loads,
+   which takes longer. */
 static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k, shade__word *to)
 {
     const uint8_t *p = r->pixels + 4 * k;
@@ -5316,7 +5332,7 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
 }
 
 /* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
-   not shifted down: times 1 / mask in place they give the same product, and as they lie below bit
+   not shifted down: in place, times 1 / mask, they give the same product, and as they lie below bit
    31 they are a positive int32_t.  Bilinear textures gain 4 to 10 %. */
 SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
@@ -5360,8 +5376,8 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
    and right below. */
 typedef struct shade__corners { float c[3][4][SHADE__BLOCK]; } shade__corners;
 
-/* Looks up a texel of 4 bytes.  Floats are copied as integers, of which processors store more at a
-   time. */
+/* Looks up a texel of 4 bytes.  Floats are copied as integers, because processors store more of
+   these at a time. */
 SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const int corner,
                                         shade__corners *to)
 {
@@ -5404,7 +5420,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
     const uint32_t *below = above + 2 * SHADE_LANES;
     SHADE_ALIGNED shade__corners t;
     shade__look_up(&l, above, &t);
-    /* alpha first, while the stores of what was looked up end: 2 to 4 % */
+    /* alpha first, while the stores of shade__look_up finish: saves 2 to 4 % */
     SHADE__FOR(i, SHADE__BLOCK) {
         out[3 * SHADE_LANES + i] =
             shade__bilinear(&l, 3, above + 2 * i, below + 2 * i, x[i], y[i]);
@@ -5478,7 +5494,7 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
         shade__blend_encoded(r, texel + 2 * i, r->x.f + i, r->y.f + i, to + i);
 }
 
-/* Filters the texels found: sets four rows, or adds the level to them with its weights. */
+/* Filters the texels of a level.  Sets four rows, or adds to them if there are weights. */
 SHADE__INLINE void shade__filter(const shade__reader *r, int encoded, const float *weight,
                                  float *out)
 {
@@ -5640,8 +5656,8 @@ SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba
     }
 }
 
-/* Packs blocks of colours for the target.  For pixels of 2 bytes in sRGB they are encoded in place.
-   Only dithering reads x and y.  RGBA32F colours are left as they are. */
+/* Packs blocks of colours for the target.  Colours for pixels of 2 bytes in sRGB are encoded in
+   place.  Only dithering reads x and y.  RGBA32F colours are left as they are. */
 SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const float *x,
                                     const float *y, uint32_t *packed, int blocks)
 {
@@ -5713,8 +5729,8 @@ static void shade__store_run(const shade_target *t, float *rgba, int x, int y, i
     for (int i = 0; i < n; i++) shade__store_pixel(&l, p + i * l.bytes, packed[i], rgba + i);
 }
 
-/* Tests and writes depth in drawing order, after a shader that may discard. alive: 1 for lanes that
-   store their colour, else 0. */
+/* Tests and writes depth in drawing order, after a shader that may discard.  alive is 1 for lanes
+   that store their colour, else 0. */
 static void shade__late_depth(shade__draw *d, const uint32_t *discard, uint32_t *alive)
 {
     const shade__plan *plan = &d->plan;
@@ -5762,7 +5778,7 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color, shade__in
     for (; i < count; i++) SHADE_MEMCPY(shade__pixel(color, offset[i], 4), packed + i, 4);
 }
 
-/* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  A new mode needs
+/* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  To add a mode, add
    its sum here, its number in shade__raster_fault, its use of alpha in shade__mesh_alpha and
    shade__judge, and in shade__black_is_meant whether black may be meant. */
 SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out stored)
@@ -5778,8 +5794,8 @@ SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out st
     }
 }
 
-/* Blends and stores in drawing order, in pieces of up to a block.  The addresses within a piece
-   rise, so that no pixel is in it twice.  Other lanes of its block are not stored. */
+/* Blends and stores in drawing order, in pieces of up to a block.  Addresses rise within a piece,
+   so that no pixel is in it twice.  The other lanes of its block are not stored. */
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const uint32_t *alive,
                                                  const float *rgba, uint32_t *packed)
 {
@@ -5825,13 +5841,13 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
                      shade__store_body(d, c))
 
 /*------------------------------------------------------------------------------------------ >>check
-   Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
-   a call uses only a shade_result, the functions are inlined, and their sentences vanish.
+   Checks arguments.  A fault is the sentence that shade_explain says about it.  Callers that need
+   only a shade_result inline the check, and the compiler drops the sentences.
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result
      way     draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
-             ladders of the calls.  shade__mesh_varyings is laid out here, because a draw that needs
-             more than SHADE_MAX_VARYINGS rows is refused                                  >>seen */
+             ladders of the calls.  shade__mesh_varyings is counted here, because a draw that needs
+             more than SHADE_MAX_VARYINGS is refused                                       >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
@@ -5906,14 +5922,14 @@ SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
     return NULL;
 }
 
-/* The row at which each varying of a mesh begins; -1: the draw has none of it.
+/* The first varying of each attribute of a mesh; -1: the draw does not have it.
 
-     row                           0        3        6
+     varying                       0        3        6
      lit per fragment              P        N        albedo   u v at 9, without colours at 6
      no lamps, or depth alone      albedo   u v
      lit per vertex or face        light
      the same, with a map          light    rest     u v
-     state.fragment                P        N        albedo   u v at 9; always all 11 rows
+     state.fragment                P        N        albedo   u v at 9; always all 11
 
    A map multiplies the light of vertices, but not the rest of it (emission, highlights). */
 typedef struct shade__mesh_varyings {
@@ -5921,7 +5937,7 @@ typedef struct shade__mesh_varyings {
     int count;
 } shade__mesh_varyings;
 
-/* Takes the next n rows if they are wanted. */
+/* Takes the next n varyings if they are wanted. */
 static int shade__take_varyings(shade__mesh_varyings *r, int n, int wanted)
 {
     const int first = r->count;
@@ -5995,7 +6011,7 @@ SHADE__INLINE const char *shade__lod_fault(const shade_pipeline *p)
 }
 
 /* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes,
-   because every thread that draws a band checks all of them. */
+   because each thread that draws a band checks all of them. */
 SHADE__INLINE uint32_t shade__any_beyond(shade__indices list, int first, int end, uint32_t n)
 {
     uint32_t beyond = 0;
@@ -6032,10 +6048,10 @@ static shade_result shade__check_corners(const shade_mesh *m)
 }
 
 /*------------------------------------------------------------------------------------------- >>seen
-   What can be visible: the clip rectangle, and boxes against the planes of the view volume.
+   The clip rectangle, and tests of boxes against the planes of the view volume.
      in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn
      way     see_chunks: frustum_of; then next_chunk: in_view, as batches need triangles
-     holds   A box with a pixel in the clip rectangle is never skipped: rounding is allowed for.
+     holds   A box with a pixel in the clip rectangle is never skipped; rounding is allowed for.
      method  A box that lies outside one plane is invisible.                             >>drive */
 
 /* Sets r to the clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the last two
@@ -6080,7 +6096,7 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
 {
     const double w = t->width, h = t->height;
     int r[4];
-    shade__clip_rectangle(t, r);    /* in an empty one nothing is seen anyway */
+    shade__clip_rectangle(t, r);    /* an empty one shows nothing anyway */
     shade__frustum_plane(clip_from_object, 0, 1, 2.0 * r[0] / w - 1, 0, f);
     shade__frustum_plane(clip_from_object, 0, -1, 2.0 * r[2] / w - 1, 1, f);
     shade__frustum_plane(clip_from_object, 1, -1, 1 - 2.0 * r[1] / h, 2, f);
@@ -6090,10 +6106,10 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
     if (!shade__is_finite(clip_from_object)) SHADE__ZERO(*f);    /* no box lies outside */
 }
 
-/* Can the box be visible?  0: it lies outside one plane.  For the centre c and half the extent h
-   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, with an
-   error of 2^-22 of the sum of the |products|, and each of 7 clips adds 2^-24 of it; 2^-20 covers
-   both.  FLT_MIN in frustum.size covers products that underflow, with an error of 2^-148. */
+/* Returns 0 if the box lies outside one plane, else 1.  For the centre c and half the extent h the
+   greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, with an error
+   of 2^-22 of the sum of the |products|, and each of 7 clips adds 2^-24 of it; 2^-20 covers both.
+   FLT_MIN in frustum.size covers products that underflow, with an error of 2^-148. */
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 low, shade_vec3 high)
 {
     double from[3], c[3], h[3], m[3];
@@ -6138,7 +6154,7 @@ static int shade__next_chunk(shade__draw *d)
     return 0;
 }
 
-/* Supplies the chunks of a mesh that can be visible, in place of all its triangles. */
+/* Prepares the supply of a mesh's chunks that can be visible, in place of all its triangles. */
 static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from_object,
                               int zero_to_one, const shade_mesh *mesh, shade__frustum *frustum,
                               shade__supply *s)
@@ -6161,7 +6177,7 @@ static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from
 
 static shade__compare shade__compare_of(const shade_raster *r)
 {
-    /* of LESS, LESS_EQUAL, ...: 1 where less passes, 2 equal, 4 greater */
+    /* for LESS, LESS_EQUAL, ...: 1 if less passes, + 2 if equal does, + 4 if greater does */
     static const uint32_t passing[] = { 1, 3, 4, 6, 2, 0 };
     const uint32_t passes = passing[r->depth_test];
     shade__compare c;
@@ -6212,8 +6228,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: no
-   shader of the user reads the fragments. */
+/* Draws to a checked target; it cannot fail.  It changes the pipeline.  own: the fragment shader is
+   one of this file. */
 static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
                                     shade_vec3 eye, shade__supply *supply, shade_stats *stats)
 {
@@ -6245,7 +6261,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
     return SHADE_OK;
 }
 
-/* Supplies all triangles of a list, one after the other. */
+/* Prepares the supply of all triangles of a list, one after the other. */
 static void shade__supply_all(shade__indices indices, int index_count, shade__supply *s)
 {
     s->indices = indices;
@@ -6305,8 +6321,8 @@ static void shade__fill(uint8_t *SHADE_RESTRICT p, shade__in pattern, size_t n)
     SHADE_MEMCPY(p, pattern, n);
 }
 
-/* The 256 bytes of a colour from (x, y) on: 8 packed pixels, twice the period of the dither,
-   repeated. */
+/* Writes 256 bytes of a colour, for pixels from (x, y) on: 8 packed pixels, twice the period of the
+   dither, repeated. */
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
                                  uint8_t *pattern)
 {
@@ -6341,16 +6357,16 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 }
 
 /*------------------------------------------------------------------------------------------- >>mesh
-   A mesh is drawn by a vertex shader and a fragment shader, as in any pipeline.
+   A mesh is drawn by a vertex shader and a fragment shader, as by any pipeline.
      in      arrays in object space    out  varyings in world space: P, N, albedo; or one lit colour
      way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: run_draw, or
-             draw_chunks, which calls it; it calls the shaders.  mesh_vertex: fetch_vertices,
-             fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map; mesh_alpha.  Which
-             rows of the varyings they use: shade__mesh_varyings in >>check
-     holds   Where faces have values of their own (normals or light), every corner of a triangle is
-             a vertex: its index is 3 times the triangle's plus the corner's number.  Where no
-             shader reads P and N, they are not computed: textured floors without lamps are drawn
-             1.15 to 1.23 times as fast, with colours 1.02 to 1.04 times.                 >>lines */
+             draw_chunks, which calls run_draw; that calls the shaders.  mesh_vertex:
+             fetch_vertices, fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map;
+             mesh_alpha.  shade__mesh_varyings in >>check says which varyings they use
+     holds   If faces have their own normals or light, every corner of a triangle is a vertex: its
+             index is 3 times the triangle's plus the corner's number.  If no shader reads P and N,
+             they are not computed: textured floors without lamps are drawn 1.15 to 1.23 times as
+             fast, with colours 1.02 to 1.04 times.                                       >>lines */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_mesh *mesh;
@@ -6358,16 +6374,16 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    shade_lighting lighting;             /* at vertices under a map, of terms that it multiplies */
+    shade_lighting lighting;             /* at vertices with a map: the terms that it multiplies */
     unsigned unmapped;                   /* the other terms */
     shade__surface surface;              /* of lighting */
     const shade_texture *map;            /* NULL: none */
-    uint32_t white_map;                  /* of the map only the holes matter */
+    uint32_t white_map;                  /* all ones: the map counts as white, with its holes */
     int face_normals;                    /* N is the normal of the face */
     int corners;                         /* every corner is a vertex */
     int has_picture;                     /* the target has a picture */
-    int tinted;                          /* the mesh has colours that somebody reads */
-    int lit_vertices;                    /* light at its vertices, also where that is once a face */
+    int tinted;                          /* a shader reads the colours of the mesh */
+    int lit_vertices;                    /* light is computed at vertices, or once a face */
     int pn_unread;                       /* no shader reads P and N */
     shade__mesh_varyings first;          /* of each attribute */
 } shade__scene;
@@ -6407,8 +6423,8 @@ SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s, const shade_verte
     return s->corners ? shade__corner_index(s->mesh, in->index[i]) : in->index[i];
 }
 
-/* What the vertices of a packet have in object space: rows of P and, where somebody reads them, of
-   N and albedo. */
+/* Fetches the vertices of a packet, in object space: rows of P and, if a shader reads them, of N
+   and albedo. */
 static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in,
                                                   shade__v3 *point, shade__v3 *normal,
                                                   shade__v3 *albedo)
@@ -6488,8 +6504,8 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
     }
 }
 
-/* Writes the light of vertices to rows 0 .. 2 of rgb; with a map the part that the map multiplies,
-   and the rest to rows 3 .. 5. */
+/* Writes the light of vertices to rows 0 .. 2 of rgb.  With a map these are the part that the map
+   multiplies, and rows 3 .. 5 get the rest. */
 static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
                                   const shade__v3 *normal, const float *albedo, float *rgb)
 {
@@ -6506,14 +6522,14 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     }
 }
 
-/* The rows of a varying, or spare ones where the draw does not have it. */
-SHADE__INLINE shade__v3 *shade__varying_rows(shade_vertices *out, int row, shade__v3 *spare)
+/* The rows of a vector that begins at a varying, or spare ones for -1. */
+SHADE__INLINE shade__v3 *shade__varying_rows(shade_vertices *out, int first, shade__v3 *spare)
 {
-    return row < 0 ? spare : shade__three_rows(out->varying[row]);
+    return first < 0 ? spare : shade__three_rows(out->varying[first]);
 }
 
-/* Attributes are fetched into the rows of their varyings, or into spare rows where the draw needs
-   them but hands them to no fragment. */
+/* Fetches attributes into the rows of their varyings, or into spare rows if the draw needs them but
+   passes them to no fragment. */
 static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
@@ -6539,8 +6555,8 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
         shade__fetch_texcoords(s, in, out->varying[s->first.uv]);
 }
 
-/* The row of alpha holds the map's alpha, the fragment shader's, or 1.  It is multiplied by the
-   opacity.  The product is stored, compared with the cut-off, and the factor of colours in ADD. */
+/* On entry alpha is the map's, the fragment shader's, or 1.  It is multiplied by the opacity.  The
+   product is stored, compared with the cut-off, and in ADD multiplies colours. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
@@ -6558,8 +6574,8 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
     }
 }
 
-/* Light where the colours of the map, which come in rgb, are the albedo.  It is kept out of line,
-   so that only maps take its stack. */
+/* Lights fragments whose albedo is the map: rgb holds its colours, and receives the light.  Not
+   inlined, so that only maps take its stack. */
 static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
                                            float *rgb)
 {
@@ -6572,14 +6588,14 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_ro
     shade__lit_packet(&s->surface, &mapped, rgb);
 }
 
-/* The rows of a varying; NULL where the draw does not have it. */
-SHADE__INLINE const float *shade__varying_row(const shade_fragments *in, int row)
+/* The rows of a vector that begins at a varying; NULL for -1. */
+SHADE__INLINE const float *shade__varying_row(const shade_fragments *in, int first)
 {
-    return row < 0 ? NULL : in->varying[row];
+    return first < 0 ? NULL : in->varying[first];
 }
 
-/* The colour of the map, lit by what arrives: P and N of the pixel, or light of the vertices.
-   Draws without a picture need the map alone, for the holes that it cuts. */
+/* The colours of fragments: the map, lit at each pixel by P and N, or multiplied by the light of
+   the vertices.  Draws without a picture need the map alone, for the holes that it cuts. */
 static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHADE_RESTRICT in,
                                shade_colors *SHADE_RESTRICT out)
 {
@@ -6629,7 +6645,7 @@ static void shade__plan_scene(shade__scene *s)
     s->first = shade__varyings_of(state, s->map != NULL, s->tinted, s->pn_unread);
 }
 
-/* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
+/* Not inlined: its temporaries would take half a kilobyte of stack during the whole draw. */
 static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
                                         const shade_draw_state *state, shade__scene *s)
 {
@@ -6659,8 +6675,8 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     shade__plan_scene(s);
 }
 
-/* Draws the chunks of a mesh that may be seen.  It is kept out of line, so that only meshes with
-   chunks have the planes on the stack. */
+/* Draws the chunks of a mesh that can be visible.  Not inlined, so that only meshes with chunks
+   have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
                                                        shade_pipeline *p, const shade__supply *all,
                                                        shade_stats *stats)
@@ -6673,7 +6689,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     return shade__run_draw(target, p, !scene->state->fragment, scene->eye, &supply, stats);
 }
 
-/* Draws a checked scene, with the vertex shader of meshes and this fragment shader. */
+/* Draws a checked scene, with the vertex shader of meshes and the given fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
                                       shade_fragment_shader *fragment, int may_discard,
                                       shade_stats *stats)
@@ -6751,8 +6767,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
      way     shade_draw_lines: lines_refusal, stroke_of; run_draw, which calls the shaders.
              stroke_vertex: stroke_corner: stroke_end, stroke_part: trim.  stroke_color
      holds   A segment is cut at the near and far planes first, so that both ends have a place on
-             the screen.  One that lies outside becomes a triangle that lies outside, and counts as
-             clipped.                                                                    >>camera */
+             the screen.  A segment outside becomes triangles outside, which count as clipped.
+                                                                                         >>camera */
 
 typedef struct shade__stroke {           /* uniforms of the line shaders */
     const shade_vec3 *points;
@@ -6771,8 +6787,8 @@ static void shade__trim(double a, double b, double *t)
     else if (b < 0 && a / (a - b) < t[1]) t[1] = a / (a - b);
 }
 
-/* Sets p to the point t of the way along a segment, and at[] to its place relative to the middle of
-   the picture, in pixels, y up. */
+/* Sets p to the point at the fraction t of a segment, and at[] to its place relative to the middle
+   of the picture, in pixels, y up. */
 static void shade__stroke_point(const shade__stroke *s, double end[2][4], double t, double *p,
                                 double *at)
 {
@@ -6828,8 +6844,7 @@ static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4
 }
 
 /* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
-   Segments that are not drawn get a point outside, and those that are rejected one that is
-   rejected. */
+   A segment that is not drawn gets a point outside, and a rejected one a point that is rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner)
 {
     const double half = s->half_line;
@@ -6881,7 +6896,7 @@ SHADE__INLINE const char *shade__stroke_fault(const shade_line_state *state)
     return shade__raster_fault(&raster);
 }
 
-/* Prepares the uniforms of the line shaders, and the pipeline that has them. */
+/* Prepares the uniforms of the line shaders, and their pipeline. */
 static void shade__stroke_of(const shade_target *target, const shade_vec3 *points,
                              const shade_line_state *state, shade__stroke *s, shade_pipeline *p)
 {
@@ -6937,17 +6952,17 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
 }
 
 /*----------------------------------------------------------------------------------------- >>camera
-   Where a draw is seen from: one camera for rays, fitted views and explanations.
+   The eye and line of sight of a draw: one camera for rays, fitted views and explanations.
      in      projection, view             out  a shade__camera, in double
      way     camera_of: ray_through
-     holds   It depends on the product of both matrices alone, not on which of them holds the
-             camera.                                                                      >>shape */
+     holds   A camera depends on the product of both matrices alone, not on how it is split between
+             them.                                                                        >>shape */
 
 typedef struct shade__camera {
     double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
     double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
                             parallel */
-    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
+    double sight[3];     /* unit: where w grows fastest, or where parallel rays point; zero if
                             the camera is degenerate */
     int perspective;     /* 0: rays are parallel */
     int reversed;        /* a perspective with greater depth near the eye */
@@ -6965,7 +6980,7 @@ SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Makes v unit, however long; zero where it is zero or not finite. */
+/* Makes v unit, for any length; zero if it is zero or not finite. */
 static void shade__direction3(double *v)
 {
     const double sum = shade__abs(v[0]) + shade__abs(v[1]) + shade__abs(v[2]);
@@ -6973,7 +6988,7 @@ static void shade__direction3(double *v)
     shade__unit3(v);
 }
 
-/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
+/* The ray through x/w and y/w: the line where the planes of both meet.  In a perspective it starts
    on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
 static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
                                double *way)
@@ -7006,9 +7021,9 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
     shade__direction3(way);
 }
 
-/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
-   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
-   such noise. */
+/* Parallel rays: w should be constant, but rounded entries make it vary a little.  For near = n and
+   far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it counts as
+   rounding. */
 static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view, shade__camera *c)
 {
     double p[16], v[16], way[3];
@@ -7031,8 +7046,7 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
-   What a mesh knows of its shape: normals of vertices and corners, edges, its box, and the view
-   that shows it.
+   The shape of a mesh: normals of vertices and corners, edges, its box, and the view that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
      way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
              sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
@@ -7054,8 +7068,8 @@ static double shade__angle(double y, double x)
     return x < 0 ? 4 * quarter - a : a;
 }
 
-/* Whether six doubles sum to 0 exactly.  x[0] .. x[i - 1] are kept as a sum whose parts do not
-   overlap, which is 0 only if each is; a + b is sum and, without rounding, the error of that.
+/* Returns 1 if six doubles sum to 0 exactly.  x[0] .. x[i - 1] are kept as a sum of parts that do
+   not overlap; it is 0 only if each part is.  a + b becomes sum and, exactly, the error of sum.
                                                                                      [Shewchuk97] */
 static int shade__sum_is_zero(double x[6])
 {
@@ -7064,7 +7078,7 @@ static int shade__sum_is_zero(double x[6])
         rough += x[i];
         size += shade__abs(x[i]);
     }
-    if (shade__abs(rough) > size * 1e-15) return 0;    /* beyond what five roundings err by */
+    if (shade__abs(rough) > size * 1e-15) return 0;    /* more than five roundings can cause */
     for (int i = 1; i < 6; i++) {
         for (int k = 0; k < i; k++) {
             const double a = x[i], b = x[k], sum = a + b, rounded = sum - a;
@@ -7077,8 +7091,8 @@ static int shade__sum_is_zero(double x[6])
     return 1;
 }
 
-/* 0 if three points lie in a line, to the bit.  Products of two floats are exact in double, while
-   differences of far and near points may round. */
+/* Returns 0 if three points lie exactly on a line.  Products of two floats are exact in double,
+   while differences of far and near points may round. */
 static int shade__has_area(const shade_vec3 p[3])
 {
     double v[4][3];
@@ -7125,7 +7139,7 @@ static shade_result shade__check_mesh(const shade_mesh *m)
     return shade__mesh_fault(m) ? SHADE_ERROR_MESH : SHADE_OK;
 }
 
-/* out is the argument that must not be NULL beside the mesh. */
+/* Checks a mesh, and that out, the other argument, is not NULL. */
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
 {
     return m && out ? shade__check_mesh(m) : SHADE_ERROR_ARGUMENT;
@@ -7155,7 +7169,7 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     return SHADE_OK;
 }
 
-/* Whether two corners have the same position; NaN equals nothing. */
+/* Returns 1 if two corners have the same position; NaN equals nothing. */
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
     return shade__is_zero(shade_sub(shade__corner(m, i), shade__corner(m, j)));
@@ -7174,8 +7188,8 @@ static shade_edge shade__edge_from(const shade_mesh *m, uint32_t corner)
     return e;
 }
 
-/* Byte k of the key that corners are sorted by: their edge, a before b, or their position, in which
-   + 0 turns -0 into 0. */
+/* Byte k of the sort key of a corner: its edge, a before b, or its position, in which + 0 turns -0
+   into 0. */
 SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t corner, int k)
 {
     uint32_t word;
@@ -7252,7 +7266,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     return SHADE_OK;
 }
 
-/* The caller's array is the scratch too: the sorted corners lie in its last quarter.  When i of
+/* The caller's array is scratch memory too: the sorted corners lie in its last quarter.  When i of
    them have become at most i entries, of 16 i bytes, the next corner stands at byte 12 corners + 4
    i, which is not overwritten. */
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
@@ -7348,8 +7362,8 @@ static shade_mat4 shade__frame_of(const shade__camera *c)
                      shade__xyzw(shade__single3(at), 1));
 }
 
-/* How far an eye in the middle of a box must step back along z: until for each side of the picture
-   the plane w +- x or w +- y is not negative at the corner of the box where it is least. */
+/* Returns how far an eye in the middle of a box must step back along z: until, for each side of the
+   picture, the plane w +- x or w +- y is >= 0 at that corner of the box where it is least. */
 static double shade__step_back(const shade_mat4 *projection, const double *view, shade_vec3 low,
                                shade_vec3 high)
 {
@@ -7371,7 +7385,7 @@ static double shade__step_back(const shade_mat4 *projection, const double *view,
     return step;
 }
 
-/* 6e-8 is for the rounding to float. */
+/* The eye steps back by a further 6e-8, for the rounding to float. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up)
 {
@@ -7399,16 +7413,16 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 }
 
 /*----------------------------------------------------------------------------------------- >>chunks
-   The triangles of a mesh sorted in space and cut into chunks with boxes; whether a box is seen.
+   Sorts the triangles of a mesh in space and cuts them into chunks with boxes; tests a box.
      in      meshes                              out  the caller's chunks and indices
      way     mesh_chunks: sort_triangles: split: longest_axis, partition; then box_chunk
      method  The list is split across its longest axis, at the border of a chunk nearest to the
              middle, and the two parts are split again.
-     holds   The order depends on nothing but the mesh and the size of chunks: it is the same on
-             every machine.                                                                >>rays */
+     holds   The order depends only on the mesh and the size of chunks: it is the same on every
+             machine.                                                                      >>rays */
 
-/* The size of chunks where the caller gives none.  Of 64, 128, 256 and 512 triangles it is the
-   fastest on 16 bands, and within 1 % of the fastest on one thread. */
+/* The default size of chunks.  Of 64, 128, 256 and 512 triangles it is the fastest on 16 bands, and
+   within 1 % of the fastest on one thread. */
 enum { SHADE__CHUNK = 128 };
 
 /* An integer key in the order of floats; NaN lies beyond the infinities. */
@@ -7477,9 +7491,9 @@ static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
     return front;
 }
 
-/* Moves those triangles to the front that are the first half along the longest axis.  The pivot
-   halves the range of values in the first 8 steps, which is 1.25 times as fast, then the range of
-   keys, so that there are never more than 40 steps. */
+/* Moves the first half of the triangles along the longest axis to the front.  The first 8 steps
+   take the middle of the range of values as pivot, which is 1.25 times as fast; the others take the
+   middle of the range of keys, so that there are never more than 40 steps. */
 static void shade__split(const shade_mesh *m, uint32_t *triangles, int count, int half)
 {
     uint32_t low, high;
@@ -7572,7 +7586,7 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
      in      rays in world space, meshes         out  the nearest triangle
      way     pick: object_ray_of, meets_box; pick_triangle: meets_box, shade_intersect
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
-     holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
+     holds   A ray that meets a triangle meets the box of each chunk that contains it.   >>survey */
 
 /* c = a - b */
 SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
@@ -7629,9 +7643,9 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 }
 
 /* A ray in object space, for tests of boxes.  Its coordinates are multiplied by the determinant of
-   the model matrix, which saves a division by it: coordinate i is the dot product with the cross
+   the model matrix, which saves a division: coordinate i is the dot product with the cross
    product of the two other columns.  World positions are rounded sums of products: slack times the
-   sum of the products' sizes bounds the error of that. */
+   sum of the products' sizes bounds their error. */
 typedef struct shade__object_ray {
     double origin[3], direction[3];
     double scale;                     /* the determinant */
@@ -7664,9 +7678,9 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
     s->scale = shade__dot3(column[2], normal);
 }
 
-/* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
-   allowance for rounding.  Returns 0 if it does not meet the box there.  A larger box never has a
-   smaller range: a ray that meets the box of a triangle meets the box of its chunk. */
+/* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box;
+   rounding is allowed for.  Returns 0 if it misses the box there.  A larger box never has a smaller
+   range: a ray that meets the box of a triangle meets the box of its chunk. */
 static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_vec3 high,
                             float limit, double *range)
 {
@@ -7699,9 +7713,9 @@ static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_ve
 /* The nearest triangle so far. */
 typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } shade__hit;
 
-/* A hit counts only if its point lies in the triangle's own box, because then it lies in the box of
-   every chunk that has the triangle.  So a ray nearly in the plane of a triangle, where rounding
-   decides, gives one answer with chunks and without. */
+/* A hit counts only if its point lies in the triangle's own box; then it lies in the box of every
+   chunk that has the triangle.  So if a ray is nearly in the plane of a triangle, where rounding
+   decides, the answer is the same with chunks and without. */
 static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model, shade_ray ray,
                                  const shade__object_ray *local, int triangle, shade__hit *hit)
 {
@@ -7716,7 +7730,7 @@ static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model
     if (!shade_intersect(ray, p[0], p[1], p[2], &t, &where)) return;
     if ((double)t < range[0] || (double)t > range[1]) return;
     if (t == hit->t && triangle > hit->triangle) return;    /* t <= hit->t, as range ends there */
-    /* model may round three points of a line to a triangle with area */
+    /* model may round three points on a line to a triangle with area */
     if (!shade__has_area(q)) return;
     hit->triangle = triangle;
     hit->t = t;
@@ -7757,26 +7771,26 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
-     in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
+     in      arguments of shade_draw_mesh  out  numbers of pixels, stats; depths of some pixels
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read, and the caller's fragment shader is not called.
      way     open_survey; of a copy: a change, then count or take_probes: draw_trial: draw_scene of
              >>mesh, with judge as its fragment shader                                  >>explain */
 
 enum {
-    SHADE__SUSPECTS = 16,                /* more lamps than these are left out of experiments */
+    SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
     SHADE__PROBES = 256                  /* pixels whose depths are compared; a power of two */
 };
 
-/* What the fragments of one pixel were, in drawing order. */
+/* The fragments of one sampled pixel, in drawing order. */
 typedef struct shade__probe {
     uint32_t place;                      /* 0: none yet */
     float    nearest, farthest, last;    /* depths */
-    uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
+    uint32_t front, any_front;           /* 1: the nearest is front-facing; any is */
 } shade__probe;
 
-/* A draw: the given one, and the one drawn in its place.  No pointer leads into the survey itself,
-   so that a copy is a survey of its own. */
+/* The given draw, and the one drawn in its place.  No pointer leads into the survey itself, so that
+   a copy is a survey of its own. */
 typedef struct shade__survey {
     const shade_target     *target;      /* the caller's */
     const shade_mesh       *given_mesh;
@@ -7785,13 +7799,13 @@ typedef struct shade__survey {
 
     shade_target     picture;            /* the pixels and the depth test of the experiment */
     shade_mesh       mesh;
-    shade_draw_state state;              /* but for its material and lamps, which follow */
+    shade_draw_state state;              /* but its material and lamps follow */
     shade_material   material;           /* the given one, or white */
     shade_light      lamp[SHADE__SUSPECTS];
     int              own_lamps;          /* lamp is in use, not state.lighting.lights */
-    uint32_t         white_map;          /* the map has its holes, but no colours */
-    float            apart;              /* depths this near to farthest do not count */
-    int              lit_only;           /* pixels count that the caller's picture has lit */
+    uint32_t         white_map;          /* the map counts as white, with its holes */
+    float            apart;              /* depths within this of farthest do not count */
+    int              lit_only;           /* count only pixels lit in the caller's picture */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
@@ -7806,12 +7820,12 @@ typedef struct shade__survey {
 typedef struct shade__trial {
     shade__scene scene;                  /* first, as the shaders of meshes expect */
     const shade__survey *survey;
-    float         least;                 /* pixels count if a channel is this; 0: all of them */
-    uint32_t      every;                 /* one of this many pixels is sampled; 0: none */
+    float         least;                 /* pixels count if a channel has this; 0: all do */
+    uint32_t      every;                 /* samples one pixel of this many; 0: none */
     shade__probe *probes;
 } shade__trial;
 
-/* Notes the depth of lane i, if its pixel is among those sampled. */
+/* Notes the depth of lane i, if its pixel is sampled. */
 static void shade__take_probe(const shade__trial *trial, const shade_fragments *in, int i)
 {
     const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * SHADE__SIDE_MAX + 1;
@@ -7833,7 +7847,7 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
     at->any_front |= in->front[i];
 }
 
-/* Is the caller's picture brighter than 8 of 255 there, or has it any light in floats?
+/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0?
    pre: the pixel is in the clip rectangle, and there is a picture */
 static int shade__is_lit_there(const shade_target *t, int x, int y)
 {
@@ -7849,7 +7863,7 @@ static int shade__is_lit_there(const shade_target *t, int x, int y)
     return any;
 }
 
-/* The fragment shader of experiments: it discards what does not count. */
+/* The fragment shader of experiments: it discards fragments that do not count. */
 static void shade__judge(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
@@ -7891,8 +7905,8 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     return stats;
 }
 
-/* Returns what became of the triangles; fragments is the number of pixels that have a channel of
-   least or more. */
+/* Returns the stats of a drawing; fragments is the number of pixels with a channel of least or
+   more. */
 static shade_stats shade__stats_of(const shade__survey *s, float least)
 {
     shade__trial trial;
@@ -7946,7 +7960,7 @@ static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE
     shade__draw_trial(&q, &trial);
 }
 
-/* Is there a pixel whose last fragment is not its nearest?  With last 0: whose farthest is not? */
+/* Is there a pixel where the last fragment (last = 0: the farthest) is not the nearest? */
 static int shade__hides_nearest(const shade__survey *s, int last)
 {
     shade__probe probes[SHADE__PROBES];
@@ -7959,7 +7973,7 @@ static int shade__hides_nearest(const shade__survey *s, int last)
     return n > 0;
 }
 
-/* ---- which pixels are drawn */
+/* ---- which fragments are drawn */
 
 /* All fragments, in the whole picture, without a depth test. */
 static void shade__look_at_all(shade__survey *q)
@@ -7985,16 +7999,16 @@ static void shade__look_through(shade__survey *q, shade_compare test)
     q->state.raster.depth_test = test;
 }
 
-/* Are there more fragments of stored depth than were drawn?  Then faces coincide. */
+/* Do more fragments have the stored depth than were drawn?  Then faces coincide. */
 static int shade__coincides(const shade__survey *s)
 {
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
-/* What the picture shows: after a whole, opaque draw the fragments that have the stored depth.  In
-   other cases it does not tell: a band shows too little, blending shows more, a bias clamps depths,
-   and depth may have changed since.  All fragments are drawn then: what none of them has, the
-   picture lacks.  Where depth is not written, fragments that passed hide others. */
+/* Draws what the picture shows: after a whole, opaque draw, the fragments with the stored depth.
+   In other cases depth cannot say: a band shows too little, blending shows more, a bias clamps
+   depths, and depth may have changed since.  Then all fragments are drawn: what none of them has,
+   the picture lacks.  If depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -8008,14 +8022,14 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
-/* Is n at most a tenth of all?  Where some of them may be hidden, is it 0? */
+/* Is n at most a tenth of all?  If some pixels may be hidden: is it 0? */
 static int shade__few(const shade__survey *s, long long n, long long all)
 {
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Does the picture show a pixel with a brightness from least to most?  Where fragments hide others,
-   and stored depth does not tell which, all fragments must have one. */
+/* Does the picture show a pixel with a brightness from least to most?  If fragments hide others,
+   and stored depth cannot say which, all fragments must have it. */
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
@@ -8030,7 +8044,7 @@ static int shade__has_pixels(const shade__survey *s, float least, float most)
     return n > 0 && (s->exact || known || n == shade__covered(s));
 }
 
-/* Is a pixel that the picture shows brighter than 12 of 255, more than 8 in each format? */
+/* Does the picture show a pixel brighter than 12 of 255, which is more than 8 in each format? */
 static int shade__lights_up(const shade__survey *s)
 {
     return shade__has_pixels(s, 1.5f * s->dim, FLT_MAX);
@@ -8085,7 +8099,7 @@ static void shade__drop_colors(shade__survey *q)
     q->white_map = 1;
 }
 
-/* The material reflects all light, with wide highlights; one that is NULL has none. */
+/* The material reflects all light, with wide highlights; white Lambert, for NULL, stays without. */
 static void shade__polish(shade__survey *q)
 {
     const shade_vec3 one = shade_v3(1, 1, 1);
@@ -8163,8 +8177,8 @@ static void shade__light_fragments(shade__survey *q)
 
 /* ---- questions that need no drawing */
 
-/* The SHADE__OUT_... bits that all corners share.  Where z is 0 at the eye, but for the rounding of
-   floats, depth is the same everywhere, and near and far are not told apart. */
+/* The SHADE__OUT_... bits that all corners share.  If z is 0 at the eye, but for the rounding of
+   floats, depth is the same everywhere, and near and far cannot be told apart. */
 static uint32_t shade__outside(const shade__survey *s)
 {
     const double *z = s->camera.row[2];
@@ -8182,7 +8196,7 @@ static uint32_t shade__outside(const shade__survey *s)
     return all;
 }
 
-/* Was anything drawn before?  Then the caller's depth buffer holds different values. */
+/* Does the caller's depth buffer hold different values, because something was drawn before? */
 static int shade__depth_varies(const shade_target *t)
 {
     int clip[4];
@@ -8207,7 +8221,7 @@ static int shade__eye_inside(const shade__survey *s)
     return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
 }
 
-/* Is depth the same all over a plane that the viewer faces? */
+/* Is depth constant on planes at a right angle to the line of sight? */
 static int shade__faces_ahead(const shade__camera *c)
 {
     double across[3];
@@ -8219,13 +8233,14 @@ static int shade__faces_ahead(const shade__camera *c)
 
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
-     in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     method  Numbers that cannot be meant are looked for first.  Then come ladders: tables of
-             changes and sentences, tried from top to bottom.
-     holds   A sentence is true of the pixels that are shown: of all, or of the share that its rung
-             asks for.  Black: none is brighter than 8 of 255.  A band or a strip is never blamed
-             for what another may show.  A function or ladder that returns NULL has found nothing,
-             and the next is tried; "" ends the search without a sentence.
+     in      arguments of shade_draw_mesh, its stats   out  a constant sentence; "" for nothing
+     method  First come numbers that make no sense, then ladders: tables of changes and sentences,
+             tried from top to bottom.  For example: with culling off, are there pixels?  Then
+             raster.cull is at fault.
+     holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
+             Black: none is brighter than 8 of 255.  A band or strip is not blamed for what another
+             may show.  A function or ladder that finds nothing returns NULL, and the next is
+             tried; "" ends the search without a sentence.
      way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
              ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
              why_black, wrong_light, flat; helps; doubt                                 >>replay */
@@ -8244,9 +8259,10 @@ static const char *shade__no_mesh(const shade_mesh *m)
 
 /* ---- matrices and numbers of the state */
 
-/* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), (0, 0, -1, 0) of a
-   perspective, or (0, 0, 1, 0) of a left-handed one.  A matrix that flattens, as those of shadows
-   on planes do, is none of them, nor is a projection whose w grows with z alone, from one point. */
+/* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), or (0, 0, -1, 0)
+   of a perspective, or (0, 0, 1, 0) of a left-handed one.  Two kinds are not counted: matrices that
+   flatten, for shadows on planes, and projections from one point, with a w that grows with z
+   alone. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
     const shade_vec4 z = m->col[2], last = m->col[3];
@@ -8270,13 +8286,13 @@ static int shade__is_rigid(const shade_mat4 *m)
     return rigid;
 }
 
-/* Is the last row (0, 0, 0, w) with another w than 1? */
+/* Is the last row (0, 0, 0, w) with w other than 1? */
 static int shade__scales_w(const shade_mat4 *m)
 {
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
-/* Is the view transposed, in a way that shows? */
+/* Is the view transposed, and does the picture change if it is not? */
 static int shade__view_by_rows(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8329,7 +8345,7 @@ static const char *shade__bad_lamp(const shade_light *l)
     return NULL;
 }
 
-/* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
+/* Are corners beyond 1e12, or does the draw reject triangles, as for NaN and infinity? */
 static int shade__positions_are_bad(const shade__survey *s)
 {
     shade__survey all = *s;
@@ -8341,7 +8357,7 @@ static int shade__positions_are_bad(const shade__survey *s)
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
-/* How many triangles a draw of the mesh counts. */
+/* The number of triangles that a draw of the mesh counts. */
 static long long shade__triangles_of(const shade_mesh *m)
 {
     long long count = 0;
@@ -8375,10 +8391,10 @@ static const char *shade__bad_number(const shade__survey *s)
 
 typedef struct shade__rung {
     int (*change)(shade__survey *q);     /* returns whether the sentence is true */
-    const char *sentence;                /* NULL: this may be meant, the ladder ends */
+    const char *sentence;                /* NULL: this may be on purpose; the ladder ends */
 } shade__rung;
 
-/* Returns the sentence of the first true rung; the last one always is.  Changes stay in q: the
+/* Returns the sentence of the first true rung; the last one is always true.  Changes stay in q: the
    last change names the fault, and two faults at once are found as well. */
 static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
 {
@@ -8427,8 +8443,8 @@ static int shade__fronts_are_culled(shade__survey *q)
     return q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q);
 }
 
-/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
-   Such a mesh may well be hidden, or seen edge-on. */
+/* Is the mesh one of many in a scene, with fragments for less than a quarter of the picture?  Such
+   a mesh may well be hidden, or seen edge-on. */
 static int shade__is_scattered(shade__survey *q)
 {
     return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
@@ -8454,7 +8470,7 @@ static int shade__projection_by_rows(shade__survey *q)
     return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
 }
 
-/* Does each triangle lie outside of the view volume? */
+/* Does every triangle lie outside of the view volume? */
 static int shade__is_beside(shade__survey *q)
 {
     const shade_stats stats = shade__stats_of(q, 0);
@@ -8488,7 +8504,7 @@ static int shade__before_near(shade__survey *q)
     return (shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0;
 }
 
-/* Changes are kept. */
+/* Each rung keeps the changes of those above it. */
 static const shade__rung shade__nothing[] = {
     { shade__chunks_are_few, shade__left_out },
     { shade__appears, shade__wrong_box },
@@ -8536,9 +8552,9 @@ static const shade__rung shade__nothing[] = {
       "beside the picture; check state.model and state.view." },
 };
 
-/* ---- the mesh covers pixels, but the draw gave none, or maybe none */
+/* ---- the mesh covers pixels, but the draw stored none, or perhaps none */
 
-/* Would the other test show another depth in some pixel? */
+/* Would the reverse test show another depth in some pixel? */
 static int shade__test_is_turned(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
@@ -8555,7 +8571,8 @@ static const shade__rung shade__test[] = {
     { NULL, NULL }
 };
 
-/* Is this all of the picture, or a band or strip of it?  Other ones may show what it does not. */
+/* Is the clip rectangle the whole picture, or a band or strip of it?  Other bands may show what
+   this one does not. */
 static int shade__is_band(const shade_target *t)
 {
     int clip[4];
@@ -8569,7 +8586,7 @@ static int shade__beside_clip(shade__survey *q)
     return !shade__is_band(q->target) && !shade__covered(q);
 }
 
-/* How many pixels pass the depth test now: all, if there is no depth. */
+/* The number of pixels that pass the depth test now: all, if there is no depth. */
 static long long shade__passed(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8577,7 +8594,7 @@ static long long shade__passed(const shade__survey *s)
     return shade__covered(&q);
 }
 
-/* Has the draw given pixels?  Without stats: does one pass the depth test, or hold the depth of the
+/* Did the draw store pixels?  Without stats: does one pass the depth test, or hold the depth of the
    mesh? */
 static int shade__is_drawn(const shade__survey *s)
 {
@@ -8587,7 +8604,7 @@ static int shade__is_drawn(const shade__survey *s)
     return shade__passed(s) || shade__covered(&q);
 }
 
-/* Has the mesh pixels in the clip rectangle, of which none passes the depth test? */
+/* Does the mesh have pixels in the clip rectangle, and does none of them pass the depth test? */
 static int shade__is_hidden(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8600,8 +8617,8 @@ static int shade__shader_discards(shade__survey *q)
     return q->given_stats && q->given_state->fragment && shade__passed(q);
 }
 
-/* Is the depth of all pixels that of the far plane, with this bias or none, so that they never pass
-   a test without equality? */
+/* Do all pixels have the depth of the far plane, with this bias or none, so that they never pass a
+   test without equality? */
 static int shade__is_far(const shade__survey *s)
 {
     const shade_compare test = s->given_state->raster.depth_test;
@@ -8611,7 +8628,7 @@ static int shade__is_far(const shade__survey *s)
     return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
 }
 
-/* Without stats the mesh itself may be stored. */
+/* Was depth not cleared?  Without stats the mesh itself may be stored. */
 static int shade__depth_uncleared(shade__survey *q)
 {
     if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL ||
@@ -8625,7 +8642,8 @@ static int shade__depth_uncleared(shade__survey *q)
     return !shade__is_far(q);
 }
 
-/* Is the mesh hidden in the whole picture, and no detail of a scene?  Leaves q without a bias. */
+/* Is the mesh hidden in the whole picture, and not a small part of a scene?  Sets the bias of q to
+   0. */
 static int shade__all_hidden(shade__survey *q)
 {
     const int hidden = q->whole && shade__is_hidden(q);
@@ -8679,7 +8697,7 @@ static const shade__rung shade__unseen[] = {
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Of the pixels with a front face, do nine tenths have a back face before it? */
+/* In nine tenths of the pixels with a front face, is a back face nearer? */
 static int shade__is_inside_out(const shade__survey *s)
 {
     shade__probe probes[SHADE__PROBES];
@@ -8702,7 +8720,7 @@ static int shade__backs_in_view(shade__survey *q)
     return q->state.raster.cull == SHADE_CULL_BACK && shade__is_inside_out(q);
 }
 
-/* Does light depend on the side to which normals point? */
+/* Does light depend on the side that normals point to? */
 static int shade__sides_matter(const shade__survey *s)
 {
     const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
@@ -8720,7 +8738,7 @@ static int shade__wound_inward(shade__survey *q)
     return shade__is_inside_out(q);
 }
 
-/* Has a pixel a last fragment that is not its nearest? */
+/* Is there a pixel where the last fragment is not the nearest? */
 static int shade__lacks_depth(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
@@ -8747,8 +8765,8 @@ static const shade__rung shade__picture[] = {
 
 /* ---- the mesh is drawn, but black: the surface */
 
-/* Does blending hide the mesh: does it show without, or would not even a glowing surface show with
-   it?  From here on blending is left out. */
+/* Does blending hide the mesh?  It does if the mesh shows without it, or if not even a glowing
+   surface would show with it.  From here on blending is off. */
 static int shade__alpha_is_zero(shade__survey *q)
 {
     shade__survey glow = *q;
@@ -8760,7 +8778,7 @@ static int shade__alpha_is_zero(shade__survey *q)
     return blended && (!shade__shows(&glow) || shade__shows(q));
 }
 
-/* Outlines of back faces are meant to be black, and so are shadows, blended over a ground. */
+/* Outlines made of back faces are black on purpose, and so are shadows blended over a ground. */
 static int shade__black_is_meant(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
@@ -8776,7 +8794,7 @@ static int shade__shading_is_coarse(shade__survey *q)
     return shade__lights_up(q);
 }
 
-/* Are the normals of faces lit, which SHADE_SHADING_PER_FRAGMENT would not take? */
+/* Do face normals give light that SHADE_SHADING_PER_FRAGMENT would not? */
 static int shade__faces_are_lit(shade__survey *q)
 {
     if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
@@ -8858,8 +8876,8 @@ static int shade__count_is_zero(shade__survey *q)
     return q->state.lighting.lights && shade__lights_are_none(q);
 }
 
-/* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
-   there is one. */
+/* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 wherever there is a
+   normal. */
 static int shade__lacks_normals(shade__survey *q)
 {
     shade__survey open = *q;
@@ -8869,7 +8887,8 @@ static int shade__lacks_normals(shade__survey *q)
     return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
 }
 
-/* Leaves only the terms of lamps in the survey, not blended.  Returns whether it has any. */
+/* Leaves only the terms of lamps in the survey, and turns blending off.  Returns whether there are
+   any. */
 static int shade__lamps_alone(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -8879,8 +8898,8 @@ static int shade__lamps_alone(shade__survey *q)
     return l->model <= SHADE_MODEL_LAMBERT && l->terms;
 }
 
-/* Do nine tenths of the visible pixels face away from every lamp, which would light them if they
-   had two sides?  Lamps are taken without cone and attenuation. */
+/* Do nine tenths of the visible pixels face away from every lamp, and would two-sided light show
+   them?  Cones and attenuation are off. */
 static int shade__lamps_behind(shade__survey *q)
 {
     const shade_vec3 glow = q->material.emission;
@@ -8923,7 +8942,7 @@ static int shade__cones_miss(shade__survey *q)
     return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
 }
 
-/* Is there light after all, which does not only graze the surface? */
+/* Is there light after all that does more than graze the surface? */
 static int shade__sides_show(shade__survey *q)
 {
     q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
@@ -8939,7 +8958,7 @@ static int shade__lamps_are_many(shade__survey *q)
     return q->given_state->lighting.light_count > SHADE__SUSPECTS;
 }
 
-/* Changes are kept. */
+/* Each rung keeps the changes of those above it. */
 static const shade__rung shade__black[] = {
     { shade__alpha_is_zero, shade__transparent },
     { shade__shading_is_coarse, shade__coarse },
@@ -9007,7 +9026,7 @@ static int shade__normals_turned(shade__survey *q)
     return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
 }
 
-/* Has no normal a negative component, though an eighth of the faces or more would need one? */
+/* Do all normals lack negative components, though at least an eighth of the faces need one? */
 static int shade__normals_differ(const shade_mesh *m)
 {
     int behind = 0, before = 0;
@@ -9045,7 +9064,7 @@ static int shade__alpha_is_stored(shade__survey *q)
            shade__has_pixels(q, 0.02f / d->transparency, 1 / (1 - d->transparency));
 }
 
-/* Do highlights cover more than they would of a surface that is polished? */
+/* Do highlights cover more than they would on a polished surface? */
 static int shade__highlights_are_wide(shade__survey *q)
 {
     long long all;
@@ -9057,8 +9076,8 @@ static int shade__highlights_are_wide(shade__survey *q)
     return shade__count(q, q->dim) < all;
 }
 
-/* Does light take another eye than the camera's, and would the picture differ with it?  A
-   one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
+/* Does light use another eye than the camera has, and would the picture differ with the camera's?
+   A one-point projection, with w = 1 at the origin of view, has its eye elsewhere on purpose. */
 static int shade__eye_is_astray(shade__survey *q)
 {
     const shade__camera *c = &q->camera;
@@ -9105,14 +9124,14 @@ static const shade__rung shade__wrong_light[] = {
     { NULL, NULL }
 };
 
-/* Is light of lamps not asked for, or does some show?  Other light is left out from here on. */
+/* Does lamp light show, or is there to be none?  Other light is off from here on. */
 static int shade__lamps_show(shade__survey *q)
 {
     return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
            shade__is_zero(q->material.diffuse) || shade__shows(q);
 }
 
-/* Meshes without lamps may be meant: bright ones, and overlays without normals. */
+/* Meshes may be without lamps on purpose: bright ones, and overlays without normals. */
 static int shade__unlit_is_meant(shade__survey *q)
 {
     const shade_vec3 light = q->state.lighting.ambient;
@@ -9126,7 +9145,7 @@ static int shade__white_shows(shade__survey *q)
     return shade__shows(q);
 }
 
-/* Changes are kept. */
+/* Each rung keeps the changes of those above it. */
 static const shade__rung shade__flat[] = {
     { shade__lamps_show, NULL },
     { shade__count_is_zero,
@@ -9143,7 +9162,7 @@ static const shade__rung shade__flat[] = {
     { shade__always, shade__no_color },
 };
 
-/* ---- numbers that may be meant, but seldom are */
+/* ---- numbers that are possible, but seldom right */
 
 static int shade__boxes_are_small(const shade_mesh *m)
 {
@@ -9159,13 +9178,13 @@ static int shade__boxes_are_small(const shade_mesh *m)
     return beyond;
 }
 
-/* The map that the draw reads itself. */
+/* The map, if the library reads it and not a shader of the caller. */
 static const shade_texture *shade__map_of(const shade__survey *s)
 {
     return s->target->color && !s->given_state->fragment ? s->given_state->diffuse_map : NULL;
 }
 
-/* Does u end where the texels of a row do? */
+/* Does u go up to the width of the map in texels? */
 static int shade__u_reaches(const shade_mesh *m, int width)
 {
     const size_t stride = m->texcoord_stride ? (size_t)m->texcoord_stride : 8;
@@ -9197,8 +9216,8 @@ static const char *shade__doubt_of_map(const shade__survey *s)
     return NULL;
 }
 
-/* Is the aspect of the projection, that of its rows x and y across the sight, not the picture's, in
-   a way that shows?  The cells of a terminal are twice as high as wide. */
+/* Is the aspect of the projection, computed from its rows x and y across the line of sight, other
+   than the picture's, and does that show?  Cells of a terminal are twice as high as wide. */
 static int shade__aspect_is_wrong(const shade__survey *s)
 {
     const shade_mat4 none = shade_mat4_identity();
@@ -9270,7 +9289,7 @@ static const char *shade__doubt(const shade__survey *s)
 
 /* ---- the way through the ladders */
 
-/* Does the advice help by itself, with all else as it is given? */
+/* Does the advice help by itself, with all else as given? */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
@@ -9316,7 +9335,7 @@ static int shade__is_dark(const shade__survey *seen, float least)
     return !shade__count(&q, least);
 }
 
-/* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */
+/* Looks at a picture in which the mesh has pixels.  Light is judged if the library computes it. */
 static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
@@ -9391,19 +9410,19 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
 
 /*----------------------------------------------------------------------------------------- >>replay
    Why lines or a pipeline give no picture, or a wrong one, in one sentence.
-     in      what shade_draw_lines or shade_draw took, its stats
+     in      arguments of shade_draw_lines or shade_draw, its stats
      out     a constant sentence; "" for nothing
      method  The draw is run again without a picture.  Shaders of this section call the given ones
-             and count what they give.
+             and count what these return.
      holds   The caller's memory is only read, unless the caller's own shaders write.
      way     explain_replay: run_again; why_matrix of lines; why_nowhere; why_kept_out; why_faint
                                                                                           >>image */
 
-/* What the shaders gave in one run. */
+/* What the shaders returned in one run. */
 typedef struct shade__tally {
     shade_stats stats;                   /* fragments: neither discarded nor hidden */
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
-    int         any_w;                   /* is a w not 0? */
+    int         any_w;                   /* 1: some w is not 0 */
     long long   fragments;               /* all of them; of these: */
     long long   discarded, clear;        /* alpha is 0 */
     long long   nan, dark, bright;       /* a channel is; all are stored as 0; one is 16 or more */
@@ -9435,7 +9454,7 @@ static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *S
     }
 }
 
-/* Calls the given shader where a draw calls it. */
+/* Calls the given shader if a draw would. */
 static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                    shade_colors *SHADE_RESTRICT out)
 {
@@ -9499,7 +9518,7 @@ static const char *shade__why_matrix(const shade__replay *r, const shade__tally 
     if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
         return "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or "
                "not a projection; it is projection times view, in this order.";
-    /* w = -z, but the rest is no perspective */
+    /* w = -z, but the rest is not a perspective */
     if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
         (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
         return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
@@ -9570,7 +9589,7 @@ static const char *shade__why_nowhere(const shade__replay *r, const shade_stats 
                       "their corners coincide or they are seen edge-on, or lie beside the picture.";
 }
 
-/* ---- pixels are covered, but the draw gave none, or maybe none */
+/* ---- pixels are covered, but the draw stored none, or perhaps none */
 
 static const char *shade__why_kept_out(const shade__replay *r, const shade__tally *t)
 {
@@ -9590,18 +9609,18 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
     raster->depth_test = SHADE_COMPARE_EQUAL;
     if (!r->given && shade__run_again(&part).stats.fragments) return NULL;    /* its own depth */
     raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
-    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth that there is */
+    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth possible */
     if (!shade__run_again(&part).stats.fragments)
         return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
-    raster->depth_bias *= 2e-6f;    /* of two planes that are one, depths differ by less */
+    raster->depth_bias *= 2e-6f;    /* depths of coinciding planes differ by less */
     if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
         return "The lines lie in surfaces that target.depth already holds, and these hide them: "
                "use SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
     if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
-        return NULL;    /* one of many things in a scene may well be hidden */
+        return NULL;    /* one part of a scene may well be hidden */
     return "Everything is hidden by depth that target.depth already holds: from other draws, or "
            "from the frame before if shade_clear was not called; or raster.depth_bias pushes it "
            "back.";
@@ -9717,12 +9736,12 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
 }
 
 /*------------------------------------------------------------------------------------------ >>image
-   Pictures made of pictures: smaller ones, mipmaps, files.
+   Makes pictures from pictures: smaller ones, mipmaps, files.
      in      a picture of any format
      out     means in linear light, or a file
      way     resolve, build_mipmaps and encode_ppm: open_decoder; convert: reduce: means, halve or
              shrink; store_run of >>store
-     method  The values of a channel are few: each is decoded once a call.              >>presets */
+     method  A channel has few values: each is decoded once a call.                     >>presets */
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
 {
@@ -9736,11 +9755,11 @@ static shade_result shade__check_picture(const shade_target *t)
     return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
 
-/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
-   2 i + 2 of the level above, and of each a share. */
+/* Along one axis, texel i of a mipmap covers a share of each of pixels 2 i, 2 i + 1 and, if the
+   size is odd, 2 i + 2 of the level above. */
 typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
 
-/* What a level of mipmaps is made with. */
+/* Tables to make a level of mipmaps. */
 enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
 typedef struct shade__halving {
     double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
@@ -9753,7 +9772,7 @@ typedef struct shade__decoder {
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *of[4];
-    float value[512];    /* of colours, then of alpha; channels of one size share theirs */
+    float value[512];    /* of colours, then of alpha; channels of equal size share values */
 } shade__decoder;
 
 static void shade__open_decoder(const shade_target *t, shade__decoder *d)
@@ -9865,8 +9884,8 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows
     }
 }
 
-/* The light of pixels x .. x + n - 1 of row y of a picture that is made of another one: means of
-   factor x factor pixels, or of what the texels of a mipmap cover. */
+/* The light of pixels x .. x + n - 1 of row y of a smaller picture: means of factor x factor
+   pixels, or of the pixels that the texels of a mipmap cover. */
 static void shade__reduce(const shade__decoder *d, const shade_target *to, int factor, int x, int y,
                           int n, float *mean)
 {
@@ -9886,8 +9905,8 @@ static void shade__reduce(const shade__decoder *d, const shade_target *to, int f
     else shade__means(d, p, pitch, factor, n, bytes, mean);
 }
 
-/* Makes a picture of the decoder's, in its clip rectangle.  With a sink the picture is one row of
-   RGBA8 that goes there as R, G, B bytes. */
+/* Makes the clip rectangle of a picture from the decoder's.  With a sink, the picture is one row of
+   RGBA8, and the sink gets it as R, G, B bytes. */
 static shade_result shade__convert(const shade__decoder *d, const shade_target *to, int factor,
                                    shade_write_fn *sink, void *user)
 {
@@ -10058,7 +10077,7 @@ typedef struct shade__preset_entry {
     float ar, ag, ab, dr, dg, db, sr, sg, sb, shininess;
 } shade__preset_entry;
 
-/* NULL where there is no such material. */
+/* Returns NULL if there is no such material. */
 static const shade__preset_entry *shade__preset(int preset)
 {
     static const shade__preset_entry table[SHADE_PRESET_COUNT] = {
@@ -10164,7 +10183,7 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md tells
+   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md says
    what each brought.
    From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */
