@@ -66,22 +66,22 @@
        >>surface   2789  material and lights   >>lit       2906  the whole sum, at many points
      Inside: the way of a triangle
        >>state     3295  fields by owner       >>vertices  3507  shading, projection
-       >>triangles 3709  culling, edge setup   >>clip      4061  near, far, guard band
-       >>tiles     4247  edges and depth test  >>cover     4605  triangles, tile by tile
-       >>fragments 4871  interpolation, lod    >>texture   5144  texels, filters
-       >>store     5593  blending, packing
+       >>triangles 3709  culling, edge setup   >>clip      4063  near, far, guard band
+       >>tiles     4249  edges and depth test  >>cover     4607  triangles, tile by tile
+       >>fragments 4873  interpolation, lod    >>texture   5146  texels, filters
+       >>store     5595  blending, packing
      Inside: calls of the renderer
-       >>check     5843  refusals              >>seen      6050  view volume, chunks
-       >>drive     6170  shade_draw            >>mesh      6359  shade_draw_mesh
+       >>check     5845  refusals              >>seen      6052  view volume, chunks
+       >>drive     6172  shade_draw            >>mesh      6361  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6763  shade_draw_lines      >>camera    6954  eye and line of sight
-       >>shape     7048  normals, edges        >>chunks    7415  sorting and boxes
-       >>rays      7584  shade_pick            >>survey    7772  experiments on a draw
-       >>explain   8234  why nothing is seen   >>replay    9411  the same for lines, pipelines
-       >>image     9738  makes mipmaps, PPM    >>presets  10070  classic materials
+       >>lines     6765  shade_draw_lines      >>camera    6956  eye and line of sight
+       >>shape     7050  normals, edges        >>chunks    7417  sorting and boxes
+       >>rays      7586  shade_pick            >>survey    7774  experiments on a draw
+       >>explain   8236  why nothing is seen   >>replay    9413  the same for lines, pipelines
+       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
      Sources
-       >>refs     10155                        >>history  10185
-       >>license  10191
+       >>refs     10157                        >>history  10187
+       >>license  10193
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3731,8 +3731,8 @@ static void shade__take_batch(shade__draw *d)
                      2             one of them.  Right and bottom edges: bias -1.
                                                                                            >>clip */
 
-/* Corners of the triangles being set up.  shade__turn puts x, y and z into the order of the turn,
-   the far corner first; rw stays as submitted. */
+/* Corners of the triangles being set up: as submitted, or in the order of the turn, which puts the
+   far corner first and leaves rw out. */
 typedef struct shade__corner_rows {
     SHADE_ALIGNED int32_t x[3][SHADE__TRIANGLES];
     int32_t y[3][SHADE__TRIANGLES];
@@ -3821,25 +3821,27 @@ SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT 
 
 /* Reorders one value of the three corners: the far corner first, then the others in their order, or
    swapped where flipped is set. */
-SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const shade__turns *SHADE_RESTRICT t)
+SHADE__INLINE void shade__turn(const shade__word *SHADE_RESTRICT v,
+                               const shade__turns *SHADE_RESTRICT t, shade__word *SHADE_RESTRICT to)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         const uint32_t is_1 = t->first_is_1[i], is_2 = t->first_is_2[i];
         uint32_t a = v[i], b = v[i + SHADE__TRIANGLES], c = v[i + 2 * SHADE__TRIANGLES];
         uint32_t next = shade__choose(shade__choose(b, c, is_1), a, is_2);
         uint32_t last = shade__choose(shade__choose(c, a, is_1), b, is_2);
-        v[i] = shade__choose(shade__choose(a, b, is_1), c, is_2);
-        v[i + SHADE__TRIANGLES] = shade__choose(next, last, t->flipped[i]);
-        v[i + 2 * SHADE__TRIANGLES] = shade__choose(last, next, t->flipped[i]);
+        to[i] = shade__choose(shade__choose(a, b, is_1), c, is_2);
+        to[i + SHADE__TRIANGLES] = shade__choose(next, last, t->flipped[i]);
+        to[i + 2 * SHADE__TRIANGLES] = shade__choose(last, next, t->flipped[i]);
     }
 }
 
 /* The range of pixel centres between three corners along one axis, within lo .. hi, ends included.
-   pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
+   pre: |corner| <= 2^24, 0 <= lo, hi < 2^14
    post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
-SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b, shade__in_ints c, int32_t lo,
-                              int32_t hi, shade__out_ints first, shade__out_ints last)
+SHADE__INLINE void shade__box(int32_t (*corner)[SHADE__TRIANGLES], int32_t lo, int32_t hi,
+                              shade__out_ints first, shade__out_ints last)
 {
+    shade__in_ints a = corner[0], b = corner[1], c = corner[2];
     SHADE__FOR(i, SHADE__TRIANGLES) {
         int32_t least = shade__min(shade__min(a[i], b[i]), c[i]);
         int32_t most = shade__max(shade__max(a[i], b[i]), c[i]);
@@ -3933,16 +3935,16 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     const shade_raster *raster = &plan->pipe->raster;
     SHADE_ALIGNED float area[SHADE__TRIANGLES];
     SHADE_ALIGNED double inverse[SHADE__TRIANGLES];
-    shade__corner_rows c;
+    shade__corner_rows given, c;
     shade__turns turns;
-    shade__fetch_corners(s, plan->value_stride, &c);
-    shade__areas(&c, area, inverse);
-    shade__choose_turns(&c, area, &turns, s->turn);
-    shade__turn(shade__words(c.x), &turns);
-    shade__turn(shade__words(c.y), &turns);
-    shade__turn(shade__words(c.z), &turns);
-    shade__box(c.x[0], c.x[1], c.x[2], plan->x0, plan->x1 - 1, s->x0, s->x1);
-    shade__box(c.y[0], c.y[1], c.y[2], plan->y0, plan->y1 - 1, s->y0, s->y1);
+    shade__fetch_corners(s, plan->value_stride, &given);
+    shade__areas(&given, area, inverse);
+    shade__choose_turns(&given, area, &turns, s->turn);
+    shade__turn(shade__words(given.x), &turns, shade__words(c.x));
+    shade__turn(shade__words(given.y), &turns, shade__words(c.y));
+    shade__turn(shade__words(given.z), &turns, shade__words(c.z));
+    shade__box(c.x, plan->x0, plan->x1 - 1, s->x0, s->x1);
+    shade__box(c.y, plan->y0, plan->y1 - 1, s->y0, s->y1);
     for (int k = 0; k < 3; k++) shade__edge(&c, k, s);
     shade__sides(&c, inverse, s);
     shade__depth_plane(&c, raster->depth_bias, s);
