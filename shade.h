@@ -66,22 +66,22 @@
        >>surface   2789  material and lights   >>lit       2906  the whole sum, at many points
      Inside: the way of a triangle
        >>state     3295  fields by owner       >>vertices  3507  shading, projection
-       >>triangles 3709  culling, edge setup   >>clip      4063  near, far, guard band
-       >>tiles     4249  edges and depth test  >>cover     4607  triangles, tile by tile
-       >>fragments 4873  interpolation, lod    >>texture   5146  texels, filters
-       >>store     5595  blending, packing
+       >>triangles 3709  culling, edge setup   >>clip      4062  near, far, guard band
+       >>tiles     4248  edges and depth test  >>cover     4606  triangles, tile by tile
+       >>fragments 4872  interpolation, lod    >>texture   5145  texels, filters
+       >>store     5594  blending, packing
      Inside: calls of the renderer
-       >>check     5845  refusals              >>seen      6052  view volume, chunks
-       >>drive     6172  shade_draw            >>mesh      6361  shade_draw_mesh
+       >>check     5844  refusals              >>seen      6051  view volume, chunks
+       >>drive     6171  shade_draw            >>mesh      6360  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6765  shade_draw_lines      >>camera    6956  eye and line of sight
-       >>shape     7050  normals, edges        >>chunks    7417  sorting and boxes
-       >>rays      7586  shade_pick            >>survey    7774  experiments on a draw
-       >>explain   8236  why nothing is seen   >>replay    9413  the same for lines, pipelines
-       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
+       >>lines     6764  shade_draw_lines      >>camera    6956  eye and line of sight
+       >>shape     7050  normals, edges        >>chunks    7416  sorting and boxes
+       >>rays      7585  shade_pick            >>survey    7773  experiments on a draw
+       >>explain   8234  why nothing is seen   >>replay    9407  the same for lines, pipelines
+       >>image     9734  makes mipmaps, PPM    >>presets  10066  classic materials
      Sources
-       >>refs     10157                        >>history  10187
-       >>license  10193
+       >>refs     10151                        >>history  10181
+       >>license  10187
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1323,8 +1323,8 @@ SHADE__EXPORT shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
     return s == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
 }
 
-/* The bodies of these stand in >>matrix.  The inverse is the zero matrix where the determinant
-   comes out as 0, or an entry or 1 / determinant beyond FLT_MAX. */
+/* The bodies of these stand in >>matrix.  An inverse is the zero matrix if the determinant is
+   computed as 0, or if an entry or 1 / determinant is beyond FLT_MAX. */
 SHADEDEF shade_mat3 shade_mat3_identity(void);
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);    /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
@@ -1490,7 +1490,8 @@ typedef uint32_t shade__word;
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   becomes four functions.  Three are builds.  Each is a SHADE__BUILD, for example
+   becomes four functions.  Three are builds, made by SHADE__BUILD: shade__push_any,
+   shade__push_avx512 and
 
      __attribute__((target("avx2"))) static SHADE__HOT void
      shade__push_avx2(shade__draw *d, const shade__run *run, int runs)
@@ -1499,9 +1500,8 @@ typedef uint32_t shade__word;
          shade__push_body(d, run, runs);
      }
 
-   where shade__width is the number of floats in a vector: bodies may use it, since they are written
-   out here.  shade__push_any and shade__push_avx512 are the others.  SHADE__CALL_BEST makes the
-   last function, the one to call, and the two builds that SHADE__DISPATCH_AVX2 has, too:
+   The body may use shade__width, the number of floats in a vector.  The fourth function is the one
+   to call, made by SHADE__CALL_BEST:
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
@@ -1601,7 +1601,7 @@ SHADE__INLINE int shade__best_build(void)
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
     SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
     SHADE__CALL_BEST(name, name##_avx512, parameters, arguments, body)
-/* For loops that AVX-512 makes no faster. */
+/* For loops that AVX-512 makes no faster: the AVX2 build serves in place of a third. */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments, body) \
     SHADE__CALL_BEST(name, name##_avx2, parameters, arguments, body)
 #else
@@ -1743,7 +1743,7 @@ SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
     rows->z[i] = v.z;
 }
 
-/* Puts x, y, z and w into four rows, stride floats apart. */
+/* Puts a vector into four rows, stride floats apart. */
 SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
 {
     rows[i] = v.x;
@@ -2029,9 +2029,9 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
                      shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
 }
 
-/* A perspective in which the eye coordinate z becomes the depth (scale z + offset) / -z.  y is 1 /
-   tan(fovy / 2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the
-   camera degenerate. */
+/* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  y is 1 / tan(fovy /
+   2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the camera
+   degenerate. */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
@@ -2359,7 +2359,7 @@ static const shade__layout shade__layouts[] = {    /* in the order of shade_form
     { 1, 0, { 8, 8, 8, 0 }, { 1, 1, 1, 255 } }             /* A8 */
 };
 
-/* Whether an enumerator lies in 0 .. last.  The sign of an enumeration depends on the compiler. */
+/* 1 if an enumerator lies in 0 .. last.  The sign of an enumeration depends on the compiler. */
 #define SHADE__KNOWN(value, last) ((unsigned)(value) <= (unsigned)(last))
 
 SHADE__INLINE int shade__is_format(shade_format format)
@@ -2369,7 +2369,7 @@ SHADE__INLINE int shade__is_format(shade_format format)
 
 static size_t shade__pixel_bytes(shade_format format) { return shade__layouts[format].bytes; }
 
-/* Whether the processor stores the low byte of an integer first. */
+/* 1 if the processor stores the low byte of an integer first. */
 SHADE__INLINE int shade__low_byte_first(void)
 {
     const uint32_t one = 1;
@@ -2391,7 +2391,7 @@ SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l, int 
     return shade__number(packed >> shade__shift(l, k) & l->full[k]);
 }
 
-/* Whether colours are stored as sRGB: floats never are, and A8 has no colours. */
+/* 1 if colours are stored as sRGB: floats never are, and A8 has no colours. */
 SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 {
     return srgb && l->full[0] > 1;
@@ -2400,7 +2400,7 @@ SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 /* The low two bytes of u, exchanged. */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
 
-/* Loads a packed pixel.  One of 1 or 2 bytes gets the bit above it set.  4 bytes may also be the
+/* Loads a packed pixel.  In 1 or 2 bytes, the bit above them is set.  4 bytes may also be the
    bits of a float. */
 SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes, const int swapped)
 {
@@ -2460,14 +2460,14 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 }
 
 /*------------------------------------------------------------------------------------------ >>lamps
-   One light: how it is made, and how much of it arrives at a point.
+   One light: constructors, and how much of it arrives at a point.
      in      a shade_light, rows of P     out  shade__arrival: rows of L and of the amount of light
      way     shade__place_lamp once a lamp; shade__arrive: come_from_infinity or come_from_point,
              meet_cone, attenuate, apply_cone
      holds   Loops run over the SHADE_LANES points of a packet, or over SHADE__POINT copies of a
              single point, through the same code: both get the same bits.  shade_attenuation and
-             shade_spot, for users, compute one factor each by the plain formula.  The error of
-             1/sqrt stands in >>base, the error of powers in >>power.                     >>terms */
+             shade_spot, which only you call, compute one factor each by the plain formula.  The
+             error of 1/sqrt stands in >>base, the error of powers in >>power.            >>terms */
 
 static shade_light shade__plain_light(shade_vec4 position, shade_vec3 color)
 {
@@ -2525,7 +2525,7 @@ typedef struct shade__lamp {
     float a, nearest;       /* a of the attenuation, or 1 for none; the least r */
     int infinite, spot;
     int falls;              /* the attenuation depends on r */
-    /* What one surface reflects of it, set by >>surface. */
+    /* The light that one surface reflects of it, set by >>surface. */
     shade_vec3 ambient, diffuse, specular;    /* k_a I_La, k_d I_d, k_s I_s */
     int on;                 /* 0: the three are zero, and no other field is set */
 } shade__lamp;
@@ -2974,7 +2974,7 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* Whether there is a highlight: where N.L > 0, or with open wherever N is not zero. */
+/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero. */
 SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 {
     uint32_t either = shade__float_bits(nl) & ~open;
@@ -3332,8 +3332,8 @@ typedef struct shade__run { int32_t x, y, n, triangle; } shade__run;
 /* The depth test as masks: the comparisons that pass, and whether depth is written. */
 typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
 
-/* The values of a vertex are z, 1/w and the varyings.  Where a level of detail is wanted without
-   perspective, u and v follow once more, divided by w. */
+/* The values of a vertex are z, 1/w and the varyings.  With a lod_texture, but without perspective,
+   u and v follow once more, divided by w. */
 enum {
     SHADE__FIRST = 2,                 /* z and 1/w stand before the varyings */
     SHADE__SIDE_MAX = 16384,          /* pixels or texels of a side of a picture */
@@ -3352,10 +3352,10 @@ enum {
      flag            set where                                        read by
      zero_to_one     the raster says so                               >>vertices, >>clip
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
-     queued          the fragment shader's result counts              >>tiles (runs go on)
+     queued          the fragment shader's result is used             >>tiles (sends runs)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
      inputs_unread   the shader is ours, early is set, no dither      >>fragments
-     lod             lod_texture is set; the index of u, else 0       >>fragments */
+     lod             lod_texture is set: the value of u, else 0       >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
     const shade_pipeline *pipe;
@@ -3443,14 +3443,14 @@ typedef struct shade__setup {
 
 typedef struct shade__bounds {
     int   log_width, log_height;      /* log2 of the pixels that share a bound */
-    int   across;                     /* bounds side by side; 0: not yet begun */
+    int   across;                     /* bounds in a row of them; 0: not yet begun */
     float farthest[SHADE__BOUNDS];    /* at least plan.away times the depth of any pixel there */
 } shade__bounds;
 
 typedef struct shade__queue {
     shade_fragments f;                /* with perspective, varyings are over w until the flush */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
-    float    step[SHADE_LANES];       /* in texels to the next pixel, squared; lod comes of it */
+    float    step[SHADE_LANES];       /* to the next pixel, in texels, squared: for lod */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
@@ -3479,7 +3479,7 @@ struct shade__draw {
     shade__plan    plan;
     shade__supply *supply;
     shade_stats    stats;
-    float          unread[SHADE__TILE];    /* written where depth is tested later or not at all */
+    float          unread[SHADE__TILE];    /* stands in for depth, tested later or not at all */
     shade__bounds  bounds;
     shade__batch   batch;
     shade__setup   setup;
@@ -3492,7 +3492,7 @@ struct shade__draw {
 /* vertices: takes the next triangles and their vertices, up to SHADE_LANES; then shades these */
 static void shade__take_batch(shade__draw *d);
 static void shade__shade_vertices(shade__draw *d);
-/* triangles: sets up those of the batch, SHADE__TRIANGLES at a time: edges, box, depth */
+/* triangles: sets up the batch's, SHADE__TRIANGLES at a time: edges, box, depth */
 static void shade__triangles(shade__draw *d);
 /* clip: the polygon that near, far, w > 0 and the guard band leave of a triangle; 0: nothing */
 static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__polygon *fan);
@@ -3876,8 +3876,7 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k
     }
 }
 
-/* The sides from the far corner to corners 1 and 2 over twice the area, for planes: x1, y1, x2,
-   y2. */
+/* The sides from the far corner to 1 and 2 over twice the area, for planes: x1, y1, x2, y2. */
 SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
                                 const double *SHADE_RESTRICT inverse,
                                 shade__setup *SHADE_RESTRICT s)
@@ -4265,7 +4264,7 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
 
              The only run of a row stays open: the next tile to the right may extend it.
      holds   Stores stay in the clip rectangle, that is, in the pixels of this thread.  A value at
-             a pixel has the same bits in whichever tile it is: the base of its row plus the step
+             a pixel has the same bits whichever tile it is in: the base of its row plus the step
              in x times the exact distance.                                               >>cover */
 
 enum {
@@ -4623,7 +4622,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
                       ^s.x                                ^s.end
                       1-|2----------------|        |3-----|
 
-             A stretch ends before a hidden bound, and where the triangle begins or ceases to fill
+             A stretch ends before a hidden bound, and where the triangle starts or stops filling
              bounds.  Stretch 2 fills its bounds, and brings them nearer.             >>fragments */
 
 /* Columns x .. last of rows y .. bottom of a triangle's box.  In these rows the triangle extends to
@@ -4871,9 +4870,9 @@ static void shade__cover(shade__draw *d, int count)
 }
 
 /*-------------------------------------------------------------------------------------- >>fragments
-   Pixels that passed the test get their values and wait in a queue, those of all triangles of a
-   batch together.  A full packet is shaded and stored.  On dense meshes this measured 2 to 3 times
-   as fast as a packet for each run.
+   Pixels that passed, of all triangles of a batch, get their values and wait in a queue until a
+   packet is full; it is then shaded and stored.  On dense meshes this measured 2 to 3 times as fast
+   as a packet for each run.
      in      runs of pixels; the first run of a triangle makes its planes
      out     packets of fragments for the shader, its colours for >>store
      way     push: make_planes, append; flush: undivide, repeat, the user's shader, store
@@ -6230,8 +6229,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a checked target; it cannot fail.  It changes the pipeline.  own: the fragment shader is
-   one of this file. */
+/* Draws to a checked target, and changes the pipeline; it cannot fail.  own: our fragment
+   shader. */
 static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
                                     shade_vec3 eye, shade__supply *supply, shade_stats *stats)
 {
@@ -6799,8 +6798,8 @@ static void shade__stroke_point(const shade__stroke *s, double end[2][4], double
 }
 
 /* Finds the part t[0] .. t[1] of a segment that is drawn, and its unit direction on the screen.
-   The segment is cut at near, far and w > 0, then 3 half widths and 2 pixels outside of the
-   picture: the ends of the cut stay unseen, and are exact to 1/256 pixel.  Returns 0 if nothing is
+   The segment is cut at near, far and w > 0, then 3 half widths and 2 pixels outside the picture,
+   so that the cut ends stay out of view; they are exact to 1/256 pixel.  Returns 0 if nothing is
    left. */
 static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *t, double *dir)
 {
@@ -6831,8 +6830,9 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     return t[0] <= t[1];
 }
 
-/* Wider lines are drawn as wide as this, 2000 times the largest picture.  Their corners stay within
-   2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
+/* The greatest width, 2000 times the largest picture; wider lines are drawn as wide.  Their corners
+   stay within 2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are
+   floats. */
 #define SHADE__WIDEST 33554432.0f
 
 /* The clip-space position of a point. */
@@ -6845,8 +6845,8 @@ static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4
         end[i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
 }
 
-/* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
-   A segment that is not drawn gets a point outside, and a rejected one a point that is rejected. */
+/* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.  A segment
+   that is not drawn gets a point outside; one with bad numbers gets a point that is rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner)
 {
     const double half = s->half_line;
@@ -7190,8 +7190,7 @@ static shade_edge shade__edge_from(const shade_mesh *m, uint32_t corner)
     return e;
 }
 
-/* Byte k of the sort key of a corner: its edge, a before b, or its position, in which + 0 turns -0
-   into 0. */
+/* Byte k of the sort key of a corner: its edge, a before b, or its position, with 0 for -0. */
 SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t corner, int k)
 {
     uint32_t word;
@@ -7205,8 +7204,8 @@ SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t 
     return word >> 8 * (k & 3) & 255;
 }
 
-/* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.
-   Corners of equal keys ascend.  other has room for count more. */
+/* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.  Corners
+   with equal keys stay in ascending order.  other has room for count more. */
 static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, uint32_t *order,
                                 uint32_t *other)
 {
@@ -7319,7 +7318,7 @@ SHADE__INLINE int shade__finite3(shade_vec3 v)
            shade__within(v.z, FLT_MAX);
 }
 
-/* Computes the box around the finite corners of a chunk; low > high where there are none. */
+/* Computes the box around the finite corners of a chunk; low > high if there are none. */
 static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
 {
     c->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
@@ -7346,8 +7345,8 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
-/* The camera as a matrix: columns right, up and back, and a point on the axis of sight.  It is the
-   identity, to the bit, for an eye on the z axis that looks down -z. */
+/* The camera as a matrix: columns right, up and back, and a point on the line of sight.  It is
+   exactly the identity for an eye on the z axis that looks down -z. */
 static shade_mat4 shade__frame_of(const shade__camera *c)
 {
     const double *sight = c->sight;
@@ -7776,8 +7775,8 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
      in      arguments of shade_draw_mesh  out  numbers of pixels, stats; depths of some pixels
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read, and the caller's fragment shader is not called.
-     way     open_survey; of a copy: a change, then count or take_probes: draw_trial: draw_scene of
-             >>mesh, with judge as its fragment shader                                  >>explain */
+     way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
+             draw_scene of >>mesh, with judge as its fragment shader                    >>explain */
 
 enum {
     SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
@@ -7907,8 +7906,7 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     return stats;
 }
 
-/* Returns the stats of a drawing; fragments is the number of pixels with a channel of least or
-   more. */
+/* Returns the stats of a drawing.  fragments counts pixels with a channel of least or more. */
 static shade_stats shade__stats_of(const shade__survey *s, float least)
 {
     shade__trial trial;
@@ -8596,8 +8594,7 @@ static long long shade__passed(const shade__survey *s)
     return shade__covered(&q);
 }
 
-/* Did the draw store pixels?  Without stats: does one pass the depth test, or hold the depth of the
-   mesh? */
+/* Did the draw store pixels?  Without stats: does one pass the depth test, or have this depth? */
 static int shade__is_drawn(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8644,8 +8641,7 @@ static int shade__depth_uncleared(shade__survey *q)
     return !shade__is_far(q);
 }
 
-/* Is the mesh hidden in the whole picture, and not a small part of a scene?  Sets the bias of q to
-   0. */
+/* Is the mesh hidden in the whole picture, and not a small part of a scene?  Sets q's bias to 0. */
 static int shade__all_hidden(shade__survey *q)
 {
     const int hidden = q->whole && shade__is_hidden(q);
@@ -8878,8 +8874,7 @@ static int shade__count_is_zero(shade__survey *q)
     return q->state.lighting.lights && shade__lights_are_none(q);
 }
 
-/* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 wherever there is a
-   normal. */
+/* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 for all others. */
 static int shade__lacks_normals(shade__survey *q)
 {
     shade__survey open = *q;
@@ -8889,8 +8884,7 @@ static int shade__lacks_normals(shade__survey *q)
     return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
 }
 
-/* Leaves only the terms of lamps in the survey, and turns blending off.  Returns whether there are
-   any. */
+/* Leaves only the terms of lamps in the survey, without blending.  Returns whether any is left. */
 static int shade__lamps_alone(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -9327,7 +9321,7 @@ static const char *shade__why_black(const shade__survey *seen)
     return shade__helps(seen, why) ? why : shade__multiply;
 }
 
-/* Is all dark that the mesh may show, or the caller's picture?  A channel of least is not dark. */
+/* Is every pixel of the mesh dark, below least in each channel, or dark in the caller's picture? */
 static int shade__is_dark(const shade__survey *seen, float least)
 {
     shade__survey q = *seen;
@@ -9502,7 +9496,7 @@ static shade__tally shade__run_again(const shade__replay *r)
 
 /* ---- the matrix of lines */
 
-/* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
+/* Do the rows of z and w come from a perspective times a view: parallel, with w of length 1? */
 static int shade__is_camera(const shade_mat4 *m)
 {
     const shade_mat4 one = shade_mat4_identity();
