@@ -55,33 +55,33 @@
      Public
        >>config     129  options               >>types      256  materials, lamps, targets, states
        >>light      434  the equation, colour  >>draw       541  shaders, meshes, pixels
-       >>tools      687  explain, lines, rays  >>plumbing   879  compilers, flags and bits
-       >>math      1018  vectors and matrices
+       >>tools      694  explain, lines, rays  >>plumbing   886  compilers, flags and bits
+       >>math      1025  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1379  processors            >>base      1614  bits, masks, rows of vectors
-       >>matrix    1811  cameras, inverses     >>power     2088  x^n
-       >>pixels    2154  formats, sRGB
+       >>machine   1385  processors            >>base      1620  bits, masks, rows of vectors
+       >>matrix    1817  cameras, inverses     >>power     2094  x^n
+       >>pixels    2160  formats, sRGB
      Inside: light
-       >>lamps     2462  attenuation, cones    >>terms     2714  one term at one point
-       >>surface   2789  material and lights   >>lit       2906  the whole sum, at many points
+       >>lamps     2468  attenuation, cones    >>terms     2720  one term at one point
+       >>surface   2795  material and lights   >>lit       2912  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3295  fields by owner       >>vertices  3507  shading, projection
-       >>triangles 3709  culling, edge setup   >>clip      4062  near, far, guard band
-       >>tiles     4248  edges and depth test  >>cover     4606  triangles, tile by tile
-       >>fragments 4872  interpolation, lod    >>texture   5145  texels, filters
-       >>store     5594  blending, packing
+       >>state     3301  fields by owner       >>vertices  3513  shading, projection
+       >>triangles 3715  culling, edge setup   >>clip      4068  near, far, guard band
+       >>tiles     4254  edges and depth test  >>cover     4612  triangles, tile by tile
+       >>fragments 4878  interpolation, lod    >>texture   5151  texels, filters
+       >>store     5600  blending, packing
      Inside: calls of the renderer
-       >>check     5844  refusals              >>seen      6051  view volume, chunks
-       >>drive     6171  shade_draw            >>mesh      6360  shade_draw_mesh
+       >>check     5850  refusals              >>seen      6057  view volume, chunks
+       >>drive     6177  shade_draw            >>mesh      6366  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6764  shade_draw_lines      >>camera    6956  eye and line of sight
-       >>shape     7050  normals, edges        >>chunks    7416  sorting and boxes
-       >>rays      7585  shade_pick            >>survey    7773  experiments on a draw
-       >>explain   8234  why nothing is seen   >>replay    9407  the same for lines, pipelines
-       >>image     9734  makes mipmaps, PPM    >>presets  10066  classic materials
+       >>lines     6770  shade_draw_lines      >>camera    6962  eye and line of sight
+       >>shape     7056  normals, edges        >>chunks    7422  sorting and boxes
+       >>rays      7591  shade_pick            >>survey    7779  experiments on a draw
+       >>explain   8240  why nothing is seen   >>replay    9413  the same for lines, pipelines
+       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
      Sources
-       >>refs     10151                        >>history  10181
-       >>license  10187
+       >>refs     10157                        >>history  10187
+       >>license  10193
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -458,10 +458,10 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
                                       float exponent, shade_vec3 color);
 
 /* How much of a lamp arrives at P if nothing is in the way: spot / (a + b r + c r^2), a factor of
-   I_d and I_s.  It is 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P
-   toward the lamp.  Where P is the lamp, L is zero, and a cone with cos(beta) > 0 gives no light.
-   *distance becomes r, or FLT_MAX for a lamp at infinity.  Either may be NULL.  For light NULL all
-   three are zero. */
+   I_d and I_s; 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P toward
+   the lamp.  Where P is the lamp, L is zero, and a cone with cos(beta) > 0 gives no light.
+   *distance becomes r, or FLT_MAX at infinity.  Either may be NULL.  For light NULL all three are
+   zero. */
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: point and to_light are three rows of SHADE_LANES floats, amount is one
@@ -544,6 +544,8 @@ SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
    indices.  Nothing is ever written outside the target's rows, width and clip rectangle.
                                                                                           >>tools */
 
+/* ---- results, clearing, textures */
+
 /* What a result means and which fields to check, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
@@ -558,6 +560,9 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
    not overlap the others. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
+
+/* ---- shaders and pipelines */
+
 /* Packets, the arguments of shaders.  Lanes from count on repeat lane count - 1, because shaders
    compute every lane. */
 typedef struct shade_vertex_ids {                 /* vertices to shade */
@@ -621,6 +626,8 @@ typedef struct shade_pipeline {
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats);
+
+/* ---- meshes */
 
 /* A mesh in your arrays.  Strides are in BYTES, multiples of 4; 0 means tightly packed. */
 typedef struct shade_mesh {
@@ -1189,8 +1196,7 @@ SHADE__EXPORT shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 }
 
 /* (b - a) x (c - a) made unit: it points to the side from which a, b, c are counter-clockwise.
-   Zero where b or c is a.  For three points in a line it is zero or, by rounding, some unit
-   vector. */
+   Zero where b or c is a; for three points on a line zero or, by rounding, some unit vector. */
 SHADE__EXPORT shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
