@@ -350,7 +350,7 @@ typedef enum shade_wrap {
 } shade_wrap;
 typedef enum shade_filter {
     SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
-    SHADE_FILTER_NEAREST,        /* the texel that u, v lie in */
+    SHADE_FILTER_NEAREST,        /* the texel at u, v */
     SHADE_FILTER_TRILINEAR       /* bilinear in two mipmaps, by the level of detail [Williams83] */
 } shade_filter;
 
@@ -661,7 +661,7 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
     float alpha_cutoff;                           /* 0 .. 1; less alpha is discarded */
     shade_raster raster;
     shade_fragment_shader *fragment;              /* NULL: the equations; see shade_draw_mesh */
-    const void *uniforms;                         /* passed to it */
+    const void *uniforms;                         /* passed to fragment */
 } shade_draw_state;
 
 /* Where the fragment shader of a draw state finds its input: the first row of each vector in
@@ -2353,7 +2353,7 @@ typedef struct shade__layout {
     uint8_t bytes;       /* of a pixel in memory */
     uint8_t swapped;     /* non-zero: its two bytes are not in the processor's order */
     uint8_t shift[4];
-    uint8_t full[4];     /* the value of each channel that stands for 1 */
+    uint8_t full[4];     /* the value of each channel that means 1 */
 } shade__layout;
 
 static const shade__layout shade__layouts[] = {    /* in the order of shade_format */
@@ -2814,7 +2814,7 @@ typedef struct shade__surface {
     int lamps;              /* lights to loop over; 0 if no term needs them; 1 for a tone */
     uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
     uint32_t sign;          /* a mask for N.L in the diffuse term: TWO_SIDED_ABS clears its sign */
-    shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the one of the tone */
+    shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the tone's */
 } shade__surface;
 
 /* The terms of the model that lighting->terms selects. */
@@ -3371,7 +3371,7 @@ typedef struct shade__plan {
     const shade__layout *layout;      /* of the target's pixels */
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
-    int      values, value_stride;    /* floats of a vertex, and of its place: a multiple of 8 */
+    int      values, value_stride;    /* floats of a vertex; its stride, a multiple of 8 */
     int      divided;                 /* values from this one on are kept divided by w */
     int      lod;                     /* u / w is this value, v / w the next; 0: no lod */
     int      varyings;
@@ -3402,7 +3402,7 @@ typedef struct shade__batch {
     int           parts;
     shade__part   part[SHADE__PARTS + 1];
     uint8_t       corner[SHADE__BATCH_TRIANGLES][4];    /* as in shade__setup */
-    uint32_t      out;                /* outcodes of all its vertices */
+    uint32_t      out;                /* the outcodes of all its vertices, ORed */
     shade__vertex vertex[SHADE_LANES];
     SHADE_ALIGNED float value[SHADE__BATCH_FLOATS];
 } shade__batch;
@@ -3449,7 +3449,7 @@ typedef struct shade__setup {
 
 typedef struct shade__bounds {
     int   log_width, log_height;      /* log2 of the pixels that share a bound */
-    int   across;                     /* bounds in a row of them; 0: not yet begun */
+    int   across;                     /* bounds side by side; 0: not yet begun */
     float farthest[SHADE__BOUNDS];    /* at least plan.away times the depth of any pixel there */
 } shade__bounds;
 
@@ -3474,10 +3474,10 @@ SHADE__INLINE uint32_t shade__index(shade__indices list, size_t i)
 /* The triangles of a draw, handed out in their order. */
 typedef struct shade__supply {
     shade__indices indices;
-    int first, end;                   /* of the triangles at hand */
+    int first, end;                   /* of the triangles being taken */
     int (*more)(shade__draw *);       /* shade__next_chunk, linked with meshes only; or NULL */
     int chunks;                       /* how many are left */
-    const shade_chunk *chunk;         /* the next of them */
+    const shade_chunk *chunk;         /* the next one */
     const shade__frustum *frustum;    /* what they are tested against */
 } shade__supply;
 
@@ -6242,7 +6242,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
-    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* they are not read */
+    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* no shader reads them */
         pipe->varyings = 0;
         pipe->lod_texture = NULL;
     }
@@ -6381,9 +6381,9 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    shade_lighting lighting;             /* at vertices with a map: the terms that it multiplies */
+    shade_lighting lighting;             /* at vertices with a map: terms that the map multiplies */
     unsigned unmapped;                   /* the other terms */
-    shade__surface surface;              /* of lighting */
+    shade__surface surface;              /* made from lighting */
     const shade_texture *map;            /* NULL: none */
     uint32_t white_map;                  /* all ones: the map counts as white, with its holes */
     int face_normals;                    /* N is the normal of the face */
@@ -7216,7 +7216,7 @@ static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, 
                                 uint32_t *other)
 {
     for (uint32_t i = 0; i < count; i++) order[i] = i;
-    for (int k = 0; k < (edges ? 8 : 12); k++) {    /* an even number of steps ends in order */
+    for (int k = 0; k < (edges ? 8 : 12); k++) {    /* even: the last step sorts into `order` */
         uint32_t start[257] = { 0 }, *sorted = other;
         for (uint32_t i = 0; i < count; i++) start[shade__key_byte(m, edges, i, k) + 1]++;
         for (int b = 0; b < 256; b++) start[b + 1] += start[b];
@@ -8275,7 +8275,7 @@ static int shade__is_transposed(const shade_mat4 *m)
     const int from_point = m->col[0].w == 0 && m->col[1].w == 0 &&
                            !shade__within(z.x * z.x + z.y * z.y + z.z * z.z - 1, 0.01f);
     if (shade_mat4_determinant(*m) == 0) return 0;
-    if (last.w == 0)    /* z.w is none of 0, 1 and -1 */
+    if (last.w == 0)    /* z.w is not 0, 1 or -1 */
         return (last.z == 1 || last.z == -1) && z.w * (1 - z.w * z.w) != 0;
     return last.w == 1 && shade__is_zero(shade__xyz(last)) && !shade__is_affine(m) && !from_point;
 }
@@ -9427,7 +9427,7 @@ typedef struct shade__tally {
     int         any_w;                   /* 1: some w is not 0 */
     long long   fragments;               /* all of them; of these: */
     long long   discarded, clear;        /* alpha is 0 */
-    long long   nan, dark, bright;       /* a channel is; all are stored as 0; one is 16 or more */
+    long long   nan, dark, bright;       /* a channel is; all are dim; one is 16 or more */
 } shade__tally;
 
 /* A draw that is run again. */
