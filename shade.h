@@ -45,39 +45,39 @@
    reflections or physically based materials.                                            >>about
 
    >>contents
-     The number is the line in which a section's banner begins.  The tag that ends a banner names
-     the next section; in and out are what a section takes and gives, holds is what must stay true.
-     A way is the order of calls, in names without shade__: "a: b, c; d" is a, which calls b and
-     then c, followed by d.  A function stands below those that it calls: read a section from its
-     end up, along its way.
+     The number is the line of a section's banner.  In a banner, in and out are the input and the
+     output, holds is an invariant, and the tag at the end names the next section.  way is the order
+     of calls, in names without shade__.  For example, "a: b, c; d" means that a calls b, then c,
+     and that d follows a.  Callees stand above their callers: read a section from its end upward,
+     along its way.
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     127  options               >>types      254  materials, lamps, targets, states
-       >>light      431  the equation, colour  >>draw       538  shaders, meshes, pixels
-       >>tools      682  why, lines, rays, ... >>plumbing   862  compilers, flags and bits
-       >>math      1000  vectors and matrices
-     Inside: words that the rest is written in
-       >>machine   1360  processors            >>base      1585  bits, masks, rows of vectors
-       >>matrix    1783  cameras, inverses     >>power     2060  x^n
-       >>pixels    2126  formats, sRGB
+       >>config     129  options               >>types      256  materials, lamps, targets, states
+       >>light      434  the equation, colour  >>draw       541  shaders, meshes, pixels
+       >>tools      694  explain, lines, rays  >>plumbing   886  compilers, flags and bits
+       >>math      1025  vectors and matrices
+     Inside: the vocabulary of the rest
+       >>machine   1385  processors            >>base      1620  bits, masks, rows of vectors
+       >>matrix    1817  cameras, inverses     >>power     2094  x^n
+       >>pixels    2160  formats, sRGB
      Inside: light
-       >>lamps     2434  attenuation, cones    >>terms     2686  one term at one point
-       >>surface   2761  material and lights   >>lit       2878  the whole sum, at many points
+       >>lamps     2468  attenuation, cones    >>terms     2720  one term at one point
+       >>surface   2795  material and lights   >>lit       2912  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3267  who owns what         >>vertices  3476  shading, projection
-       >>triangles 3685  dropped, cut, edges   >>clip      4044  near, far, behind the eye
-       >>tiles     4236  pixels, depth test    >>cover     4599  what is hidden, tile by tile
-       >>fragments 4869  interpolation, lod    >>texture   5153  texels, filters
-       >>store     5601  blending, packing
+       >>state     3301  fields by owner       >>vertices  3513  shading, projection
+       >>triangles 3715  culling, edge setup   >>clip      4068  near, far, guard band
+       >>tiles     4254  edges and depth test  >>cover     4612  triangles, tile by tile
+       >>fragments 4878  interpolation, lod    >>texture   5151  texels, filters
+       >>store     5600  blending, packing
      Inside: calls of the renderer
-       >>check     5851  refusals              >>seen      6056  what can be seen, chunks
-       >>drive     6178  shade_draw            >>mesh      6367  shade_draw_mesh
-     Inside: tools, which call the renderer; it names none of them
-       >>lines     6772  shade_draw_lines      >>camera    6963  where a draw is seen from
-       >>shape     7057  normals, edges        >>chunks    7425  how boxes are made
-       >>rays      7594  shade_pick            >>survey    7782  experiments on a draw
-       >>explain   8244  why nothing is seen   >>replay    9414  of lines, pipelines
+       >>check     5850  refusals              >>seen      6057  view volume, chunks
+       >>drive     6177  shade_draw            >>mesh      6366  shade_draw_mesh
+     Inside: the tools, which call the renderer; it never calls them
+       >>lines     6770  shade_draw_lines      >>camera    6962  eye and line of sight
+       >>shape     7056  normals, edges        >>chunks    7422  sorting and boxes
+       >>rays      7591  shade_pick            >>survey    7779  experiments on a draw
+       >>explain   8240  why nothing is seen   >>replay    9413  the same for lines, pipelines
        >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
      Sources
        >>refs     10157                        >>history  10187
@@ -99,6 +99,8 @@
      Directions   N, L, V, H and R are unit vectors and all point AWAY from the surface.
      Colour       linear light, unclamped.  Formats of 8 and 5-6-5 bits store clamp(c, 0, 1),
                   rounded to nearest, and 0 for NaN.
+     Rows         of a packet: SHADE_LANES numbers, one a lane; a vector takes three rows.  Of a
+                  picture: the pixels of one y.
      Names        shade__x is private.  _fx8 24.8 fixed point, rw 1/w.
 
    >>model   The equation of light ("iteration four") and its symbols:
@@ -128,23 +130,23 @@
    Options.  Define them before the #include, with the same value in every file of a program.
 
      SHADE_IMPLEMENTATION     compiles the function bodies too; define it in one file only
-     SHADE_STATIC             makes all functions static: a private copy in this file, of which the
-                              compiler leaves out what is not called
+     SHADE_STATIC             makes all functions static: a private copy in this file, from which
+                              the compiler drops those that you do not call
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
-     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
-     SHADE_LANES              vertices or fragments of a packet, which a shader takes at once: a
+     SHADE_ASSERT(x)          checks the library's own invariants; default assert(x)
+     SHADE_LANES              vertices or fragments in a packet, the unit that shaders work on: a
                               power of two from 8 to 256; default 128; 16 suits small stacks
-     SHADE_MAX_VARYINGS       floats that a vertex can hand to fragments, 1 .. 64; default 16.
+     SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
-                              both 11; with a fragment shader of their own 11
+                              both 11; with a fragment shader of your own 11
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
-                              and leaves assertions out
+                              and turns assertions off
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        compiles each hot loop once, for the target of -march
      SHADE_ALLOW_FAST_MATH    lets clang compile the implementation with -ffast-math; the bits
-                              change, and NaN may get through
+                              change, and checks for NaN may fail
 
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
@@ -153,8 +155,8 @@
    also e, g, i, j, o and q.
                                                                                           >>types */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
-/* Within a namespace the three headers below would declare their types there: hundreds of errors.
-   This makes one of them, and its name tells what to do. */
+/* If you include this file inside a namespace, the three headers below would declare their types
+   there, with hundreds of errors.  This makes one error instead, and its name says what to do. */
 struct shade__before_the_namespace_include_float_h_stddef_h_stdint_h;
 typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__global;
 #endif
@@ -291,7 +293,7 @@ typedef struct shade_light {
     shade_vec3 specular;           /* I_s */
     float      constant, linear, quadratic;    /* a, b, c of 1/(a + b r + c r^2); all zero: 1 */
     shade_vec3 spot_direction;     /* where the lamp points, any length; zero: not a spotlight */
-    float      spot_exponent;      /* e; 0: a cone of even light */
+    float      spot_exponent;      /* e; 0: even light within the cone */
     float      spot_cos_cutoff;    /* cos(beta), beta from the axis to the edge of the cone */
 } shade_light;
 
@@ -316,16 +318,17 @@ enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The light that falls on a scene, and the equation for what surfaces reflect.  Positions, normals
-   and eye must be in one space with orthogonal axes of equal scale: world or eye space, never clip
-   space.  On the outline of a coarse mesh some interpolated normals point away from the viewer.
+/* The lights of a scene, and the equation that surfaces are lit by.  Positions, normals and eye
+   must be in one space with orthogonal axes of equal scale: world or eye space, never clip space.
+   On the outline of a coarse mesh some interpolated normals point away from the viewer.
    SHADE_FLAG_TWO_SIDED flips these, which shows as specks; a finer mesh has fewer.
-     Unlit: terms SHADE_TERM_AMBIENT and ambient 1, 1, 1 show k_a times vertex colour and map. */
+     To draw a mesh unlit, set terms to SHADE_TERM_AMBIENT and ambient to 1, 1, 1: you see k_a times
+   vertex colour and map. */
 typedef struct shade_lighting {
-    const shade_light *lights;         /* NULL: none; shade_draw_mesh refuses it with a count */
+    const shade_light *lights;         /* NULL: none; shade_draw_mesh then refuses a count */
     int         light_count;           /* a negative one counts as 0 */
     shade_vec3  ambient;               /* I_a, one for the scene */
-    shade_model model;                 /* an unknown one is BLINN_PHONG; shade_draw_mesh refuses */
+    shade_model model;                 /* unknown: BLINN_PHONG; shade_draw_mesh refuses it */
     unsigned    flags;                 /* SHADE_FLAG_... */
     unsigned    terms;                 /* SHADE_TERM_... */
     shade_vec3  cool, warm;            /* for COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
@@ -347,7 +350,7 @@ typedef enum shade_wrap {
 } shade_wrap;
 typedef enum shade_filter {
     SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
-    SHADE_FILTER_NEAREST,        /* the texel that u, v lie in */
+    SHADE_FILTER_NEAREST,        /* the texel at u, v */
     SHADE_FILTER_TRILINEAR       /* bilinear in two mipmaps, by the level of detail [Williams83] */
 } shade_filter;
 
@@ -364,7 +367,7 @@ typedef struct shade_texture {
     int          mipmap_count;
 } shade_texture;
 
-/* A picture and its depth buffer in the caller's memory. */
+/* A picture and its depth buffer, in your memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
     int   stride;                /* pixels from row to row, of color and depth; 0: width */
@@ -373,8 +376,8 @@ typedef struct shade_target {
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* draws and clears change pixels of this rectangle alone, */
-    int   clip_width, clip_height;    /* and none if it is empty; four zeros: the whole picture */
+    int   clip_x, clip_y;        /* draws and clears change only this rectangle, and nothing */
+    int   clip_width, clip_height;    /* if it is empty; four zeros: the whole picture */
     int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
                                  /* row_count rows; count 0: all rows of the picture */
 } shade_target;
@@ -413,14 +416,14 @@ typedef enum shade_shading {
     SHADE_SHADING_PER_FACE             /* each face is lit at its centroid, with its own normal */
 } shade_shading;
 
-/* What became of the triangles of one call; every call starts from zero.
+/* What happened to the triangles of one call; each call starts from zero.
      triangles = skipped + culled + clipped + rejected + drawn
    Without chunks skipped is 0, and none of the six numbers depends on the clip rectangle. */
 typedef struct shade_stats {
     long long triangles;
     long long skipped;           /* their chunk cannot be seen in the clip rectangle */
     long long culled;            /* they face the wrong way, or have no area after snapping */
-    long long clipped;           /* nothing of them is inside the view volume; not those cut */
+    long long clipped;           /* wholly outside the view volume, not merely cut by it */
     long long rejected;          /* a corner in clip space is NaN, infinite or beyond 1e30 */
     long long drawn;
     long long fragments;         /* pixels in the clip rectangle that passed the depth test */
@@ -441,7 +444,7 @@ SHADE__OPEN
    coefficients >= 0, k <= 1 and lights up to 1e6, away from the jumps of the equation: N.L, L.S -
    cos(beta) and, with SHADE_FLAG_TWO_SIDED, N.V must differ from 0 by more than 1e-6, and |L + V|
    must exceed 2e-6.  A power with an exponent between 0 and 1 is infinitely steep at 0: its base
-   must differ from 0 by 1e-3.  A lamp with another w than 0 and 1 stands at xyz / w, rounded to
+   must differ from 0 by 1e-3.  A lamp with w other than 0 and 1 stands at xyz / w, rounded to
    floats.                                                                                 >>draw */
 
 /* Lamps of one colour: I_d = I_s = color, no ambient light, no attenuation.  direction_of_travel is
@@ -455,10 +458,10 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
                                       float exponent, shade_vec3 color);
 
 /* How much of a lamp arrives at P if nothing is in the way: spot / (a + b r + c r^2), a factor of
-   I_d and I_s.  It is 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P
-   toward the lamp; it is zero where P is the lamp, which is dark there if its cos(beta) > 0.
-   *distance becomes r, or FLT_MAX for a lamp at infinity.  Either may be NULL.  For light NULL all
-   three are zero. */
+   I_d and I_s; 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P toward
+   the lamp.  Where P is the lamp, L is zero, and a cone with cos(beta) > 0 gives no light.
+   *distance becomes r, or FLT_MAX at infinity.  Either may be NULL.  For light NULL all three are
+   zero. */
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: point and to_light are three rows of SHADE_LANES floats, amount is one
@@ -478,8 +481,8 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
-/* The surface points of a packet, in rows of SHADE_LANES floats.  A vector takes three rows that
-   follow each other: pass in->varying[k], for example, or n[0] of a float n[3][SHADE_LANES]. */
+/* The surface points of a packet, in rows of SHADE_LANES floats.  A vector is three consecutive
+   rows: for example in->varying[k], or n[0] of your own float n[3][SHADE_LANES]. */
 typedef struct shade_rows {
     const float *position;      /* P: 3 rows, x, y and z */
     const float *normal;        /* N: 3 rows, of any length */
@@ -488,15 +491,15 @@ typedef struct shade_rows {
     const float *visibility;    /* 1 row for each light, multiplies its I_d and I_s; NULL: 1 */
 } shade_rows;
 
-/* shade_lit for a packet; fragment shaders call it.  Lane i of the rows gives lane i of rgb, three
-   rows that must not overlap the others.  A lane depends on itself alone and has the bits of
-   shade_lit.  Visibility 0 is full shadow, and any other value multiplies as it is; it never hides
-   ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting, rows, position or normal
-   is NULL. */
+/* shade_lit for a packet: call it in your fragment shader.  Lane i of the rows gives lane i of rgb,
+   three rows that must not overlap the others.  A lane depends on itself alone and has the bits of
+   shade_lit.  Visibility 0 is full shadow; 0.5, for example, halves the lamp, and values are not
+   clamped.  It never hides ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting,
+   rows, position or normal is NULL. */
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const shade_rows *rows, float *rgb);
 
-/* The single terms.  They take N, L and V as given: unit vectors. */
+/* The single terms.  Pass unit vectors as N, L and V: they are used as they are. */
 
 /* max(0, N.L) */
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light);
@@ -541,19 +544,25 @@ SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
    indices.  Nothing is ever written outside the target's rows, width and clip rectangle.
                                                                                           >>tools */
 
-/* What a result means and which fields to look at, in English; never NULL. */
+/* ---- results, clearing, textures */
+
+/* What a result means and which fields to check, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
 /* Fills the clip rectangle of both buffers.  NaN as depth is SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
-/* The texture's linear RGBA at u, v.  lod is the level of detail: log2 of texels per pixel.  A
-   negative lod counts as 0, and so do NaN and infinity in u, v and lod. */
+/* The texture's linear RGBA at u, v.  lod is the level of detail, log2 of texels per pixel: for
+   example 1 where a pixel is two texels wide.  A negative lod counts as 0, and so do NaN and
+   infinity in u, v and lod. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
 /* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0; rgba is 4 rows that must
    not overlap the others. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
+
+/* ---- shaders and pipelines */
+
 /* Packets, the arguments of shaders.  Lanes from count on repeat lane count - 1, because shaders
    compute every lane. */
 typedef struct shade_vertex_ids {                 /* vertices to shade */
@@ -589,10 +598,10 @@ typedef void shade_vertex_shader(const void *uniforms, const shade_vertex_ids *S
 typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                    shade_colors *SHADE_RESTRICT out);
 
-/* What shade_draw draws with.  Where lod_texture is set, fragments have a lod for
-   shade_sample_lanes: log2 of the longer of the two steps, in texels of level 0, that (u, v) makes
-   to the next pixel right and below.  The steps are the exact derivatives of the perspective
-   interpolation at the pixel, whatever the interpolation is. */
+/* What shade_draw draws with.  If you set lod_texture, fragments have a lod for shade_sample_lanes:
+   log2 of the longer of the two steps, in texels of level 0, that (u, v) makes to the next pixel
+   right and below.  The steps are the exact derivatives of the perspective interpolation at the
+   pixel, whatever the interpolation is. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
     shade_fragment_shader *fragment;              /* NULL: depth only */
@@ -612,13 +621,15 @@ typedef struct shade_pipeline {
      The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
    it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
    1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
-     Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
-   the same as from one thread, to the bit. */
+     To use threads, let each draw the same triangles with its own clip rectangle or target; the
+   pixels are the same as from one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats);
 
-/* A mesh in the caller's arrays.  Strides are in BYTES and multiples of 4; 0 means tight. */
+/* ---- meshes */
+
+/* A mesh in your arrays.  Strides are in BYTES, multiples of 4; 0 means tightly packed. */
 typedef struct shade_mesh {
     const float *positions;  int position_stride;    /* x, y, z */
     const float *normals;    int normal_stride;      /* any length; NULL: each face has its own */
@@ -650,10 +661,11 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
     float alpha_cutoff;                           /* 0 .. 1; less alpha is discarded */
     shade_raster raster;
     shade_fragment_shader *fragment;              /* NULL: the equations; see shade_draw_mesh */
-    const void *uniforms;                         /* passed to it */
+    const void *uniforms;                         /* passed to fragment */
 } shade_draw_state;
 
-/* The first rows of what a fragment shader of a draw state finds in shade_fragments.varying. */
+/* Where the fragment shader of a draw state finds its input: the first row of each vector in
+   shade_fragments.varying. */
 enum {
     SHADE_VARYING_POSITION = 0,                   /* P, world space */
     SHADE_VARYING_NORMAL = 3,                     /* N, world space; unit at the vertices alone */
@@ -665,43 +677,47 @@ enum {
    camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
    the centroid, with the face's normal and the colour of the first vertex; a map still varies from
    pixel to pixel.
-     Light takes the eye from view alone: highlights are wrong where projection moves the centre of
-   projection, and where the camera looks along +z, as left-handed ones do, the backward axis points
-   away from the viewer; negate eye there in a shader of your own.  shade_explain reports both.
+     Light takes the eye from view alone.  If your projection moves the centre of projection,
+   highlights are wrong.  If your camera looks along +z, as left-handed ones do, its backward axis
+   points away from the viewer: negate eye in a shader of your own.  shade_explain reports both.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments with an alpha below alpha_cutoff are
    discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
    the SHADE_VARYING_... above, lod of diffuse_map, and the eye of the equations: pass in->eye to
-   shade_lit_lanes.  It samples maps itself.  Alpha is (1 - transparency) times its color[3]; ADD,
-   OVER and alpha_cutoff use that.  In depth-only draws it is called only where alpha_cutoff > 0. */
+   shade_lit_lanes, and sample maps yourself.  Alpha is (1 - transparency) times your color[3]; ADD,
+   OVER and alpha_cutoff use that.  Depth-only draws call your shader only if alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
 /*------------------------------------------------------------------------------------------ >>tools
-   What calls the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
+   Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
                                                                                        >>plumbing */
+
+/* ---- explanations */
 
 /* Says in one sentence why a draw gives no picture, or a wrong one, and which field to change; ""
    where nothing is suspicious; never NULL.  Call it after shade_draw_mesh, with the same arguments
-   and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
-   names the field of every refusal, and recognises matrices that are transposed, swapped or made
-   from degrees, meshes out of view, culling, depth that was not cleared, and light that does not
-   arrive or clips.
-   It writes nothing: it draws the mesh again and again, with one thing changed after the other, and
-   counts pixels.  When it says that something is missing, no pixel shows it.  It takes the time of
-   many frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
+   and the stats and depth that it wrote; without stats it cannot say everything.  It names the
+   field of every refusal, and recognises matrices that are transposed, swapped or made from
+   degrees, meshes out of view, culling, depth that was not cleared, and light that does not arrive
+   or clips.
+     It writes nothing: it draws the mesh again and again, changing one thing at a time, and counts
+   pixels.  If it says that something is missing, no pixel shows it.  It takes the time of many
+   frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
    picture is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
 /* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
-   or NULL.  It runs the draw again without a picture, several times, and counts what the shaders
-   give: positions that are NaN or out of view, discarded, black or transparent pixels, what
-   raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
+   or NULL.  It runs the draw again without a picture, several times, and counts what your shaders
+   return: positions that are NaN or out of view, discarded, black or transparent pixels, and what
+   raster.cull, the depth test and the clip rectangle leave out.  It does not change the target. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
                                         const uint32_t *indices, int index_count, int vertex_count,
                                         const shade_stats *stats);
+
+/* ---- chunks */
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
@@ -709,27 +725,29 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
 /* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
    Chunks that the mesh already has are ignored; a corner that is NaN or infinite does not count for
    its box.
-     With indices NULL the triangles stay in their order, which is good where neighbours in the list
-   are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
-   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
-   it, and mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and
-   the halves again, in n log n steps and without further memory.  The order is the same on every
-   machine.
+     With indices NULL the triangles stay in their order, which is good if neighbours in the list
+   are neighbours in space.  Otherwise give indices room for index_count entries, or vertex_count if
+   the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it, and
+   mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and the
+   halves again, in n log n steps, without further memory.  The order is the same on every machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
 /* 0 only if nothing in the box can reach a pixel of the target's clip rectangle and strip.
-   shade_draw_mesh skips chunks by this test; programs with their own pipelines can skip ranges of
-   indices by it.  It allows for all rounding of transforms and clipping, and for any w.  A zero
-   matrix is the identity.  1 for NaN, for low > high, and for a bad target. */
+   shade_draw_mesh skips chunks by this test; use it to skip ranges of indices in your own
+   pipelines.  It allows for all rounding of transforms and clipping, and for any w.  A zero matrix
+   is the identity.  1 for NaN, for low > high, and for a bad target. */
 SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
+
+/* ---- lines */
+
 typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
     float         width;                          /* in pixels; 0 means 1, above 2^25 as 2^25 */
-    shade_cap     cap;                            /* SQUARE adds half the width: joints close */
+    shade_cap     cap;                            /* SQUARE adds half the width, to close joints */
     shade_vec4    color;
     shade_raster  raster;                         /* cull is ignored */
 } shade_line_state;
@@ -739,11 +757,13 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
-/* Says in one sentence why lines are not seen, as shade_explain_draw does; "" where nothing is
+/* Says in one sentence why your lines do not show, as shade_explain_draw does; "" where nothing is
    suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
 SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
                                          int point_count, const shade_line_state *state,
                                          const shade_stats *stats);
+
+/* ---- shape: boxes, normals, edges */
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
@@ -751,30 +771,30 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
-   off-centre frustum that exclude the view axis are ignored.  A projection may turn and move the
-   eye: the view undoes it, for example with a left-handed one, which looks along +z.  Without
-   perspective the eye is one diagonal of the box away.  The identity for NaN, infinity and low >
-   high. */
+   off-centre frustum that exclude the view axis are ignored.  If your projection turns or moves the
+   eye, the view undoes it: for example a left-handed one, which looks along +z.  Without
+   perspective the eye is one diagonal of the box away.  Returns the identity for NaN, infinity and
+   low > high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
-/* Fills normals[vertex_count] with the unit mean of the normals of the faces around each vertex,
-   weighted by their angles there.  Faces with all corners exactly on a line do not count.  The
-   normal of a vertex without faces is zero.                                          [Thurmer98] */
+/* Fills normals[vertex_count].  The normal of a vertex is the mean of the normals of its faces,
+   weighted by the angle of each face there, and made unit.  Faces with all corners exactly on a
+   line do not count.  The normal of a vertex without faces is zero.                  [Thurmer98] */
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
 /* Fills one normal for each corner of each triangle, index_count of them or, without indices,
-   vertex_count: the mean, as above, over the faces around the corner's position that turn by at
-   most the crease angle, n . n_face >= cos_crease, from the corner's own face.  Vertices of equal
-   position count as one.  Time grows with the square of the number of faces around a position.
-   memory must be aligned to 4 and have the bytes that shade_mesh_corner_normals_bytes tells, which
-   are 0 for a bad mesh. */
+   vertex_count.  It is the mean, as above, over those faces around the corner's position that
+   differ from the corner's own face by at most the crease angle: n . n_face >= cos_crease.  For
+   example, cos_crease 0.5 keeps edges of more than 60 degrees hard.  Vertices of equal position
+   count as one.  Time grows with the square of the number of faces around a position.  memory must
+   be aligned to 4 and have shade_mesh_corner_normals_bytes bytes (0 for a bad mesh). */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
 
 /* Lists each edge of a mesh once, with a < b and its one or two triangles (-1: no second one); a
-   third triangle makes a further entry.  Entries are sorted by a, then b.  Room for index_count of
-   them is enough; less gives SHADE_ERROR_CAPACITY, with the number needed in *count. */
+   third triangle makes a further entry.  Entries are sorted by a, then b.  Give edges room for
+   index_count entries; with less you get SHADE_ERROR_CAPACITY, and the number needed in *count. */
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
@@ -784,16 +804,18 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 /* n0.n1 <= threshold, for unit normals. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
+/* ---- rays */
+
 /* The world-space ray through window point x, y (pixel centres are at + 1/2), for every camera that
    draws.  Only the product of projection and view counts, not which of the two holds the camera.
-     The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
-   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
-   by less than 3e-5 of itself from near to far, it starts where clip z = -w: on the near plane or,
-   where z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows, so
-   that it meets first what SHADE_COMPARE_LESS draws.
+     In a perspective, left-handed or not, the ray starts at the eye, where clip x, y and w are 0,
+   and points to where w grows.  Rays are parallel if w is constant along them, or changes by less
+   than 3e-5 of itself from near to far.  Then the ray starts where clip z = -w: on the near plane
+   or, if z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows,
+   and so meets first what SHADE_COMPARE_LESS draws.
      Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
-   camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
-   zero matrices of a draw state pass shade_mat4_identity(). */
+   camera (both w and depth are constant), and for a zero matrix, which is not the identity here: in
+   place of the zero matrices of a draw state pass shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -805,15 +827,17 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 /* The index of the nearest triangle of a mesh that a world-space ray meets, in the sense of
    shade_intersect; ties go to the lowest index.  model places the mesh (zero: identity).
    Degenerate triangles are never hit, nor is a point that rounding puts outside of its triangle's
-   box.  -1: no triangle is hit, or the mesh is bad; *t and *barycentric do not change then.  Either
-   may be NULL.  The call looks at every triangle, or with chunks at the triangles of each box that
-   the ray meets; indices of other triangles are not checked. */
+   box.  Returns -1 if no triangle is hit, or if the mesh is bad; *t and *barycentric do not change
+   then.  Either may be NULL.  The call looks at every triangle, or with chunks at the triangles of
+   each box that the ray meets; indices of other triangles are not checked. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 
+/* ---- pictures and presets */
+
 /* Writes the picture, or the rows of a strip, as a binary PPM ("P6").  RGBA32F is clamped, and
-   encoded where srgb is set.  A sink that returns non-zero ends the call with SHADE_ERROR_IO; a
-   file that could not be written whole stays behind. */
+   encoded if srgb is set.  If your sink returns non-zero, the call ends with SHADE_ERROR_IO.  A
+   file that could not be written completely is not removed. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
@@ -896,7 +920,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
-   The implementation's are SHADE__INLINE: files with other options have other ones. */
+   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
+   the file. */
 #define SHADE__INLINE static SHADE__ALWAYS_INLINE
 #ifdef __cplusplus
 #define SHADE__EXPORT SHADE__ALWAYS_INLINE
@@ -904,7 +929,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__EXPORT SHADE__INLINE
 #endif
 
-/* Compilers fold the builtin with -ffreestanding as well. */
+/* Compilers optimise the builtin even with -ffreestanding. */
 #ifndef SHADE_MEMCPY
 #ifdef SHADE__GNU
 #define SHADE_MEMCPY __builtin_memcpy
@@ -922,9 +947,9 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__SQRT sqrtf
 #endif
 
-/* A product in an inline function.  Where the processor has a fused a b + c, gcc fuses the sums of
-   your file, and a product that it inlines there, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  The fused a b + -0 has the bits of a b, and cannot be fused again. */
+/* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
+   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
 #if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
     (defined(__cplusplus) || !defined(__STRICT_ANSI__))
 #define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
@@ -955,7 +980,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #else
 #define SHADE__COUNTER int
 #endif
-#ifdef __clang__    /* gathers, with AVX-512, what takes less time one by one */
+#ifdef __clang__    /* AVX-512 gathers take longer than loads one by one */
 #define SHADE__ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
 #else
 #define SHADE__ONE_BY_ONE
@@ -966,8 +991,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 /* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
    processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
-   caller to an inlined function: the implementation is exact, and so are the inline functions that
-   it calls; those that you call have SHADE__TIMES.  clang still applies -ffast-math to ?: and to
+   caller to an inlined function.  So the implementation is exact, with the inline functions that
+   it calls; those that you call use SHADE__TIMES.  clang still applies -ffast-math to ?: and to
    calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
    where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
    contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
@@ -1171,7 +1196,7 @@ SHADE__EXPORT shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 }
 
 /* (b - a) x (c - a) made unit: it points to the side from which a, b, c are counter-clockwise.
-   Zero where b or c is a; of three points in a line zero, or some unit vector by rounding. */
+   Zero where b or c is a; for three points on a line zero or, by rounding, some unit vector. */
 SHADE__EXPORT shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
@@ -1304,8 +1329,8 @@ SHADE__EXPORT shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
     return s == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
 }
 
-/* The bodies of these stand in >>matrix.  The inverse is the zero matrix where the determinant
-   comes out as 0, or an entry or 1 / determinant beyond FLT_MAX. */
+/* The bodies of these stand in >>matrix.  An inverse is the zero matrix if the determinant is
+   computed as 0, or if an entry or 1 / determinant is beyond FLT_MAX. */
 SHADEDEF shade_mat3 shade_mat3_identity(void);
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);    /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
@@ -1327,8 +1352,8 @@ SHADEDEF float      shade_radians(float degrees);
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 
 /* World to eye space: eye goes to the origin, center to the -z axis, up to the upper half of the
-   y-z plane.  Where up is parallel to the line of sight, up is arbitrary.  Where eye =
-   center, the camera looks down -z. */
+   y-z plane.  If up is parallel to the line of sight, another up is chosen.  If eye = center, the
+   camera looks down -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
 /* Eye to clip space.  fovy is the whole vertical angle in radians, aspect is width / height, near
@@ -1466,13 +1491,23 @@ typedef uint32_t shade__word;
 
 /* On x86-64 gcc and clang compile each hot loop three times from one always-inlined body: for any
    processor, for AVX2 and for AVX-512.  A call runs the best build that the processor supports.
-   All builds give the same bits, because none uses FMA.
+   All builds give the same bits, because none uses FMA.  For example,
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   defines shade__push_any, shade__push_avx2 and shade__push_avx512.  They differ in the
-   instructions they may use and in shade__width, the number of floats in a vector.  It also defines
+   becomes four functions.  Three are builds, made by SHADE__BUILD: shade__push_any,
+   shade__push_avx512 and
+
+     __attribute__((target("avx2"))) static SHADE__HOT void
+     shade__push_avx2(shade__draw *d, const shade__run *run, int runs)
+     {
+         enum { shade__width = 8 };
+         shade__push_body(d, run, runs);
+     }
+
+   The body may use shade__width, the number of floats in a vector.  The fourth function is the one
+   to call, made by SHADE__CALL_BEST:
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
@@ -1482,8 +1517,8 @@ typedef uint32_t shade__word;
          else shade__push_any(d, run, runs);
      }
 
-   Tests define SHADE__LEVEL as an int expression, 0, 1 or 2, to force a build, and
-   SHADE__TILE_TESTED to count tested tiles. */
+   Elsewhere shade__push calls shade__push_any, the only build.  Tests define SHADE__LEVEL as an int
+   expression, 0, 1 or 2, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
 #ifndef SHADE__TILE_TESTED
 #define SHADE__TILE_TESTED() ((void)0)
 #endif
@@ -1512,7 +1547,7 @@ typedef uint32_t shade__word;
 #endif
 #endif
 #ifdef SHADE__ASK_PROCESSOR
-/* EBX of a leaf of cpuid; its ECX goes to *ecx. */
+/* Returns EBX of a leaf of cpuid, and sets *ecx to its ECX. */
 SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
 {
     uint32_t ebx, edx;
@@ -1572,7 +1607,7 @@ SHADE__INLINE int shade__best_build(void)
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
     SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
     SHADE__CALL_BEST(name, name##_avx512, parameters, arguments, body)
-/* For loops that AVX-512 makes no faster. */
+/* For loops that AVX-512 makes no faster: the AVX2 build serves in place of a third. */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments, body) \
     SHADE__CALL_BEST(name, name##_avx2, parameters, arguments, body)
 #else
@@ -1583,8 +1618,7 @@ SHADE__INLINE int shade__best_build(void)
 #endif
 
 /*------------------------------------------------------------------------------------------- >>base
-   The vocabulary of the rest: floats as bit patterns, selects and clamps without branches, rows of
-   vectors.
+   The vocabulary: floats as bit patterns, selects and clamps without branches, rows of vectors.
      holds   Loops over lanes select by masks and clamp as integers, because gcc turns float selects
              into branches and leaves the loop scalar.  A mask is all ones or all zeros.
                                                                                          >>matrix */
@@ -1630,7 +1664,7 @@ SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
 SHADE__INLINE float shade__number(uint32_t n) { return (float)(int32_t)n; }
 
 /* |x| */
-SHADE__INLINE double shade__size(double x)
+SHADE__INLINE double shade__abs(double x)
 {
     return shade__bits_double(shade__double_bits(x) & 0x7FFFFFFFFFFFFFFFu);
 }
@@ -1652,7 +1686,7 @@ SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 }
 
 /* clamp(x, 0, 1); NaN gives 0. */
-SHADE__INLINE float shade__unit(float x)
+SHADE__INLINE float shade__saturate(float x)
 {
     const int32_t i = shade__ordinal(shade__keep(x, shade__mask(x > 0)));
     return shade__from_ordinal(shade__min(i, 0x3F800000));
@@ -1715,7 +1749,7 @@ SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
     rows->z[i] = v.z;
 }
 
-/* The same for four rows, stride floats apart. */
+/* Puts a vector into four rows, stride floats apart. */
 SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
 {
     rows[i] = v.x;
@@ -1757,13 +1791,13 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT:
-        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not fit";
+        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match";
     case SHADE_ERROR_TARGET:
         return "bad target: width, height, stride, format, color and depth both NULL, "
                "clip_width, clip_height, row_offset, row_count";
     case SHADE_ERROR_MESH:
-        return "bad mesh: positions NULL, a negative count, a stride that is negative or no "
-               "multiple of 4, chunks outside of the triangles";
+        return "bad mesh: positions NULL, a negative count, a stride that is negative or not a "
+               "multiple of 4, chunks beyond the triangles";
     case SHADE_ERROR_STATE:
         return "bad state: an unknown enumerator, transparency, alpha_cutoff, depth_bias, width, "
                "varyings, cos_crease, or a fragment shader without per-fragment shading";
@@ -1773,7 +1807,7 @@ SHADEDEF const char *shade_result_string(shade_result result)
         return "bad texture: pixels NULL, width, height, stride, format, wrap, filter, or "
                "lod_varying";
     case SHADE_ERROR_INDEX:
-        return "bad indices: one at or past vertex_count, or no whole number of triangles";
+        return "bad indices: one at or past vertex_count, or not a whole number of triangles";
     case SHADE_ERROR_CAPACITY: return "not enough room in the caller's memory";
     case SHADE_ERROR_IO: return "writing failed";
     default: return "unknown result";
@@ -1785,11 +1819,11 @@ SHADEDEF const char *shade_result_string(shade_result result)
      holds   A degenerate camera takes every point to z = 2, w = 1, which is outside near or far in
              every convention of depth: nothing is drawn.                                 >>power */
 
-/* Sine and cosine.  The argument is reduced to r = x - k pi/2: pi/2 is the sum of two parts, the
-   higher of 33 bits, so that k times it is exact and r off by 1e-16 up to |k| = 2^20; beyond, r is
-   off by 2^-53 of x, far less than the distance of two floats.  Floats beyond 1e9 lie 64 or more
-   apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow; their next
-   terms are below 5e-17. */
+/* Sine and cosine.  The argument is reduced to r = x - k pi/2.  pi/2 is split into two parts, and
+   the high one has 33 bits, so that k times it is exact.  Up to |k| = 2^20 r is off by 1e-16;
+   beyond, by 2^-53 of x, far less than the distance between two floats.  Floats beyond 1e9 lie 64
+   or more apart, too far for an angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow;
+   their next terms are below 5e-17. */
 static SHADE__COLD void shade__sincos(float radians, double *sine, double *cosine)
 {
     if (!shade__within(radians, 1e9f)) radians = 0;
@@ -1949,7 +1983,7 @@ static shade_mat4 shade__projection(int good, const double e[16])
 /* Cramer's rule.  Columns come in pairs, 0 with 1 and 2 with 3: row i of the inverse is made of
    column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.
    Not inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
-   double -> float -> double, as they would where it is inlined. */
+   double -> float -> double, as they would after inlining. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double e[16], inverse[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
@@ -1989,7 +2023,7 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
     shade_vec3 f = shade__unit_vector(shade_sub(center, eye)), r, u;
     if (shade__is_zero(f)) f = shade_v3(0, 0, -1);
     r = shade__unit_vector(shade_cross(f, shade__unit_vector(up)));
-    if (shade__is_zero(r)) {     /* up is replaced by an axis that f is far from */
+    if (shade__is_zero(r)) {     /* replace up by an axis far from f */
         up = f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0, 1);
         r = shade__unit_vector(shade_cross(f, up));
     }
@@ -2001,9 +2035,9 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
                      shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
 }
 
-/* A perspective in which the eye coordinate z becomes the depth (scale z + offset) / -z.  y is 1 /
-   tan(fovy / 2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the
-   camera degenerate. */
+/* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  y is 1 / tan(fovy /
+   2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the camera
+   degenerate. */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
@@ -2061,8 +2095,8 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
    x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere, and loops over lanes that
    vectorise.
      in      x in [0, 1], n >= 0          out  a value in [0, 1], absolute error below 5e-7
-     method  minimax polynomials.  log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1]: P makes
-             the error relative to -log2 x least, which stays below 1e-6 in floats.  A power turns
+     method  minimax polynomials.  log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1]: P has the
+             least error relative to -log2 x, which stays below 1e-6 in floats.  A power turns
              that into at most 1e-6 / e.  Two degrees more would give 2.7e-8 and cost 4 to 7 % of
              lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2]: relative error 1.1e-7, in floats 2e-7.
              All figures were measured over all floats in [0, 1].                        >>pixels */
@@ -2101,8 +2135,8 @@ SHADE__INLINE float shade__exp2_neg(float u)
 /* A cosine that does not exist: each of its powers is 0, even the zeroth. */
 #define SHADE__NEVER -2.0f
 
-/* n times -log2(min(x, 1)), for shade__exp2_neg; 126, which gives 0, for x <= least: 0 for n > 0,
-   SHADE__NEVER for n = 0.   pre: n >= 0, finite */
+/* n times -log2(min(x, 1)), for shade__exp2_neg.  For x <= least it is 126, which gives 0; least is
+   0 for n > 0, and SHADE__NEVER for n = 0.   pre: n >= 0, finite */
 SHADE__INLINE float shade__power_log(float x, float n)
 {
     const float least = shade__keep(SHADE__NEVER, shade__mask(!(n > 0)));
@@ -2113,7 +2147,7 @@ SHADE__INLINE float shade__power_log(float x, float n)
 
 SHADEDEF float shade_power(float x, float n)
 {
-    float c = shade__unit(x), subnormal = 0;
+    float c = shade__saturate(x), subnormal = 0;
     if (!(n > 0)) return 1;
     if (!shade__within(n, FLT_MAX)) n = FLT_MAX;
     if (c > 0 && c < FLT_MIN) {    /* c 2^24 is normal; from n = 8 on the result is 0 anyway */
@@ -2127,7 +2161,7 @@ SHADEDEF float shade_power(float x, float n)
    Display colours, linear light, and how each format stores a pixel.
      in      bytes of any format, or linear floats          out  linear floats, or a stored pixel
      holds   A new packed format of 1 or 2 bytes, or of four channels of 8 bits, is an enumerator
-             and a row of shade__layouts.
+             and an entry of shade__layouts.
      source  sRGB curve [IEC61966]                                                        >>lamps */
 
 /* From linear light to sRGB and back in two steps, the logarithm and the curve.  Each step gets its
@@ -2155,13 +2189,13 @@ SHADE__INLINE float shade__decode_curve(float c, float u)
 /* The same with c clamped, out of line, for code outside of lane loops. */
 static SHADE__NOINLINE float shade__encode(float c)
 {
-    c = shade__unit(c);
+    c = shade__saturate(c);
     return shade__encode_curve(c, shade__encode_log(c));
 }
 
 static SHADE__NOINLINE float shade__decode(float c)
 {
-    c = shade__unit(c);
+    c = shade__saturate(c);
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
@@ -2319,7 +2353,7 @@ typedef struct shade__layout {
     uint8_t bytes;       /* of a pixel in memory */
     uint8_t swapped;     /* non-zero: its two bytes are not in the processor's order */
     uint8_t shift[4];
-    uint8_t full[4];     /* the value of each channel that stands for 1 */
+    uint8_t full[4];     /* the value of each channel that means 1 */
 } shade__layout;
 
 static const shade__layout shade__layouts[] = {    /* in the order of shade_format */
@@ -2331,7 +2365,7 @@ static const shade__layout shade__layouts[] = {    /* in the order of shade_form
     { 1, 0, { 8, 8, 8, 0 }, { 1, 1, 1, 255 } }             /* A8 */
 };
 
-/* Whether an enumerator lies in 0 .. last.  The sign of an enumeration depends on the compiler. */
+/* 1 if an enumerator lies in 0 .. last.  The sign of an enumeration depends on the compiler. */
 #define SHADE__KNOWN(value, last) ((unsigned)(value) <= (unsigned)(last))
 
 SHADE__INLINE int shade__is_format(shade_format format)
@@ -2341,7 +2375,7 @@ SHADE__INLINE int shade__is_format(shade_format format)
 
 static size_t shade__pixel_bytes(shade_format format) { return shade__layouts[format].bytes; }
 
-/* Whether the processor stores the low byte of an integer first. */
+/* 1 if the processor stores the low byte of an integer first. */
 SHADE__INLINE int shade__low_byte_first(void)
 {
     const uint32_t one = 1;
@@ -2363,7 +2397,7 @@ SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l, int 
     return shade__number(packed >> shade__shift(l, k) & l->full[k]);
 }
 
-/* Whether colours are stored as sRGB: floats never are, and A8 has no colours. */
+/* 1 if colours are stored as sRGB: floats never are, and A8 has no colours. */
 SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 {
     return srgb && l->full[0] > 1;
@@ -2372,7 +2406,7 @@ SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 /* The low two bytes of u, exchanged. */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
 
-/* Loads a packed pixel.  One of 1 or 2 bytes gets the bit above it set.  4 bytes may also be the
+/* Loads a packed pixel.  In 1 or 2 bytes, the bit above them is set.  4 bytes may also be the
    bits of a float. */
 SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes, const int swapped)
 {
@@ -2432,14 +2466,14 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 }
 
 /*------------------------------------------------------------------------------------------ >>lamps
-   One light: how it is made, and how much of it arrives at a point.
+   One light: constructors, and how much of it arrives at a point.
      in      a shade_light, rows of P     out  shade__arrival: rows of L and of the amount of light
      way     shade__place_lamp once a lamp; shade__arrive: come_from_infinity or come_from_point,
              meet_cone, attenuate, apply_cone
      holds   Loops run over the SHADE_LANES points of a packet, or over SHADE__POINT copies of a
              single point, through the same code: both get the same bits.  shade_attenuation and
-             shade_spot, for users, compute one factor each by the plain formula.  The error of
-             1/sqrt stands in >>base, the error of powers in >>power.                     >>terms */
+             shade_spot, which only you call, compute one factor each by the plain formula.  The
+             error of 1/sqrt stands in >>base, the error of powers in >>power.            >>terms */
 
 static shade_light shade__plain_light(shade_vec4 position, shade_vec3 color)
 {
@@ -2497,7 +2531,7 @@ typedef struct shade__lamp {
     float a, nearest;       /* a of the attenuation, or 1 for none; the least r */
     int infinite, spot;
     int falls;              /* the attenuation depends on r */
-    /* What one surface reflects of it, set by >>surface. */
+    /* The light that one surface reflects of it, set by >>surface. */
     shade_vec3 ambient, diffuse, specular;    /* k_a I_La, k_d I_d, k_s I_s */
     int on;                 /* 0: the three are zero, and no other field is set */
 } shade__lamp;
@@ -2521,12 +2555,12 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
-/* What of a lamp arrives at the points of a packet. */
+/* How much of a lamp arrives at the points of a packet. */
 typedef struct shade__arrival {
     SHADE_ALIGNED shade__v3 to_light;    /* L, unit */
     float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
     float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
-    float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
+    float halvings[SHADE_LANES];         /* -log2 of the factor of the cone, (L.S)^e */
     float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
 } shade__arrival;
@@ -2686,7 +2720,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_
 /*------------------------------------------------------------------------------------------ >>terms
    The terms of >>model one by one, for a single point.
      in      unit vectors                  out  cosines, powers, colours
-     holds   Roots are made by sqrtf, not by shade__rsqrt.
+     holds   Square roots come from sqrtf, not from shade__rsqrt.
      source  [Phong75], [Blinn77], [Gooch98]                                            >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
@@ -2759,8 +2793,8 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, s
 SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
 
 /*---------------------------------------------------------------------------------------- >>surface
-   What the points of a call are lit by: defaults are filled in, materials and lights multiplied,
-   terms that are off made zero.
+   The light for all points of a call: defaults are filled in, materials multiplied by lights, and
+   terms that are off set to zero.
      in      a shade_lighting, a material, the eye      out  shade__surface
      way     begin_surface: terms_of, ambient; then begin_tone, or reflect_lamp of the first lamps
                                                                                             >>lit */
@@ -2779,8 +2813,8 @@ typedef struct shade__surface {
     int tone;               /* cool to warm by one lamp; else the equation */
     int lamps;              /* lights to loop over; 0 if no term needs them; 1 for a tone */
     uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
-    uint32_t sign;          /* ANDed to N.L in the diffuse term; TWO_SIDED_ABS: clears its sign */
-    shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the one of the tone */
+    uint32_t sign;          /* a mask for N.L in the diffuse term: TWO_SIDED_ABS clears its sign */
+    shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the tone's */
 } shade__surface;
 
 /* The terms of the model that lighting->terms selects. */
@@ -2946,7 +2980,7 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* Whether there is a highlight: where N.L > 0, or with open wherever N is not zero. */
+/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero. */
 SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 {
     uint32_t either = shade__float_bits(nl) & ~open;
@@ -3040,14 +3074,14 @@ SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 }
 
 /* amount *= visibility.  An amount of 0, outside the cone, stays 0 even for a visibility of NaN. */
-SHADE__INLINE void shade__hide(shade__in visibility, const int n, shade__out amount)
+SHADE__INLINE void shade__shadow(shade__in visibility, const int n, shade__out amount)
 {
     SHADE__FOR(i, n) {
         amount[i] = shade__keep(amount[i] * visibility[i], shade__mask(amount[i] != 0));
     }
 }
 
-/* A packet of vectors 1, 1, 1, which stands for the rows of factors that a call leaves out. */
+/* A packet of vectors 1, 1, 1, for factors that a call leaves out. */
 #define SHADE__ONES_8 1, 1, 1, 1, 1, 1, 1, 1
 #define SHADE__ONES_16 SHADE__ONES_8, SHADE__ONES_8
 #define SHADE__ONES_32 SHADE__ONES_16, SHADE__ONES_16
@@ -3185,7 +3219,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
     if (!(any | s->open | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
-    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
+    if (visibility) shade__shadow(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
     if (SHADE__HAS(SHADE__PLAIN) && !r->rows->albedo && !r->rows->specular)
         shade__combine(r, albedo, albedo, 1, n, rgb);
     else shade__combine(r, albedo, shade__factors(r->rows->specular), 0, n, rgb);
@@ -3265,16 +3299,16 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 }
 
 /*------------------------------------------------------------------------------------------ >>state
-   The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB
-   at the defaults, the queue 12.4 and the batch 8.8 of these.  bench/stack.c measures whole calls:
+   The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 26.2 kB
+   at the defaults, the queue 12.9 and the batch 8.8 of these.  bench/stack.c measures whole calls:
    a lit mesh with a map takes up to 45.8 kB where triangles are clipped, 47.4 kB with clang.
 
      plan      >>drive       fixed before the first triangle, read by all stages
-     supply    >>drive       the triangles that are still to come
+     supply    >>drive       the triangles not yet taken
      incoming  >>vertices    vertices of a batch until they have window positions
      batch     >>vertices    vertices in the window and the triangles among them
      setup     >>triangles   up to SHADE__TRIANGLES triangles, a lane each
-     bounds    >>cover       the depths behind which big triangles hide everything
+     bounds    >>cover       depths: big triangles hide all that lies behind them
      queue     >>fragments   pixels that passed the depth test, until a packet of them is shaded
 
      The life of a packet.  A stage calls the next one through its prototype below:
@@ -3304,8 +3338,8 @@ typedef struct shade__run { int32_t x, y, n, triangle; } shade__run;
 /* The depth test as masks: the comparisons that pass, and whether depth is written. */
 typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
 
-/* The values of a vertex are z, 1/w and the varyings.  Where a level of detail is wanted without
-   perspective, u and v follow once more, divided by w. */
+/* The values of a vertex are z, 1/w and the varyings.  With a lod_texture, but without perspective,
+   u and v follow once more, divided by w. */
 enum {
     SHADE__FIRST = 2,                 /* z and 1/w stand before the varyings */
     SHADE__SIDE_MAX = 16384,          /* pixels or texels of a side of a picture */
@@ -3324,10 +3358,10 @@ enum {
      flag            set where                                        read by
      zero_to_one     the raster says so                               >>vertices, >>clip
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
-     queued          the fragment shader's result counts              >>tiles (runs go on)
+     queued          the fragment shader's result is used             >>tiles (sends runs)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
-     inputs_unread   the shader is of this file, early, no dither     >>fragments
-     lod             lod_texture is set; the index of u, else 0       >>fragments */
+     inputs_unread   the shader is ours, early is set, no dither      >>fragments
+     lod             lod_texture is set: the value of u, else 0       >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
     const shade_pipeline *pipe;
@@ -3337,9 +3371,9 @@ typedef struct shade__plan {
     const shade__layout *layout;      /* of the target's pixels */
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
-    int      values, value_stride;    /* floats of a vertex, and of its place: a multiple of 8 */
+    int      values, value_stride;    /* floats of a vertex; its stride, a multiple of 8 */
     int      divided;                 /* values from this one on are kept divided by w */
-    int      lod;                     /* the value that is u / w, followed by v / w; 0: no lod */
+    int      lod;                     /* u / w is this value, v / w the next; 0: no lod */
     int      varyings;
     int      zero_to_one;
     int      early;                   /* depth is tested by >>tiles */
@@ -3368,7 +3402,7 @@ typedef struct shade__batch {
     int           parts;
     shade__part   part[SHADE__PARTS + 1];
     uint8_t       corner[SHADE__BATCH_TRIANGLES][4];    /* as in shade__setup */
-    uint32_t      out;                /* outcodes of all its vertices */
+    uint32_t      out;                /* the outcodes of all its vertices, ORed */
     shade__vertex vertex[SHADE_LANES];
     SHADE_ALIGNED float value[SHADE__BATCH_FLOATS];
 } shade__batch;
@@ -3380,7 +3414,7 @@ typedef struct shade__incoming {
     uint8_t  slot_of[2 * SHADE_LANES];    /* and its vertex */
 } shade__incoming;
 
-/* The rest of a clipped triangle: a fan around its first corner. */
+/* What clipping leaves of a triangle: a fan around its first corner. */
 typedef struct shade__polygon {
     shade__vertex vertex[SHADE__CLIP_VERTICES];
     float    value[SHADE__CLIP_VERTICES * SHADE__VALUES_MAX];
@@ -3400,17 +3434,17 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
-    /* what they become.  Corners are counted from here on as turn orders them. */
+    /* the triangles set up.  turn says which corner is the far one, and which are 1 and 2 */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  x0[SHADE__TRIANGLES], y0[SHADE__TRIANGLES];    /* the box of pixels, ends included; */
     int32_t  x1[SHADE__TRIANGLES], y1[SHADE__TRIANGLES];    /* empty where x1 < x0 or y1 < y0 */
-    float    side[4][SHADE__TRIANGLES];      /* from corner 0: x1 y1 x2 y2, over twice the area */
-    float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - corner 0, exact */
-    float    z0[SHADE__TRIANGLES];           /* the plane of depth: at corner 0, */
+    float    side[4][SHADE__TRIANGLES];      /* far corner to 1 and 2, x y x y; over 2 area */
+    float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - far corner, exact */
+    float    z0[SHADE__TRIANGLES];           /* the plane of depth: at the far corner */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
     float    z_low[SHADE__TRIANGLES], z_high[SHADE__TRIANGLES];   /* of the corners, in [0, 1] */
-    uint32_t turn[SHADE__TRIANGLES];  /* order of the corners 0 .. 5; from 3 on front-facing */
+    uint32_t turn[SHADE__TRIANGLES];  /* which order, 0 .. 5; from 3 on front-facing */
 } shade__setup;
 
 typedef struct shade__bounds {
@@ -3420,9 +3454,9 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* up to shade__flush varyings are over w in perspective,
-                                         and lod is the squared step in texels */
+    shade_fragments f;                /* with perspective, varyings are over w until the flush */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
+    float    step[SHADE_LANES];       /* to the next pixel, in texels, squared: for lod */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
@@ -3440,10 +3474,10 @@ SHADE__INLINE uint32_t shade__index(shade__indices list, size_t i)
 /* The triangles of a draw, handed out in their order. */
 typedef struct shade__supply {
     shade__indices indices;
-    int first, end;                   /* of the triangles at hand */
+    int first, end;                   /* of the triangles being taken */
     int (*more)(shade__draw *);       /* shade__next_chunk, linked with meshes only; or NULL */
     int chunks;                       /* how many are left */
-    const shade_chunk *chunk;         /* the next of them */
+    const shade_chunk *chunk;         /* the next one */
     const shade__frustum *frustum;    /* what they are tested against */
 } shade__supply;
 
@@ -3451,17 +3485,20 @@ struct shade__draw {
     shade__plan    plan;
     shade__supply *supply;
     shade_stats    stats;
-    float          unread[SHADE__TILE];    /* written where depth is tested later or not at all */
+    float          unread[SHADE__TILE];    /* stands in for depth, tested later or not at all */
     shade__bounds  bounds;
     shade__batch   batch;
     shade__setup   setup;
-    union { shade__incoming in; shade__queue queue; } u;    /* in until a batch has its places */
+    union {                           /* one after the other in the same memory: */
+        shade__incoming incoming;     /* until shade__place has returned */
+        shade__queue    queue;        /* from shade__triangles to its last flush */
+    } u;
 };
 
 /* vertices: takes the next triangles and their vertices, up to SHADE_LANES; then shades these */
 static void shade__take_batch(shade__draw *d);
 static void shade__shade_vertices(shade__draw *d);
-/* triangles: sets up those of the batch, SHADE__TRIANGLES at a time: edges, box, depth */
+/* triangles: sets up the batch's, SHADE__TRIANGLES at a time: edges, box, depth */
 static void shade__triangles(shade__draw *d);
 /* clip: the polygon that near, far, w > 0 and the guard band leave of a triangle; 0: nothing */
 static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__polygon *fan);
@@ -3479,7 +3516,7 @@ static void shade__store(shade__draw *d, shade_colors *c);
      way     take_batch: take_triangles; shade_vertices: the user's shader, place: classify,
              project, gather
      holds   A vertex is shaded once a batch, or twice if an index that differs by a multiple of
-             2 SHADE_LANES came between.  A vertex without a window position gets a harmless one
+             2 SHADE_LANES comes between.  A vertex without a window position gets a harmless one
              and a bit in its outcode; >>triangles then drops or clips its triangles.
                                                                                       >>triangles */
 
@@ -3526,7 +3563,7 @@ SHADE__INLINE uint32_t shade__beyond(float c)
     return shade__mask(!shade__within(c, 1e30f));
 }
 
-/* Bits 0 .. 3: the point is left of, right of, below or above a square. */
+/* Bits 0 .. 3: the point is left of, right of, below or above the square |x|, |y| <= limit. */
 SHADE__INLINE uint32_t shade__sides_passed(float x, float y, float limit)
 {
     return (shade__mask(x < -limit) & 1) | (shade__mask(x > limit) & 2) |
@@ -3538,17 +3575,15 @@ SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w, int ze
     const uint32_t nearer = shade__mask(z < (zero_to_one ? 0 : -w)) & SHADE__OUT_NEAR;
     const uint32_t farther = shade__mask(z > w) & SHADE__OUT_FAR;
     const uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w);
-
     return shade__sides_passed(x, y, w) | nearer | farther | (bad & SHADE__OUT_BAD) |
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
 
-/* Outcodes, and clip positions: 0, 0, 0, 1 for vertices that get no window position. */
+/* Outcodes and clip positions.  A vertex without a window position gets 0, 0, 0, 1. */
 SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int zero_to_one,
                                    shade__placed *SHADE_RESTRICT p)
 {
     shade__in cx = v->clip[0], cy = v->clip[1], cz = v->clip[2], cw = v->clip[3];
-
     SHADE_EACH_LANE(i) {
         const float x = cx[i], y = cy[i], z = cz[i], w = cw[i];
         const uint32_t out = shade__outcode(x, y, z, w, zero_to_one) |
@@ -3566,21 +3601,19 @@ SHADE__INLINE void shade__project(double half_width, double half_height, int zer
                                   shade__placed *SHADE_RESTRICT p)
 {
     const double scale = zero_to_one ? 1 : 0.5, offset = zero_to_one ? 0 : 0.5;
-
     SHADE_EACH_LANE(i) { p->x_fx8[i] = shade__snap(p->x[i], p->w[i], half_width, half_width); }
     SHADE_EACH_LANE(i) { p->y_fx8[i] = shade__snap(p->y[i], p->w[i], -half_height, half_height); }
     SHADE_EACH_LANE(i) { p->z[i] = shade__window_depth(p->z[i], p->w[i], scale, offset); }
     SHADE_EACH_LANE(i) { p->rw[i] = 1 / p->w[i]; }
 }
 
-/* Turns rows into one record a vertex, so that a triangle finds its vertex in one place. */
+/* Turns rows into one record for each vertex, so that a triangle finds its corners in one place. */
 SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
                                  const shade_vertices *SHADE_RESTRICT v,
                                  const shade__placed *SHADE_RESTRICT p,
                                  shade__batch *SHADE_RESTRICT b)
 {
     const int stride = plan->value_stride, varyings = plan->varyings;
-
     b->out = 0;
     for (int i = 0; i < n; i++) {
         shade__vertex *to = &b->vertex[i];
@@ -3595,7 +3628,7 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
     }
 
     for (int k = SHADE__FIRST; k < plan->values; k++) {
-        const int again = k - varyings - SHADE__FIRST;    /* of u and v, a second time */
+        const int again = k - varyings - SHADE__FIRST;    /* u and v a second time */
         const float *from = v->varying[again < 0 ? k - SHADE__FIRST
                                                  : plan->pipe->lod_varying + again];
         float *to = b->value + k;
@@ -3610,20 +3643,18 @@ SHADE__INLINE void shade__place_body(shade__draw *d, const shade_vertices *verti
 {
     const shade__plan *plan = &d->plan;
     shade__placed p;
-
     shade__classify(vertices, plan->zero_to_one, &p);
     shade__project(plan->half_width, plan->half_height, plan->zero_to_one, &p);
-    shade__gather(plan, d->u.in.ids.count, vertices, &p, &d->batch);
+    shade__gather(plan, d->u.incoming.ids.count, vertices, &p, &d->batch);
 }
 SHADE__DISPATCH_AVX2(shade__place, (shade__draw *d, const shade_vertices *vertices), (d, vertices),
                      shade__place_body(d, vertices))
 
 static void shade__shade_vertices(shade__draw *d)
 {
-    shade_vertices *v = &d->u.in.vertices;
-    shade_vertex_ids *ids = &d->u.in.ids;
+    shade_vertices *v = &d->u.incoming.vertices;
+    shade_vertex_ids *ids = &d->u.incoming.ids;
     const int varyings = d->plan.varyings;
-
     for (int i = ids->count; i < SHADE_LANES; i++) ids->index[i] = ids->index[ids->count - 1];
     SHADE__ZERO(v->clip);
     if (varyings) SHADE_MEMSET(v->varying, 0, (size_t)varyings * sizeof v->varying[0]);
@@ -3631,16 +3662,15 @@ static void shade__shade_vertices(shade__draw *d)
     shade__place(d, v);
 }
 
-/* Takes up to most triangles from first on, while there are at most room vertices; returns the
-   number taken.  Branch-free: slot and index are always written, and only the count depends on
-   whether the vertex is known.  A branch would be mispredicted every other time (2 % of a dense
-   mesh). */
+/* Takes up to `most` triangles from `first` on, as long as there are at most `room` vertices;
+   returns the number taken.  There is no branch: slot and index are always written, and only the
+   count depends on whether the vertex is known.  A branch would be mispredicted every other time (2
+   % of a dense mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
                                         int most, int room, uint8_t (*corner)[4])
 {
     uint32_t *index_of = in->ids.index, at = 3 * first;
     int n = 0, vertices = in->ids.count;
-
     for (; n < most && vertices <= room; n++) {
         for (int k = 0; k < 3; k++, at++) {
             const uint32_t index = shade__index(indices, at);
@@ -3661,10 +3691,10 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indi
 /* Makes a batch of the next triangles of the draw; its count is 0 at the end. */
 static void shade__take_batch(shade__draw *d)
 {
-    shade__incoming *in = &d->u.in;
+    shade__incoming *in = &d->u.incoming;
     shade__batch *b = &d->batch;
     shade__supply *s = d->supply;
-    /* up to room vertices one more triangle fits */
+    /* with this many vertices one more triangle fits */
     const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
 
     SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
@@ -3694,11 +3724,11 @@ static void shade__take_batch(shade__draw *d)
                256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
              A pixel is inside where all three e >= 0.  The coefficients of i and j are multiples
              of 256, so rest is the same for all pixels, and steps of e are exact.  Neighbours get
-             exactly opposite edges.  All values are integers below 2^53, exact in double.  Planes
-             start at corner 0, the farthest: its 1/w is the smallest, and rounding hurts it most.
+             exactly opposite edges.  All values are integers below 2^53, exact in double.
 
              Corners are reordered so that they turn clockwise on the screen and corner 0 is the
-             farthest.  The bias of the three edges 0 1, 1 2, 2 0 is the top-left rule:
+             far corner, the farthest from the eye.  Planes start there: its 1/w is the smallest,
+             and rounding hurts it most.  The bias of the edges 0 1, 1 2, 2 0 is the top-left rule:
 
                  0 -----> 1        top edge, bias 0
                   ^      /         A centre exactly on a shared edge is inside the triangle
@@ -3707,14 +3737,15 @@ static void shade__take_batch(shade__draw *d)
                      2             one of them.  Right and bottom edges: bias -1.
                                                                                            >>clip */
 
-/* Corners of the triangles being set up; x, y and z are reordered, the farthest corner first. */
+/* Corners of the triangles being set up: as submitted, or in the order of the turn, which puts the
+   far corner first and leaves rw out. */
 typedef struct shade__corner_rows {
     SHADE_ALIGNED int32_t x[3][SHADE__TRIANGLES];
     int32_t y[3][SHADE__TRIANGLES];
     float   z[3][SHADE__TRIANGLES], rw[3][SHADE__TRIANGLES];
 } shade__corner_rows;
 
-/* As masks: the corner that becomes the first, and whether the other two are swapped. */
+/* As masks: which corner comes first, and whether the other two are swapped. */
 typedef struct shade__turns {
     SHADE_ALIGNED uint32_t first_is_1[SHADE__TRIANGLES];
     uint32_t first_is_2[SHADE__TRIANGLES], flipped[SHADE__TRIANGLES];
@@ -3743,7 +3774,6 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stri
 {
     SHADE_ALIGNED int32_t xy[3][2 * SHADE__TRIANGLES];
     SHADE_ALIGNED float zw[3][2 * SHADE__TRIANGLES];
-
     for (int i = s->count; i < SHADE__TRIANGLES; i++) SHADE_MEMCPY(s->corner[i], s->corner[0], 4);
     for (int i = 0; i < SHADE__TRIANGLES; i++) {
         for (int k = 0; k < 3; k++) {
@@ -3775,11 +3805,11 @@ SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c, shad
         double x2 = c->x[2][i] - c->x[0][i], y2 = c->y[2][i] - c->y[0][i];
         double a = x1 * y2 - x2 * y1;
         area[i] = (float)a;
-        inverse[i] = 256 / (shade__size(a) + (a == 0 ? 1 : 0));
+        inverse[i] = 256 / (shade__abs(a) + (a == 0 ? 1 : 0));
     }
 }
 
-/* Chooses the order of the corners, and writes its number, 0 .. 5, to order. */
+/* Chooses the order of the corners, far corner first, and writes its number, 0 .. 5, to order. */
 SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT c, shade__in area,
                                        shade__turns *SHADE_RESTRICT t, shade__out_bits order)
 {
@@ -3795,27 +3825,29 @@ SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT 
     }
 }
 
-/* Reorders one value of the three corners: the chosen corner first, then the others in their order,
-   or swapped where flipped is set. */
-SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const shade__turns *SHADE_RESTRICT t)
+/* Reorders one value of the three corners: the far corner first, then the others in their order, or
+   swapped where flipped is set. */
+SHADE__INLINE void shade__turn(const shade__word *SHADE_RESTRICT v,
+                               const shade__turns *SHADE_RESTRICT t, shade__word *SHADE_RESTRICT to)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         const uint32_t is_1 = t->first_is_1[i], is_2 = t->first_is_2[i];
         uint32_t a = v[i], b = v[i + SHADE__TRIANGLES], c = v[i + 2 * SHADE__TRIANGLES];
         uint32_t next = shade__choose(shade__choose(b, c, is_1), a, is_2);
         uint32_t last = shade__choose(shade__choose(c, a, is_1), b, is_2);
-        v[i] = shade__choose(shade__choose(a, b, is_1), c, is_2);
-        v[i + SHADE__TRIANGLES] = shade__choose(next, last, t->flipped[i]);
-        v[i + 2 * SHADE__TRIANGLES] = shade__choose(last, next, t->flipped[i]);
+        to[i] = shade__choose(shade__choose(a, b, is_1), c, is_2);
+        to[i + SHADE__TRIANGLES] = shade__choose(next, last, t->flipped[i]);
+        to[i + 2 * SHADE__TRIANGLES] = shade__choose(last, next, t->flipped[i]);
     }
 }
 
-/* Pixel centres between the extremes of one axis, within lo .. hi, ends included.
-   pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
+/* The range of pixel centres between three corners along one axis, within lo .. hi, ends included.
+   pre: |corner| <= 2^24, 0 <= lo, hi < 2^14
    post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
-SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b, shade__in_ints c, int32_t lo,
-                              int32_t hi, shade__out_ints first, shade__out_ints last)
+SHADE__INLINE void shade__box(int32_t (*corner)[SHADE__TRIANGLES], int32_t lo, int32_t hi,
+                              shade__out_ints first, shade__out_ints last)
 {
+    shade__in_ints a = corner[0], b = corner[1], c = corner[2];
     SHADE__FOR(i, SHADE__TRIANGLES) {
         int32_t least = shade__min(shade__min(a[i], b[i]), c[i]);
         int32_t most = shade__max(shade__max(a[i], b[i]), c[i]);
@@ -3825,7 +3857,7 @@ SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b, shade__in_ints
 }
 
 /* The nearest integer   pre: |x| < 2^51 */
-SHADE__INLINE int64_t shade__whole(double x)
+SHADE__INLINE int64_t shade__round(double x)
 {
     return (int64_t)(shade__double_bits(x + 6755399441055744.0) - 0x4338000000000000u);
 }
@@ -3838,20 +3870,19 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k
                                shade__setup *SHADE_RESTRICT s)
 {
     const int next = k < 2 ? k + 1 : 0;
-
     SHADE__FOR(i, SHADE__TRIANGLES) {
         const int32_t dx = c->x[next][i] - c->x[k][i], dy = c->y[next][i] - c->y[k][i];
         const double x = s->x0[i] * 256 + 128 - c->x[k][i];
         const double y = s->y0[i] * 256 + 128 - c->y[k][i];
         const double bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;
         const double e = dx * y - dy * x + bias;
-        s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
+        s->e[k][i] = shade__round(e * (1 / 256.0) - 127.5 / 256);
         s->ex[k][i] = -dy;
         s->ey[k][i] = dx;
     }
 }
 
-/* The sides from corner 0 to 1 and to 2 over twice the area, for planes: x1, y1, x2, y2. */
+/* The sides from the far corner to 1 and 2 over twice the area, for planes: x1, y1, x2, y2. */
 SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
                                 const double *SHADE_RESTRICT inverse,
                                 shade__setup *SHADE_RESTRICT s)
@@ -3863,8 +3894,8 @@ SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
         }
 }
 
-/* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because
-   rounding leaves that range on slivers.   post: z_low, z_high in [0, 1] */
+/* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because on
+   slivers rounding leaves that range.   post: z_low, z_high in [0, 1] */
 SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c, float bias,
                                       shade__setup *SHADE_RESTRICT s)
 {
@@ -3886,14 +3917,13 @@ SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c
     }
 }
 
-/* Empties the boxes of culled triangles, with -1 as x1; returns their number. */
+/* Empties the boxes of culled triangles, by x1 = -1; returns their number. */
 SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull, shade__in area)
 {
     const uint32_t back = shade__mask(cull == SHADE_CULL_BACK);
     const uint32_t front = shade__mask(cull == SHADE_CULL_FRONT);
     const int n = s->count;
     int culled = 0;
-
     SHADE__FOR(i, SHADE__TRIANGLES) {
         uint32_t none = shade__mask(area[i] == 0), facing = shade__mask(area[i] < 0);
         uint32_t gone = (none | (facing & front) | (~facing & back)) & shade__mask(i < n);
@@ -3910,17 +3940,16 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     const shade_raster *raster = &plan->pipe->raster;
     SHADE_ALIGNED float area[SHADE__TRIANGLES];
     SHADE_ALIGNED double inverse[SHADE__TRIANGLES];
-    shade__corner_rows c;
+    shade__corner_rows given, c;
     shade__turns turns;
-
-    shade__fetch_corners(s, plan->value_stride, &c);
-    shade__areas(&c, area, inverse);
-    shade__choose_turns(&c, area, &turns, s->turn);
-    shade__turn(shade__words(c.x), &turns);
-    shade__turn(shade__words(c.y), &turns);
-    shade__turn(shade__words(c.z), &turns);
-    shade__box(c.x[0], c.x[1], c.x[2], plan->x0, plan->x1 - 1, s->x0, s->x1);
-    shade__box(c.y[0], c.y[1], c.y[2], plan->y0, plan->y1 - 1, s->y0, s->y1);
+    shade__fetch_corners(s, plan->value_stride, &given);
+    shade__areas(&given, area, inverse);
+    shade__choose_turns(&given, area, &turns, s->turn);
+    shade__turn(shade__words(given.x), &turns, shade__words(c.x));
+    shade__turn(shade__words(given.y), &turns, shade__words(c.y));
+    shade__turn(shade__words(given.z), &turns, shade__words(c.z));
+    shade__box(c.x, plan->x0, plan->x1 - 1, s->x0, s->x1);
+    shade__box(c.y, plan->y0, plan->y1 - 1, s->y0, s->y1);
     for (int k = 0; k < 3; k++) shade__edge(&c, k, s);
     shade__sides(&c, inverse, s);
     shade__depth_plane(&c, raster->depth_bias, s);
@@ -3937,7 +3966,6 @@ SHADE__DISPATCH_AVX2(shade__set_up, (shade__draw *d), (d), shade__set_up_body(d)
 static void shade__draw_setup(shade__draw *d)
 {
     const int n = d->setup.count;
-
     if (!n) return;
     shade__set_up(d);
     d->setup.count = 0;
@@ -3949,7 +3977,6 @@ SHADE__INLINE void shade__add_triangles(shade__draw *d, uint8_t (*corner)[4], in
                                         uint32_t primitive)
 {
     shade__setup *s = &d->setup;
-
     while (count > 0) {
         const int n = shade__min(count, SHADE__TRIANGLES - s->count);
         for (int i = 0; i < n; i++) {
@@ -3970,7 +3997,6 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
     const shade_cull cull = d->plan.pipe->raster.cull;
     shade__setup *s = &d->setup;
     shade__polygon fan;
-
     if (!shade__clip(d, corner, &fan)) {
         d->stats.clipped++;
         return;
@@ -3980,7 +4006,7 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
         return;
     }
     d->stats.drawn++;
-    shade__draw_setup(d);    /* what was submitted before */
+    shade__draw_setup(d);    /* first the triangles submitted before */
 
     s->vertex = fan.vertex;
     s->value = fan.value;
@@ -4005,7 +4031,6 @@ SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle, uint32_t primit
     const uint8_t *corner = d->batch.corner[triangle];
     const uint32_t out0 = v[corner[0]].out, out1 = v[corner[1]].out, out2 = v[corner[2]].out;
     const uint32_t any = out0 | out1 | out2;
-
     if (any) {
         if (any & SHADE__OUT_BAD) {
             d->stats.rejected++;
@@ -4026,7 +4051,6 @@ SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle, uint32_t primit
 static void shade__triangles(shade__draw *d)
 {
     shade__batch *b = &d->batch;
-
     d->setup.vertex = b->vertex;
     d->setup.value = b->value;
     d->setup.count = 0;
@@ -4046,11 +4070,11 @@ static void shade__triangles(shade__draw *d)
    most 3 w, plane by plane, and leaves a fan.                                     [Sutherland74]
      in      three vertices of the batch     out  a polygon
      way     clip: polygon_of, clip_plane: new_vertex, place_polygon, apex
-     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds one at most, 2
+     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds at most one, 2
              while a plane cuts, and vertex 0, kept for CONSTANT.  A polygon that rounding made
-             concave may need more vertices, and is dropped.  Other triangles are dropped in
-             >>triangles: by shade__sort_out, if all corners lie outside of one plane, and by
-             shade__draw_fan, if what clipping leaves is culled or has no area.
+             concave may need more vertices, and is dropped.  >>triangles drops other triangles:
+             shade__sort_out those with all corners outside one plane, shade__draw_fan those that
+             clipping leaves culled or without area.
 
                3w  +-----------------------+
                    |      guard band       |      A corner between the picture and the guard band
@@ -4068,7 +4092,6 @@ static void shade__triangles(shade__draw *d)
 static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_one)
 {
     double p[4];
-
     shade__doubles(clip, 4, p);
     const double x = p[0], y = p[1], z = p[2], w = p[3];
     switch (plane) {
@@ -4082,7 +4105,7 @@ static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_
     }
 }
 
-/* t of the way from one number to another, rounded once. */
+/* The number at the fraction t between two numbers, rounded once. */
 static float shade__between(float from, float to, double t)
 {
     const double a = (double)from;
@@ -4090,8 +4113,8 @@ static float shade__between(float from, float to, double t)
 }
 
 /* Adds the vertex where an edge crosses a plane, at the fraction t from in to out.  On the screen
-   that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  As d_out is negative, the sum
-   has positive terms and loses no digits, however different the two w are.
+   that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  Since d_out is negative, both
+   terms are positive and no digits are lost, however different the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
 static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int in, int out,
                                  double d_in, double d_out)
@@ -4099,7 +4122,6 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     double t = d_in / (d_in - d_out), s = t;
     const int v = SHADE__LOWEST_BIT(~p->taken), stride = plan->value_stride;
     const float *from = p->vertex[in].clip, *to = p->vertex[out].clip;
-
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
     p->taken |= 1u << v;
     if (p->in_front) {
@@ -4115,14 +4137,13 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     return (uint8_t)v;
 }
 
-/* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, as each new
-   one takes a bit of taken */
+/* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, since each
+   new one takes a bit of taken */
 static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32_t plane)
 {
     const int zero_to_one = plan->zero_to_one;
     uint8_t kept[SHADE__CLIP_VERTICES];
     int count = 0;
-
     for (int i = 0; i < p->count; i++) {
         if (p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {    /* an edge adds one at most */
             p->count = 0;    /* rounding made it concave, and no place is free: drop it */
@@ -4151,7 +4172,6 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
 {
     const int stride = plan->value_stride;
     uint32_t out = 0;
-
     p->count = 3;
     p->taken = 7;
     p->in_front = 1;
@@ -4176,7 +4196,6 @@ static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 {
     const int zero_to_one = plan->zero_to_one;
     const double half_width = plan->half_width, half_height = plan->half_height;
-
     for (int i = 0; i < p->count; i++) {
         shade__vertex *v = &p->vertex[p->corner[i]];
         float w = shade__maxf(v->clip[3], shade__w_least), rw = 1 / w;
@@ -4198,8 +4217,8 @@ static int64_t shade__fan_area(const shade__polygon *p, int a, int i)
                        &p->vertex[p->corner[(a + i + 1) % p->count]]);
 }
 
-/* Returns a corner around which all triangles of the fan turn as the polygon does, or 0: snapping
-   may have dented the polygon. */
+/* Returns a corner around which all triangles of the fan turn as the polygon does, or 0 if there is
+   none: snapping may have dented the polygon. */
 static int shade__apex(const shade__polygon *p)
 {
     for (int a = 0; a < p->count; a++) {
@@ -4219,7 +4238,6 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
     const uint32_t out = shade__polygon_of(plan, &d->batch, corner, fan);
     uint8_t order[SHADE__CLIP_VERTICES];
     int apex;
-
     for (uint32_t plane = SHADE__OUT_NEAR; plane <= SHADE__OUT_W && fan->count; plane *= 2)
         if (out & plane) shade__clip_plane(plan, fan, plane);
     if (fan->count < 3) return 0;
@@ -4239,37 +4257,37 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
      out     depth (early test), runs of pixels for >>fragments
      way     tile_columns, tile_depth, tile_edges; test_tile: test_columns; add_tile: add_set, send
      method  A tile is 32 x 8 pixels.  For each edge, a tile is outside (skipped), inside (the edge
-             is ignored) or crossed, and then |e| <= 32 |ex| + 7 |ey| fits 32 bits, however large
-             the triangle is.  Rows of tiles begin and end at the edges, so that time depends on
-             the number of tiles that it touches.
+             is ignored) or crossed.  In a crossed tile |e| <= 32 |ex| + 7 |ey| fits 32 bits,
+             however large the triangle is.  Rows of tiles begin and end at the edges, so that time
+             depends on the number of tiles that the triangle touches.
 
                x                    x + columns       columns: tested, a multiple of the vectors
                |     skip                |            skip: tested, but left out, because the tile
                . . . | # # # # - - # # # |  row 0           was moved left into the clip rectangle
-               . . . | - # # # # # # # # |  row 1     #: inside, passes; a bit of set[row]
+               . . . | - # # # # # # # # |  row 1     #: inside and passed; a bit of set[row]
                        |     |     |   |
                        run 0       run 1              runs of row 0: x, y, n of pixels in a row
 
-             Where a row has one run, it stays open: the next tile to the right may extend it.
+             The only run of a row stays open: the next tile to the right may extend it.
      holds   Stores stay in the clip rectangle, that is, in the pixels of this thread.  A value at
-             a pixel has the same bits whichever tile it is in: the base of its row plus
-             its step in x times the exact distance.                                      >>cover */
+             a pixel has the same bits whichever tile it is in: the base of its row plus the step
+             in x times the exact distance.                                               >>cover */
 
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
-    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves a place a row */
+    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves one for each row */
     SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
 };
 
-/* Edge functions in 32 bits: at pixel (x, y), and their steps. */
+/* Edge functions in 32 bits: e at pixel (x, y), and their steps in x and y. */
 typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edges;
 
 /* A triangle while its pixels are found. */
 typedef struct shade__triangle {
-    int      x0, y0, x1, y1;          /* pixels with a centre that may be inside; ends included */
+    int      x0, y0, x1, y1;          /* the box of pixels, ends included */
     int      index;                   /* in the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
-    shade__edges edges;               /* the steps; and e, set by shade__cover_columns */
+    shade__edges edges;               /* the steps; e is set by shade__cover_columns alone */
     float    x_ref, y_ref;
     float    z0, zx, zy, z_low, z_high;
 } shade__triangle;
@@ -4277,10 +4295,11 @@ typedef struct shade__triangle {
 /* Up to 32 pixels of up to 8 rows. */
 typedef struct shade__tile {
     int      x, y, rows;
-    int      skip, columns;           /* columns to leave out on the left; all columns */
+    int      skip, columns;           /* columns left out, on the left; columns tested */
     float   *depth;                   /* of the first pixel */
     int      stride;
-    float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
+    const shade__edges *edges;        /* what the pixels are tested against */
+    float    row_z[SHADE__TILE_ROWS]; /* depth of each row at the far corner's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
     uint32_t any;                     /* 0: all sets are empty */
 } shade__tile;
@@ -4314,7 +4333,7 @@ SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i, shade__trian
     t->z_high = s->z_high[i];
 }
 
-/* Depth of the triangle's plane in row y, at the x of corner 0. */
+/* Depth of the triangle's plane in row y, at the x of the far corner. */
 SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 {
     return t->z0 + t->zy * ((float)y + t->y_ref);
@@ -4330,13 +4349,12 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int
     const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
     const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
     const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
-
     *least = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
     return e;
 }
 
-/* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in any of
-   the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
+/* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in at least
+   one of the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
    SHADE__SIDE_MAX pixels of t->x0 */
 static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
@@ -4353,14 +4371,13 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, 
     }
 }
 
-/* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns whether
-   all three are.   pre: the tile is not outside an edge by more than a column
+/* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns 1 if
+   all three do.   pre: the tile is not outside an edge by more than a column
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
 SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile *tile,
                                     shade__edges *edges)
 {
     int inside = 1;
-
     edges->x = tile->x;
     edges->y = tile->y;
     for (int k = 0; k < 3; k++) {
@@ -4397,8 +4414,8 @@ SHADE__INLINE void shade__set_run(shade__run *run, int triangle, int x, int y, i
     run->triangle = triangle;
 }
 
-/* The runs of a set; bit i stands for pixel x + i of row y.   post: r has room for a run in each
-   row of a tile */
+/* Adds the runs of a set, in which bit i stands for pixel x + i of row y.   post: r has room for a
+   run in each row of a tile */
 static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int triangle, int x,
                                            int y, uint32_t set)
 {
@@ -4407,7 +4424,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int t
         const int n = SHADE__LOWEST_BIT(~(set >> first));    /* ~ is not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
         shade__set_run(&r->run[r->count++], triangle, x + first, y, n);
-        set &= set + (set & (0u - set));    /* without its lowest run */
+        set &= set + (set & (0u - set));    /* clears its lowest run */
     }
     if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
 }
@@ -4420,13 +4437,12 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
 }
 
 /* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
-   open run of its row ends extends that one.  Nearly every set is one run or empty, so that a loop
-   round writes its run without a branch, and counts it only if it is new. */
+   open run of its row ends extends it.  Nearly every set is one run or empty.  So each row writes
+   its run without a branch, and counts it only if it is new. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
                                   const shade__tile *tile, const int joined)
 {
     int pixels = 0, count;
-
     if (!tile->any) return 0;
     if (SHADE__UNLIKELY(r->count > SHADE__RUNS_AHEAD)) shade__send(d, r);
     count = r->count;
@@ -4435,22 +4451,22 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
         const int n = shade__count_bits(set);
         shade__run *run = &r->run[count];
         shade__run *open = &r->run[joined ? r->open[k] : SHADE__RUNS];
-        int goes_on;
+        int extends;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
-            r->count = count;    /* the set is several runs */
+            r->count = count;    /* the set has several runs */
             shade__add_set(d, r, triangle, tile->x, tile->y + k, set);
             count = r->count;
             continue;
         }
         shade__set_run(run, triangle, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u),
                        tile->y + k, n);
-        goes_on = joined && open->x + open->n == run->x;
+        extends = joined && open->x + open->n == run->x;
         if (joined) {
-            open->n += goes_on ? n : 0;
-            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;    /* or the sentinel */
+            open->n += extends ? n : 0;
+            r->open[k] = extends ? r->open[k] : n ? count : SHADE__RUNS;    /* or the sentinel */
         }
-        count += n && !goes_on;
+        count += n && !extends;
     }
     r->count = count;
     return pixels;
@@ -4458,7 +4474,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
 
 /* ---- pixels */
 
-/* The depth test of z against the stored s, as a mask. */
+/* The depth test of z against the stored depth s, as a mask. */
 SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, float z, float s)
 {
     if (less_only) return shade__mask(z < s);
@@ -4466,17 +4482,18 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, floa
            (shade__mask(z > s) & c.greater) | c.always;
 }
 
-/* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.  Depth that is not written may lie in read-only memory, or be shared with other threads:
-   nothing is stored there, not even what it holds.  The loops are plain because SHADE__FOR makes
-   clang 14 keep the rows in memory.
+/* Tests columns at .. at + width - 1 of a tile by depth and, unless copy has SHADE__FULL, by its
+   three edges.  SHADE__LESS: the test is LESS, and depth is written.  Depth that is not written may
+   lie in read-only memory, or be shared with other threads: nothing is stored there, not even what
+   it holds.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
-                                       const shade__edges *SHADE_RESTRICT edges,
                                        shade__tile *SHADE_RESTRICT tile, int at, const int width,
-                                       const int less_only, const int full)
+                                       const int copy)
 {
+    const int less_only = copy & SHADE__LESS, full = copy & SHADE__FULL;
+    const shade__edges *edges = tile->edges;
     const shade__compare test = plan->tile_test;
     const float zx = t->zx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const int x = tile->x + at, skip = tile->skip - at, i0 = x - edges->x, j0 = tile->y - edges->y;
@@ -4489,7 +4506,6 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
     uint32_t all = 0;
-
     for (int i = 0; i < width; i++) {
         e0[i] = i < skip ? SHADE__CUT : a + i * ax;
         e1[i] = b + i * bx;
@@ -4522,12 +4538,11 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
 /* Tests a tile, with a specialised copy for the commonest depth test. */
 SHADE__INLINE void shade__test_tile(const shade__plan *plan,
                                     const shade__triangle *SHADE_RESTRICT t,
-                                    const shade__edges *edges, shade__tile *SHADE_RESTRICT tile,
-                                    const int width, const int full)
+                                    shade__tile *SHADE_RESTRICT tile, const int width,
+                                    const int full)
 {
     const int less = SHADE__HAS(SHADE__LESS) && plan->less_only;
     const int slim = width > 8 && tile->columns <= 8;
-
     SHADE__TILE_TESTED();
     tile->any = 0;
     SHADE__FOR(r, SHADE__TILE_ROWS) {
@@ -4535,24 +4550,24 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
         tile->row_z[r] = shade__row_depth(t, tile->y + r);
     }
     if (slim) {
-        if (less) shade__test_columns(plan, t, edges, tile, 0, 8, 1, 0);
-        else shade__test_columns(plan, t, edges, tile, 0, 8, 0, 0);
+        if (less) shade__test_columns(plan, t, tile, 0, 8, SHADE__LESS);
+        else shade__test_columns(plan, t, tile, 0, 8, 0);
         return;
     }
     for (int at = tile->skip & -width; at < tile->columns; at += width) {
-        if (less) shade__test_columns(plan, t, edges, tile, at, width, 1, full);
-        else shade__test_columns(plan, t, edges, tile, at, width, 0, full);
+        if (less) shade__test_columns(plan, t, tile, at, width, SHADE__LESS | full);
+        else shade__test_columns(plan, t, tile, at, width, full);
     }
 }
 
-/* Tests a tile of a medium or large triangle, with a copy for tiles that are wholly inside. */
+/* Tests a tile of a medium or large triangle, with a copy for tiles wholly inside it. */
 SHADE__DISPATCH(shade__test_large,
                 (const shade__plan *plan, const shade__triangle *SHADE_RESTRICT t,
-                 const shade__edges *edges, shade__tile *SHADE_RESTRICT tile, int full),
-                (plan, t, edges, tile, full),
+                 shade__tile *SHADE_RESTRICT tile, int full),
+                (plan, t, tile, full),
                 if (SHADE__HAS(SHADE__FULL) && full)
-                    shade__test_tile(plan, t, edges, tile, SHADE__TILE, 1);
-                else shade__test_tile(plan, t, edges, tile, shade__width, 0))
+                    shade__test_tile(plan, t, tile, SHADE__TILE, SHADE__FULL);
+                else shade__test_tile(plan, t, tile, shade__width, 0))
 
 /* The columns of a tile for n pixels from x on: 8, or whole vectors.  A tile that would leave the
    clip rectangle is moved to the left, and skips the columns before x. */
@@ -4564,11 +4579,10 @@ SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n, co
     tile->skip = x - tile->x;
 }
 
-/* The depths of a tile.  Without an early test all its rows are the one row draw.unread. */
+/* Finds the depths of a tile.  Without an early test all its rows are draw.unread. */
 SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 {
     const size_t early = (size_t)plan->early, row = (size_t)(tile->y - plan->row_offset);
-
     tile->depth = plan->tested + early * (row * (size_t)plan->stride + (size_t)tile->x);
     tile->stride = plan->early * plan->stride;
 }
@@ -4576,12 +4590,11 @@ SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 /* Tests a tile wider than the n columns of the clip rectangle: each row is copied, tested and
    copied back. */
 static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shade__triangle *t,
-                                             const shade__edges *edges, int n, shade__tile *tile)
+                                             int n, shade__tile *tile)
 {
     const size_t bytes = (size_t)n * sizeof(float);
     float copy[SHADE__TILE];
     shade__tile row = *tile;
-
     SHADE__ZERO(copy);
     row.rows = 1;
     row.depth = copy;
@@ -4589,7 +4602,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
     for (int r = 0; r < tile->rows; r++, row.y++) {
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
-        shade__test_large(plan, t, edges, &row, 0);
+        shade__test_large(plan, t, &row, 0);
         if (plan->tile_test.write) SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
         tile->any |= tile->set[r];
@@ -4603,11 +4616,11 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
      way     cover: cover_small, cover_medium: cover_columns; cover_large: next_stretch,
              cover_stretch
      method  LESS, LESS_EQUAL, GREATER and GREATER_EQUAL only ever bring depth nearer.  Once a
-             triangle fills a rectangle, no pixel there is farther than the triangle's farthest
-             corner of it.  All sums are finite, as slopes are below 2^34, and rounding is
-             monotonic, so that corners bound every depth between, to the bit.  Bounds draw 1000
-             big triangles, 163 Mpixel of overdraw, 3.7 times as fast with AVX-512, and 6.2 times
-             with SSE2.
+             triangle fills a rectangle, no pixel there is farther than the triangle is in the
+             farthest corner of the rectangle.  Slopes are below 2^34, so all sums are finite, and
+             rounding is monotonic: corners bound every depth between them, to the bit.  With bounds
+             1000 big triangles, 163 Mpixel of overdraw, are drawn 3.7 times as fast with AVX-512,
+             and 6.2 times with SSE2.
 
              A triangle in a row of bounds, #, cut into stretches:
 
@@ -4615,11 +4628,11 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan, const shad
                       ^s.x                                ^s.end
                       1-|2----------------|        |3-----|
 
-             A stretch ends before a hidden bound, and where the triangle begins or ceases to fill
+             A stretch ends before a hidden bound, and where the triangle starts or stops filling
              bounds.  Stretch 2 fills its bounds, and brings them nearer.             >>fragments */
 
 /* Columns x .. last of rows y .. bottom of a triangle's box.  In these rows the triangle extends to
-   column end.  inside: it has all of their pixels. */
+   column end.  inside: all of these pixels are inside it. */
 typedef struct shade__stretch { int x, y, last, bottom, end, inside; } shade__stretch;
 
 /* ---- bounds */
@@ -4629,7 +4642,6 @@ typedef struct shade__stretch { int x, y, last, bottom, end, inside; } shade__st
 static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
 {
     int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
-
     b->log_width = 5;
     b->log_height = 3;
     while (((w >> b->log_width) + 1) * ((h >> b->log_height) + 1) > SHADE__BOUNDS) {
@@ -4640,27 +4652,26 @@ static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* away times the depth at pixel x, with the bits that are tested.  row_z is the depth at the x of
-   corner 0. */
+/* away times the depth at pixel x, in the bits that the depth test sees.  row_z is the depth at the
+   x of the far corner. */
 SHADE__INLINE float shade__key(float away, const shade__triangle *t, float row_z, int x)
 {
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
-/* least is the least value of each edge in a rectangle.  Is the same rectangle, moved right by so
-   many pixels (left if negative), inside all edges? */
+/* least has the least value of each edge in a rectangle.  Returns 1 if the same rectangle, moved
+   `right` pixels to the right (to the left if negative), lies inside all edges. */
 SHADE__INLINE int shade__all_inside(const shade__triangle *t, const int64_t least[3], int right)
 {
     int64_t crossed = 0;
-
     for (int k = 0; k < 3; k++) crossed |= least[k] + (int64_t)t->edges.ex[k] * right;
     return crossed >= 0;
 }
 
-/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Moves s->x to
-   the first column that is not hidden, or beyond s->end if all are, and s->last to the last column
-   before one that is hidden or differs in s->inside.  Brings nearer the bounds that the triangle
-   fills. */
+/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Sets s->x to
+   the first column that is not hidden, or beyond s->end if all are hidden.  Sets s->last to the
+   last column before one that is hidden or differs in s->inside.  Brings nearer the bounds that the
+   triangle fills. */
 static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__bounds *b,
                                                 const shade__triangle *t, shade__stretch *s)
 {
@@ -4695,8 +4706,9 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__
 
 /* ---- triangles */
 
-/* Draws a stretch of a triangle.  In the last stretch of a row tiles begin at the edges and may
-   overrun its end.  In the others they begin at multiples of 32 columns, as bounds do. */
+/* Draws a stretch of a triangle.  In the last stretch of a row, tiles begin at the edges, and the
+   last tile may overrun the end.  In other stretches tiles begin at multiples of 32 columns, as
+   bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t, shade__runs *runs,
                                         const shade__stretch *s)
 {
@@ -4705,8 +4717,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
     shade__edges edges;
     shade__tile tile;
     int pixels = 0, inside;
-
     SHADE__ZERO(edges);    /* as for tiles that are inside */
+    tile.edges = &edges;
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
         int first = s->x, last = s->last;
         tile.y = y;
@@ -4721,8 +4733,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
                                 SHADE__TILE / 2, &tile);
             inside = s->inside || shade__tile_edges(t, &tile, &edges);
             shade__tile_depth(plan, &tile);
-            if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
-            else shade__test_large(plan, t, &edges, &tile,
+            if (across < tile.columns) shade__test_copy(plan, t, across, &tile);
+            else shade__test_large(plan, t, &tile,
                                    inside && tile.columns - tile.skip == SHADE__TILE);
             pixels += shade__add_tile(d, runs, t->index, &tile, 1);
         }
@@ -4730,8 +4742,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
 
-/* Is the box narrower than columns, and do its edge functions fit 32 bits, 31 pixels of margin
-   included?  They do if two sides span at most 2^17 / 256 = 512 pixels across and down: |step| <=
+/* Is the box narrower than `columns`, and do its edge functions fit 32 bits, with a margin of 31
+   pixels?  They do if two sides span at most 2^17 / 256 = 512 pixels across and down: |step| <=
    2^18 for all three, and |e| <= 2^29 in the box, as corners and pixels are within 2^18. */
 SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
 {
@@ -4745,7 +4757,6 @@ SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
 SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__tile *tile)
 {
     int32_t most = 0;
-
     for (int k = 0; k < 3; k++) {
         const int32_t ex = edges->ex[k], ey = edges->ey[k];
         const int right = ex > 0 ? SHADE__TILE - 1 : 0, down = ey > 0 ? tile->rows - 1 : 0;
@@ -4754,16 +4765,16 @@ SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__ti
     return most < 0;
 }
 
-/* Draws a small triangle, tile below tile, each tested by all three edges.  narrow: it has one
-   column of tiles.  Returns the number of pixels that passed. */
+/* Draws a small triangle, one column of tiles after the other.  Each tile is tested by all three
+   edges.  narrow: there is only one column of tiles.  Returns the number of pixels that passed. */
 SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade__runs *runs,
                                        const int width, const int narrow)
 {
     const shade__plan *plan = &d->plan;
     shade__tile tile;
     int pixels = 0;
-
     for (int k = 0; k < 3; k++) t->edges.e[k] = (int32_t)t->e[k];
+    tile.edges = &t->edges;
     for (int x = t->x0; x <= (narrow ? t->x0 : t->x1); x += SHADE__TILE) {
         const int n = t->x1 - x + 1;
         shade__tile_columns(plan, x, narrow ? n : shade__min(SHADE__TILE, n), width, &tile);
@@ -4771,22 +4782,22 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t, shade
             tile.rows = shade__min(SHADE__TILE_ROWS, t->y1 - tile.y + 1);
             if (!narrow && shade__tile_outside(&t->edges, &tile)) continue;
             shade__tile_depth(plan, &tile);
-            if (narrow) shade__test_tile(plan, t, &t->edges, &tile, width, 0);
-            else shade__test_large(plan, t, &t->edges, &tile, 0);
+            if (narrow) shade__test_tile(plan, t, &tile, width, 0);
+            else shade__test_large(plan, t, &tile, 0);
             pixels += shade__add_tile(d, runs, t->index, &tile, 0);
         }
     }
     return pixels;
 }
 
-/* Draws a small triangle of up to four columns of tiles, or returns 0 if it is none.  Once bounds
-   have begun shade__cover_large draws all of them, because it skips what bounds hide. */
+/* Draws a small triangle of up to four columns of tiles and returns 1, or returns 0 for other
+   triangles.  Once bounds have begun, shade__cover_large draws all of them, because it skips hidden
+   tiles. */
 static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
     shade__triangle t;
     int pixels;
-
     if (d->bounds.across || plan->x1 - plan->x0 < SHADE__TILE ||
         !shade__is_small(&d->setup, index, 4 * SHADE__TILE))
         return 0;
@@ -4796,7 +4807,7 @@ static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs
     return 1;
 }
 
-/* Draws the parts of a triangle that bounds do not hide. */
+/* Draws the parts of any triangle that bounds do not hide. */
 static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int index)
 {
     const shade__plan *plan = &d->plan;
@@ -4804,7 +4815,6 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     shade__triangle t;
     shade__stretch s;
     int bounded;
-
     shade__triangle_of(&d->setup, index, &t);
     bounded = SHADE__HAS(SHADE__BOUNDED) && t.x1 - t.x0 >= SHADE__TILE - 1 &&
               t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->away != 0;
@@ -4826,8 +4836,9 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     }
 }
 
-/* Draws triangles of the setup from runs->next on, up to the first that is not small and narrow, or
-   to count.  In a clip rectangle narrower than a tile none is: shade__test_copy is needed there. */
+/* Draws triangles of the setup from runs->next on, up to count or to the first that is not small
+   and narrow.  If the clip rectangle is narrower than a tile, none is: shade__test_copy is needed
+   there. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
 {
@@ -4835,7 +4846,6 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     const shade__setup *s = &d->setup;
     const int wide = plan->x1 - plan->x0 >= SHADE__TILE;
     int pixels = 0, i = runs->next;
-
     for (; i < count; i++) {
         shade__triangle t;
         if (((s->x1[i] - s->x0[i]) | (s->y1[i] - s->y0[i])) < 0) continue;
@@ -4850,11 +4860,10 @@ SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int coun
                 (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
 /* Draws all triangles of the setup.  The three functions are called one after the other to save
-   stack; the last can draw any triangle. */
+   stack; the last one can draw any triangle. */
 static void shade__cover(shade__draw *d, int count)
 {
     shade__runs runs;
-
     runs.count = 0;
     runs.run[SHADE__RUNS].x = runs.run[SHADE__RUNS].n = -1;
     for (runs.next = 0; runs.next < count; runs.next++) {
@@ -4867,14 +4876,14 @@ static void shade__cover(shade__draw *d, int count)
 }
 
 /*-------------------------------------------------------------------------------------- >>fragments
-   Pixels that passed, of all triangles of a batch, get their values and levels of detail and wait
-   in a queue until a packet is full; it is then shaded and stored.  On dense meshes this measured 2
-   to 3 times as fast as a packet for each run.
-     in      runs of pixels; the planes of a triangle are made when its first run comes
+   Pixels that passed, of all triangles of a batch, get their values and wait in a queue until a
+   packet is full; it is then shaded and stored.  On dense meshes this measured 2 to 3 times as fast
+   as a packet for each run.
+     in      runs of pixels; the first run of a triangle makes its planes
      out     packets of fragments for the shader, its colours for >>store
      way     push: make_planes, append; flush: undivide, repeat, the user's shader, store
-     holds   Varyings in the queue are divided by w, and multiplied by w again for the shader.  The
-             lanes from count on repeat the last one.                                   >>texture */
+     holds   With perspective, varyings in the queue are divided by w; the flush multiplies them by
+             w for the shader.  Lanes from count on repeat the last one.                >>texture */
 
 enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels appended at once */
 
@@ -4882,7 +4891,7 @@ enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels ap
 typedef struct shade__planes {
     SHADE_ALIGNED float base[SHADE__VALUES_MAX];
     float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
-    float    x_ref, y_ref;            /* 1/2 - position of corner 0, pixels; exact */
+    float    x_ref, y_ref;            /* 1/2 - position of the far corner; exact */
     float    z_low, z_high, rw_low, rw_high;    /* depth and 1/w are clamped to these */
     uint32_t primitive, front;
 } shade__planes;
@@ -4891,8 +4900,8 @@ typedef struct shade__planes {
    are not written. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
-/* The planes of all values in one loop.  k: the sides from corner 0 to 1 (x, y) and from 0 to 2
-   (z, w), divided by twice the area. */
+/* The planes of all values in one loop.  k: the sides from the far corner to corner 1 (x, y) and to
+   corner 2 (z, w), divided by twice the area. */
 SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2, shade_vec4 k, int stride,
                                  shade__planes *SHADE_RESTRICT t)
 {
@@ -4917,12 +4926,11 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
     const float *v1 = s->value + corner[turn[1]] * stride;
     const float *v2 = s->value + corner[turn[2]] * stride;
     const shade_vec4 side = shade_v4(s->side[0][i], s->side[1][i], s->side[2][i], s->side[3][i]);
-
     shade__slopes(v0, v1, v2, side, stride, t);
     t->base[0] = s->z0[i];    /* with the bias */
     t->z_low = s->z_low[i];
     t->z_high = s->z_high[i];
-    t->rw_low = v0[1];    /* corner 0 is the farthest */
+    t->rw_low = v0[1];    /* of the far corner */
     t->rw_high = shade__maxf(v0[1], shade__maxf(v1[1], v2[1]));
     t->x_ref = s->x_ref[i];
     t->y_ref = s->y_ref[i];
@@ -4938,11 +4946,11 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
     }
 }
 
-/* The squared length, in texels, of the longer step of (u, v) to the next pixel, in 8 lanes.  With
-   u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
-SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
-                                     const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
-                                     int back, shade__in rw, shade__out lod)
+/* Appends the squared length, in texels, of the longer step of (u, v) to the next pixel, in 8
+   lanes. With u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
+SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
+                                      const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
+                                      int back, shade__in rw, shade__out step)
 {
     const int k = plan->lod;
     const float w = (float)plan->pipe->lod_texture->width;
@@ -4950,15 +4958,14 @@ SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
     const float u0 = value[k], v0 = value[k + 1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
     const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
-
     SHADE__FOR(i, 8) {
         float px = (float)(x + i) + x_ref, r = 1 / rw[i];
         float u = (u0 + ux * px) * r, v = (v0 + vx * px) * r;
         float a = (ux - u * qx) * r * w, b = (vx - v * qx) * r * h;
         float c = (uy - u * qy) * r * w, e = (vy - v * qy) * r * h;
         float right = a * a + b * b, below = c * c + e * e;
-        float step = shade__select(right, below, shade__mask(below > right));
-        lod[i] = shade__select(step, lod[i], shade__mask(i < back));
+        float longer = shade__select(right, below, shade__mask(below > right));
+        step[i] = shade__select(longer, step[i], shade__mask(i < back));
     }
 }
 
@@ -4971,14 +4978,13 @@ SHADE__INLINE void shade__append_plane(float value, float step, shade__in px, in
     }
 }
 
-/* Window position, triangle and facing; skipped if they are not read. */
+/* Appends window position, triangle and facing; only called if a shader reads them. */
 SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, float row_z,
                                        shade__piece p, shade__in px,
                                        shade_fragments *SHADE_RESTRICT f, const int width)
 {
     const float centre = (float)p.y + 0.5f, zx = t->gx[0];
     const int x = p.x, c = p.lane, back = p.back;
-
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float z = shade__clamp_bits(row_z + zx * px[i], t->z_low, t->z_high);
@@ -5002,7 +5008,6 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     const uint32_t offset = above + (uint32_t)p.x;
     const int x = p.x, c = p.lane, back = p.back;
     float px[SHADE__WIDE];
-
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float rw;
@@ -5017,12 +5022,11 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     if (!plan->inputs_unread) shade__append_place(t, value[0], p, px, &q->f, width);
 }
 
-/* Values of the planes in row y, at the x of corner 0. */
+/* Values of the planes in row y, at the x of the far corner. */
 SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count, int y,
                                      shade__out value)
 {
     const float py = (float)y + t->y_ref;
-
     for (int s = 0; s < count; s += 8) {
         SHADE__FOR(k, 8) { value[s + k] = t->base[s + k] + t->gy[s + k] * py; }
     }
@@ -5036,9 +5040,8 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
     shade__queue *q = &d->u.queue;
     int x = run->x, n = run->n;
     shade__piece p;
-
     p.y = run->y;
-    /* a short run fits one piece: 5 % of a dense mesh */
+    /* a short run fits one piece: saves 5 % of a dense mesh */
     if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
         p.x = x;
         p.lane = q->f.count;
@@ -5060,8 +5063,8 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
         else shade__append(d, t, value, p, 8);
         if (plan->lod)
             for (int i = 0; i < width; i += 8)
-                shade__append_lod(plan, t, value, p.x + i, back, q->rw + p.lane + i,
-                                  q->f.lod + p.lane + i);
+                shade__append_step(plan, t, value, p.x + i, back, q->rw + p.lane + i,
+                                   q->step + p.lane + i);
         x += take;
         n -= take;
         q->f.count += take;
@@ -5073,7 +5076,6 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
 {
     shade__planes t;
     SHADE_ALIGNED float value[SHADE__VALUES_MAX];
-
     for (int k = 0; k < runs; k++) {
         if (!k || run[k].triangle != run[k - 1].triangle)
             shade__make_planes(&d->plan, &d->setup, run[k].triangle, &t);
@@ -5084,11 +5086,10 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
 SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                 shade__push_body(d, run, runs))
 
-/* Fills the lanes of a row from n on with the one before. */
+/* Fills lanes n, n + 1, ... of a row with lane n - 1. */
 static void shade__repeat(void *row, int n)
 {
     shade__word *to = shade__words(row);
-
     for (int i = n; i < SHADE_LANES; i++) to[i] = to[n - 1];
 }
 
@@ -5096,10 +5097,9 @@ static void shade__repeat(void *row, int n)
 static void shade__replicate(shade__queue *q, const shade__plan *plan)
 {
     const int n = q->f.count;
-
     for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
     shade__repeat(q->rw, n);
-    shade__repeat(q->f.lod, n);
+    shade__repeat(q->step, n);
     if (plan->inputs_unread) return;
     shade__repeat(q->f.x, n);
     shade__repeat(q->f.y, n);
@@ -5113,7 +5113,6 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
 SHADE__INLINE void shade__undivide(shade__in rw, shade__out varying, int n)
 {
     SHADE_ALIGNED float w[SHADE_LANES];
-
     SHADE_EACH_LANE(i) { w[i] = 1 / rw[i]; }
     for (int k = 0; k < n; k++, varying += SHADE_LANES) {
         SHADE_EACH_LANE(i) { varying[i] *= w[i]; }
@@ -5125,20 +5124,19 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
     shade_colors c;
-
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
     if (plan->divided == SHADE__FIRST && plan->varyings)
         shade__undivide(q->rw, q->f.varying[0], plan->varyings);
-    if (plan->lod) {    /* log2(square) / 2, of the squared step; NaN counts as 0 */
+    if (plan->lod) {    /* log2 of the step; NaN counts as a step of 0 */
         SHADE_EACH_LANE(i) {
-            float square = shade__keep(q->f.lod[i], shade__mask(q->f.lod[i] >= 0));
+            float square = shade__keep(q->step[i], shade__mask(q->step[i] >= 0));
             q->f.lod[i] = -0.5f * shade__neg_log2(square);
         }
     }
 
     SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
-    if (!plan->inputs_unread) {    /* else the shader sets all that is read: 1 % */
+    if (!plan->inputs_unread) {    /* else our shader sets all that is read: saves 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
@@ -5151,8 +5149,8 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Filters texels for blocks of lanes: places and weights along both axes, a pair of texels in each
-   of two rows of the texture, then their blend, one mipmap after the other.
+   Filters texels for blocks of lanes, one mipmap after the other: places and weights along both
+   axes, a pair of texels above and a pair below, and their blend.
      in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
      way     shade_sample_lanes: sample_levels; level: open_level: address; filter: fetch,
              blend_packed, blend_encoded or blend_floats, add_level
@@ -5160,7 +5158,7 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
              1 - |lod - level|), which is trilinear filtering.                      [Williams83]
                                                                                           >>store */
 
-/* The fault of a texture as a sentence, or NULL. */
+/* A sentence about the fault of a texture, or NULL. */
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
     if (!t->pixels) return "The texture's pixels are NULL; point them at its texels.";
@@ -5168,17 +5166,18 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
         return "The texture's width and height must be from 1 to 16384 texels.";
     if (t->stride && t->stride < t->width)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
-    if (!shade__is_format(t->format)) return "The texture's format is no SHADE_FORMAT_... value.";
+    if (!shade__is_format(t->format))
+        return "The texture's format is not a SHADE_FORMAT_... value.";
     if (!SHADE__KNOWN(t->wrap_u, SHADE_WRAP_MIRROR) || !SHADE__KNOWN(t->wrap_v, SHADE_WRAP_MIRROR))
-        return "The texture's wrap_u or wrap_v is no SHADE_WRAP_... value.";
+        return "The texture's wrap_u or wrap_v is not a SHADE_WRAP_... value.";
     if (!SHADE__KNOWN(t->filter, SHADE_FILTER_TRILINEAR))
-        return "The texture's filter is no SHADE_FILTER_... value.";
+        return "The texture's filter is not a SHADE_FILTER_... value.";
     return NULL;
 }
 
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
-/* A block is 16 lanes, or the whole packet if it is smaller.  Loops run over blocks, so that a
+/* A block is 16 lanes, or the whole packet if that is smaller.  Loops run over blocks, so that a
    single sample costs one block. */
 enum {
     SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
@@ -5188,33 +5187,34 @@ enum {
 /* The blocks that hold n lanes. */
 SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHADE__BLOCK; }
 
-/* SHADE__EACH_BLOCK(i, blocks) { ... } runs the code for the lanes i of the first blocks.  The
-   inner loop, over one block, has a constant length: it becomes vector code without a remainder. */
+/* SHADE__EACH_BLOCK(i, blocks) { ... } runs the code for the lanes i of the first blocks: with 2
+   blocks, for example, for i = 0 .. 31.  The inner loop, over one block, has a constant length: it
+   becomes vector code without a remainder. */
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
 
-/* One axis of a level: for each lane, the texels on both sides of its place. */
+/* One axis of a level: for each lane, the texels before and after its place. */
 typedef struct shade__axis {
     int size;                    /* in texels */
     shade_wrap wrap;
-    uint32_t unit;               /* how far apart neighbours are in i */
+    uint32_t unit;               /* the step of i from texel to texel */
     SHADE_ALIGNED uint32_t i[2][SHADE_LANES];
-    float f[SHADE_LANES];        /* the weight of the texel after; 0 if nearest */
+    float f[SHADE_LANES];        /* the weight of the texel after it; 0 if nearest */
 } shade__axis;
 
 /* One level of a texture, and the texels that some blocks of lanes read. */
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* bytes for each unit of y.i: 1, or a row; x.i counts bytes */
+    size_t y_bytes;              /* the bytes of a unit of y.i: 1, or of a row; x.i counts bytes */
     int nearest, blocks;
-    uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
+    uint32_t apart[SHADE__BLOCKS];        /* of a block; 0: each pair is 8 adjacent bytes */
     shade__axis x, y;
     uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
 
-/* Finds the two texels and the weight of each coordinate, which may be any float, even NaN.
+/* Finds the two texels and the weight for each coordinate, which may be any float, even NaN.
    post: 0 <= i[0], i[1] <= (size - 1) unit */
 SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
                                   shade__axis *SHADE_RESTRICT a)
@@ -5230,8 +5230,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const uint32_t unit = a->unit;
     SHADE_ALIGNED float place[SHADE_LANES];    /* from 0 to 1 */
 
-    /* From 2^24 on all floats are even integers, where a period begins: they are replaced by 0.  So
-       are NaN and infinity; a clamped texture replaces only these. */
+    /* From 2^24 on all floats are even integers, where a period begins, so 0 replaces them.  It
+       also replaces NaN and infinity; if the texture clamps, only these. */
     SHADE__EACH_BLOCK(i, blocks) {
         const uint32_t usable = shade__mask(shade__within(c[i], limit));
         place[i] = shade__keep(c[i], usable) * period;
@@ -5254,7 +5254,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     SHADE__EACH_BLOCK(i, blocks) {
         float s = place[i] * n - half;
         int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s), as s >= -1/2 */
-        i0 = shade__min(i0, last);    /* a place of 1 would be beyond the end if nearest */
+        i0 = shade__min(i0, last);    /* nearest: a place of 1 would lie beyond the end */
         a->f[i] = s - (float)i0;
         a->i[0][i] = (uint32_t)(i0 < 0 ? before : i0) * unit;
         a->i[1][i] = (uint32_t)(i0 < last ? i0 + 1 : after) * unit;
@@ -5316,9 +5316,9 @@ SHADE__INLINE void shade__fetch_pair(const uint8_t *left, shade__word *to)
     SHADE_MEMCPY(to, left, 8);
 }
 
-/* Fetches the pairs of the row above (line 0) or below (1), left and right alternating, one word
-   each; of RGBA32F texels, the words of channel k.  Not inlined, because gcc would vectorise the
-   loads, which takes longer. */
+/* Fetches the pairs of the line above (0) or below (1), left and right alternating, one word each;
+   of RGBA32F texels, the words of channel k.  Not inlined, because gcc would vectorise the loads,
+   which takes longer. */
 static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k, shade__word *to)
 {
     const uint8_t *p = r->pixels + 4 * k;
@@ -5339,7 +5339,7 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
 }
 
 /* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
-   not shifted down: times 1 / mask in place they give the same product, and as they lie below bit
+   not shifted down: in place, times 1 / mask, they give the same product, and as they lie below bit
    31 they are a positive int32_t.  Bilinear textures gain 4 to 10 %. */
 SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
@@ -5355,12 +5355,12 @@ SHADE__INLINE float shade__blend_four(float a, float b, float c, float d, float 
     return top + y * (low - top);
 }
 
-/* The same for channel k of packed texels. */
-SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, uint32_t a, uint32_t b,
-                                    uint32_t c, uint32_t d, float x, float y)
+/* The same for channel k of packed texels, a pair above and a pair below. */
+SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, const uint32_t *above,
+                                    const uint32_t *below, float x, float y)
 {
-    return shade__blend_four(shade__texel(a, l, k), shade__texel(b, l, k), shade__texel(c, l, k),
-                             shade__texel(d, l, k), x, y);
+    return shade__blend_four(shade__texel(above[0], l, k), shade__texel(above[1], l, k),
+                             shade__texel(below[0], l, k), shade__texel(below[1], l, k), x, y);
 }
 
 /* Blends all channels of packed texels. */
@@ -5370,13 +5370,12 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
     const uint32_t *second = texel + 2 * SHADE_LANES;
     const shade__layout l = *r->layout;
     SHADE__EACH_BLOCK(i, r->blocks) {
-        const uint32_t a = texel[2 * i], b = texel[2 * i + 1];
-        const uint32_t c = second[2 * i], d = second[2 * i + 1];
+        const uint32_t *above = texel + 2 * i, *below = second + 2 * i;
         const float x = r->x.f[i], y = r->y.f[i];
-        red[i] = shade__bilinear(&l, 0, a, b, c, d, x, y);
-        green[i] = shade__bilinear(&l, 1, a, b, c, d, x, y);
-        blue[i] = shade__bilinear(&l, 2, a, b, c, d, x, y);
-        alpha[i] = shade__bilinear(&l, 3, a, b, c, d, x, y);
+        red[i] = shade__bilinear(&l, 0, above, below, x, y);
+        green[i] = shade__bilinear(&l, 1, above, below, x, y);
+        blue[i] = shade__bilinear(&l, 2, above, below, x, y);
+        alpha[i] = shade__bilinear(&l, 3, above, below, x, y);
     }
 }
 
@@ -5384,8 +5383,8 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
    and right below. */
 typedef struct shade__corners { float c[3][4][SHADE__BLOCK]; } shade__corners;
 
-/* Looks up a texel of 4 bytes.  Floats are copied as integers, of which processors store more at a
-   time. */
+/* Looks up a texel of 4 bytes.  Floats are copied as integers, because processors store more of
+   these at a time. */
 SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const int corner,
                                         shade__corners *to)
 {
@@ -5428,10 +5427,10 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
     const uint32_t *below = above + 2 * SHADE_LANES;
     SHADE_ALIGNED shade__corners t;
     shade__look_up(&l, above, &t);
-    /* alpha first, while the stores of what was looked up end: 2 to 4 % */
+    /* alpha first, while the stores of shade__look_up finish: saves 2 to 4 % */
     SHADE__FOR(i, SHADE__BLOCK) {
-        out[3 * SHADE_LANES + i] = shade__bilinear(&l, 3, above[2 * i], above[2 * i + 1],
-                                                   below[2 * i], below[2 * i + 1], x[i], y[i]);
+        out[3 * SHADE_LANES + i] =
+            shade__bilinear(&l, 3, above + 2 * i, below + 2 * i, x[i], y[i]);
     }
     for (int k = 0; k < 3; k++) {
         const float *a = t.c[k][0], *b = t.c[k][1], *c = t.c[k][2], *d = t.c[k][3];
@@ -5502,7 +5501,7 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
         shade__blend_encoded(r, texel + 2 * i, r->x.f + i, r->y.f + i, to + i);
 }
 
-/* Filters the texels found: sets four rows, or adds the level to them with its weights. */
+/* Filters the texels of a level.  Sets four rows, or adds to them if there are weights. */
 SHADE__INLINE void shade__filter(const shade__reader *r, int encoded, const float *weight,
                                  float *out)
 {
@@ -5620,7 +5619,7 @@ SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
    rounded up if its fraction reaches 1 - threshold. */
 SHADE__INLINE uint32_t shade__pack_channel(float c, const shade__layout *l, int k, float threshold)
 {
-    const int32_t number = (int32_t)(shade__unit(c) * (float)l->full[k] + threshold);
+    const int32_t number = (int32_t)(shade__saturate(c) * (float)l->full[k] + threshold);
     return (uint32_t)number << shade__shift(l, k);
 }
 
@@ -5664,8 +5663,8 @@ SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba
     }
 }
 
-/* Packs blocks of colours for the target.  For pixels of 2 bytes in sRGB they are encoded in place.
-   Only dithering reads x and y.  RGBA32F colours are left as they are. */
+/* Packs blocks of colours for the target.  Colours for pixels of 2 bytes in sRGB are encoded in
+   place.  Only dithering reads x and y.  RGBA32F colours are left as they are. */
 SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const float *x,
                                     const float *y, uint32_t *packed, int blocks)
 {
@@ -5682,7 +5681,7 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const fl
         float *c = rgba + k * SHADE_LANES;
         SHADE_ALIGNED float u[SHADE_LANES];
         SHADE__EACH_BLOCK(i, blocks) {
-            c[i] = shade__unit(c[i]);
+            c[i] = shade__saturate(c[i]);
             u[i] = shade__encode_log(c[i]);
         }
         SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
@@ -5737,8 +5736,8 @@ static void shade__store_run(const shade_target *t, float *rgba, int x, int y, i
     for (int i = 0; i < n; i++) shade__store_pixel(&l, p + i * l.bytes, packed[i], rgba + i);
 }
 
-/* Tests and writes depth in drawing order, after a shader that may discard. alive: 1 for lanes that
-   store their colour, else 0. */
+/* Tests and writes depth in drawing order, after a shader that may discard.  alive is 1 for lanes
+   that store their colour, else 0. */
 static void shade__late_depth(shade__draw *d, const uint32_t *discard, uint32_t *alive)
 {
     const shade__plan *plan = &d->plan;
@@ -5786,7 +5785,7 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color, shade__in
     for (; i < count; i++) SHADE_MEMCPY(shade__pixel(color, offset[i], 4), packed + i, 4);
 }
 
-/* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  A new mode needs
+/* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  To add a mode, add
    its sum here, its number in shade__raster_fault, its use of alpha in shade__mesh_alpha and
    shade__judge, and in shade__black_is_meant whether black may be meant. */
 SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out stored)
@@ -5802,8 +5801,8 @@ SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out st
     }
 }
 
-/* Blends and stores in drawing order, in pieces of up to a block.  The addresses within a piece
-   rise, so that no pixel is in it twice.  Other lanes of its block are not stored. */
+/* Blends and stores in drawing order, in pieces of up to a block.  Addresses rise within a piece,
+   so that no pixel is in it twice.  The other lanes of its block are not stored. */
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const uint32_t *alive,
                                                  const float *rgba, uint32_t *packed)
 {
@@ -5849,13 +5848,13 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
                      shade__store_body(d, c))
 
 /*------------------------------------------------------------------------------------------ >>check
-   Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
-   a call uses only a shade_result, the functions are inlined, and their sentences vanish.
+   Checks arguments.  A fault is the sentence that shade_explain says about it.  Callers that need
+   only a shade_result inline the check, and the compiler drops the sentences.
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result
      way     draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
-             ladders of the calls.  shade__mesh_rows is laid out here, because a draw that needs
-             more than SHADE_MAX_VARYINGS rows is refused                                  >>seen */
+             ladders of the calls.  shade__mesh_varyings is counted here, because a draw that needs
+             more than SHADE_MAX_VARYINGS is refused                                       >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
@@ -5904,7 +5903,8 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
         return "mesh.index_count is negative; it counts indices, three a triangle.";
     if (strides < 0 || strides % 4)
         return "mesh.position_stride, normal_stride, texcoord_stride or color_stride is negative "
-               "or no multiple of 4; strides count bytes, not floats, and 0 means tightly packed.";
+               "or not a multiple of 4; strides count bytes, not floats, and 0 means tightly "
+               "packed.";
 
     if (m->chunk_count < 0) return "mesh.chunk_count is negative; it counts mesh.chunks.";
     if (!m->chunks)
@@ -5918,33 +5918,34 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
 
 SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
 {
-    if (!SHADE__KNOWN(r->cull, SHADE_CULL_FRONT)) return "raster.cull is no SHADE_CULL_... value.";
+    if (!SHADE__KNOWN(r->cull, SHADE_CULL_FRONT))
+        return "raster.cull is not a SHADE_CULL_... value.";
     if (!SHADE__KNOWN(r->depth_test, SHADE_COMPARE_ALWAYS))
-        return "raster.depth_test is no SHADE_COMPARE_... value.";
+        return "raster.depth_test is not a SHADE_COMPARE_... value.";
     if (!SHADE__KNOWN(r->blend, SHADE_BLEND_ADD))
-        return "raster.blend is no SHADE_BLEND_... value.";
+        return "raster.blend is not a SHADE_BLEND_... value.";
     if (!shade__within(r->depth_bias, FLT_MAX))
         return "raster.depth_bias is NaN or infinite; 0 means none.";
     return NULL;
 }
 
-/* The row at which each varying of a mesh begins; -1: the draw has none of it.
+/* The first varying of each attribute of a mesh; -1: the draw does not have it.
 
-     row                           0        3        6
+     varying                       0        3        6
      lit per fragment              P        N        albedo   u v at 9, without colours at 6
      no lamps, or depth alone      albedo   u v
      lit per vertex or face        light
      the same, with a map          light    rest     u v
-     state.fragment                P        N        albedo   u v at 9; always all 11 rows
+     state.fragment                P        N        albedo   u v at 9; always all 11
 
    A map multiplies the light of vertices, but not the rest of it (emission, highlights). */
-typedef struct shade__mesh_rows {
+typedef struct shade__mesh_varyings {
     int point, normal, light, rest, albedo, uv;
     int count;
-} shade__mesh_rows;
+} shade__mesh_varyings;
 
-/* Takes the next n rows if they are wanted. */
-static int shade__take_rows(shade__mesh_rows *r, int n, int wanted)
+/* Takes the next n varyings if they are wanted. */
+static int shade__take_varyings(shade__mesh_varyings *r, int n, int wanted)
 {
     const int first = r->count;
     if (!wanted) return -1;
@@ -5952,34 +5953,34 @@ static int shade__take_rows(shade__mesh_rows *r, int n, int wanted)
     return first;
 }
 
-static shade__mesh_rows shade__rows_of_mesh(const shade_draw_state *state, int map, int tinted,
-                                            int pn_unread)
+static shade__mesh_varyings shade__varyings_of(const shade_draw_state *state, int map, int tinted,
+                                               int pn_unread)
 {
     const int custom = state->fragment != NULL;
     const int by_pixel = state->shading == SHADE_SHADING_PER_FRAGMENT && !pn_unread;
     const int by_vertex = state->shading != SHADE_SHADING_PER_FRAGMENT && !pn_unread;
-    shade__mesh_rows r;
+    shade__mesh_varyings r;
     SHADE__ZERO(r);
-    r.point = shade__take_rows(&r, 3, by_pixel);
-    r.normal = shade__take_rows(&r, 3, by_pixel);
-    r.light = shade__take_rows(&r, 3, by_vertex);
-    r.rest = shade__take_rows(&r, 3, by_vertex && map);
-    r.albedo = shade__take_rows(&r, 3, !by_vertex && (custom || tinted));
-    r.uv = shade__take_rows(&r, 2, custom || map);
+    r.point = shade__take_varyings(&r, 3, by_pixel);
+    r.normal = shade__take_varyings(&r, 3, by_pixel);
+    r.light = shade__take_varyings(&r, 3, by_vertex);
+    r.rest = shade__take_varyings(&r, 3, by_vertex && map);
+    r.albedo = shade__take_varyings(&r, 3, !by_vertex && (custom || tinted));
+    r.uv = shade__take_varyings(&r, 2, custom || map);
     return r;
 }
 
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m, const shade_draw_state *state)
 {
     if (!SHADE__KNOWN(state->shading, SHADE_SHADING_PER_FACE))
-        return "state.shading is no SHADE_SHADING_... value.";
+        return "state.shading is not a SHADE_SHADING_... value.";
     if (!(state->transparency >= 0 && state->transparency <= 1))
         return "state.transparency must be from 0 (opaque) to 1 (invisible).";
     if (!(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
         return "state.alpha_cutoff must be from 0 (nothing is cut) to 1.";
     if (state->fragment && state->shading != SHADE_SHADING_PER_FRAGMENT)
         return "state.fragment needs state.shading to be SHADE_SHADING_PER_FRAGMENT.";
-    if (shade__rows_of_mesh(state, state->diffuse_map && m->texcoords, m->colors != NULL, 0).count >
+    if (shade__varyings_of(state, state->diffuse_map && m->texcoords, m->colors != NULL, 0).count >
         SHADE_MAX_VARYINGS)
         return "SHADE_MAX_VARYINGS is too small for this draw, which needs 6 varyings, 9 with "
                "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment; lit by "
@@ -5992,7 +5993,7 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
     if (!l->lights && l->light_count > 0)
         return "lighting.lights is NULL while lighting.light_count is not 0.";
     if (!SHADE__KNOWN(l->model, SHADE_MODEL_COOL_TO_WARM))
-        return "lighting.model is no SHADE_MODEL_... value.";
+        return "lighting.model is not a SHADE_MODEL_... value.";
     for (int i = 0; i < l->light_count; i++)
         if (l->lights[i].spot_cos_cutoff != l->lights[i].spot_cos_cutoff)
             return "A light's spot_cos_cutoff is NaN: shade_spot_light takes a cutoff from 0 to pi "
@@ -6003,7 +6004,7 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
 SHADE__INLINE const char *shade__pipeline_fault(const shade_pipeline *p)
 {
     if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT))
-        return "pipeline.interpolation is no SHADE_INTERPOLATION_... value.";
+        return "pipeline.interpolation is not a SHADE_INTERPOLATION_... value.";
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS)
         return "pipeline.varyings must be from 0 to SHADE_MAX_VARYINGS.";
     return shade__raster_fault(&p->raster);
@@ -6017,7 +6018,7 @@ SHADE__INLINE const char *shade__lod_fault(const shade_pipeline *p)
 }
 
 /* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes,
-   because every thread that draws a band checks all of them. */
+   because each thread that draws a band checks all of them. */
 SHADE__INLINE uint32_t shade__any_beyond(shade__indices list, int first, int end, uint32_t n)
 {
     uint32_t beyond = 0;
@@ -6054,10 +6055,10 @@ static shade_result shade__check_corners(const shade_mesh *m)
 }
 
 /*------------------------------------------------------------------------------------------- >>seen
-   What can be visible: the clip rectangle, and boxes against the planes of the view volume.
+   The clip rectangle, and tests of boxes against the planes of the view volume.
      in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn
      way     see_chunks: frustum_of; then next_chunk: in_view, as batches need triangles
-     holds   A box with a pixel in the clip rectangle is never skipped: rounding is allowed for.
+     holds   A box with a pixel in the clip rectangle is never skipped; rounding is allowed for.
      method  A box that lies outside one plane is invisible.                             >>drive */
 
 /* Sets r to the clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the last two
@@ -6091,7 +6092,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, doub
     for (int k = 0; k < 4; k++) {
         const double a = (double)shade__entries(m)[4 * k + row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
-        f->size[k][i] = shade__size(a) + shade__size(limit * w) + (double)FLT_MIN;
+        f->size[k][i] = shade__abs(a) + shade__abs(limit * w) + (double)FLT_MIN;
     }
 }
 
@@ -6102,7 +6103,7 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
 {
     const double w = t->width, h = t->height;
     int r[4];
-    shade__clip_rectangle(t, r);    /* in an empty one nothing is seen anyway */
+    shade__clip_rectangle(t, r);    /* an empty one shows nothing anyway */
     shade__frustum_plane(clip_from_object, 0, 1, 2.0 * r[0] / w - 1, 0, f);
     shade__frustum_plane(clip_from_object, 0, -1, 2.0 * r[2] / w - 1, 1, f);
     shade__frustum_plane(clip_from_object, 1, -1, 1 - 2.0 * r[1] / h, 2, f);
@@ -6112,31 +6113,30 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
     if (!shade__is_finite(clip_from_object)) SHADE__ZERO(*f);    /* no box lies outside */
 }
 
-/* Can the box be visible?  0: it lies outside one plane.  For the centre c and half the extent h
-   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, with an
-   error of 2^-22 of the sum of the |products|, and each of 7 clips adds 2^-24 of it; 2^-20 covers
-   both.  FLT_MIN in frustum.size covers products that underflow, with an error of 2^-148. */
+/* Returns 0 if the box lies outside one plane, else 1.  For the centre c and half the extent h the
+   greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, with an error
+   of 2^-22 of the sum of the |products|, and each of 7 clips adds 2^-24 of it; 2^-20 covers both.
+   FLT_MIN in frustum.size covers products that underflow, with an error of 2^-148. */
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 low, shade_vec3 high)
 {
     double from[3], c[3], h[3], m[3];
     uint64_t signs = 0;
-
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
     shade__double3(low, from);
     shade__double3(high, h);
     for (int k = 0; k < 3; k++) {
         c[k] = (from[k] + h[k]) / 2;
         h[k] -= c[k];
-        m[k] = shade__size(c[k]) + h[k];
+        m[k] = shade__abs(c[k]) + h[k];
     }
     if (!(m[0] + m[1] + m[2] <= DBL_MAX)) return 1;
     SHADE__FOR(i, SHADE__PLANES) {
         double most = f->k[0][i] * c[0] + f->k[1][i] * c[1] + f->k[2][i] * c[2] + f->k[3][i];
         double off = f->size[0][i] * m[0] + f->size[1][i] * m[1];
         off += f->size[2][i] * m[2] + f->size[3][i];
-        most += shade__size(f->k[0][i]) * h[0];
-        most += shade__size(f->k[1][i]) * h[1];
-        most += shade__size(f->k[2][i]) * h[2];
+        most += shade__abs(f->k[0][i]) * h[0];
+        most += shade__abs(f->k[1][i]) * h[1];
+        most += shade__abs(f->k[2][i]) * h[2];
         signs |= shade__double_bits(most + off * (1 / 1048576.0));
     }
     return !(signs >> 63);
@@ -6146,7 +6146,6 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 lo
 static int shade__next_chunk(shade__draw *d)
 {
     shade__supply *s = d->supply;
-
     for (; s->chunks > 0; s->chunks--) {
         const shade_chunk *c = s->chunk++;
         d->stats.triangles += c->count;
@@ -6162,7 +6161,7 @@ static int shade__next_chunk(shade__draw *d)
     return 0;
 }
 
-/* Supplies the chunks of a mesh that can be visible, in place of all its triangles. */
+/* Prepares the supply of a mesh's chunks that can be visible, in place of all its triangles. */
 static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from_object,
                               int zero_to_one, const shade_mesh *mesh, shade__frustum *frustum,
                               shade__supply *s)
@@ -6185,7 +6184,7 @@ static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from
 
 static shade__compare shade__compare_of(const shade_raster *r)
 {
-    /* of LESS, LESS_EQUAL, ...: 1 where less passes, 2 equal, 4 greater */
+    /* for LESS, LESS_EQUAL, ...: 1 if less passes, + 2 if equal does, + 4 if greater does */
     static const uint32_t passing[] = { 1, 3, 4, 6, 2, 0 };
     const uint32_t passes = passing[r->depth_test];
     shade__compare c;
@@ -6236,14 +6235,14 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: no
-   shader of the user reads the fragments. */
+/* Draws to a checked target, and changes the pipeline; it cannot fail.  own: our fragment
+   shader. */
 static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
                                     shade_vec3 eye, shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
-    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* they are not read */
+    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* no shader reads them */
         pipe->varyings = 0;
         pipe->lod_texture = NULL;
     }
@@ -6255,7 +6254,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
     /* lanes without a vertex or triangle compute too: their input must be defined */
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.setup);
-    SHADE__ZERO(d.u.in.slot_of);
+    SHADE__ZERO(d.u.incoming.slot_of);
     d.bounds.across = 0;
     d.supply = supply;
     d.stats.triangles = supply->end;
@@ -6269,7 +6268,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
     return SHADE_OK;
 }
 
-/* Supplies all triangles of a list, one after the other. */
+/* Prepares the supply of all triangles of a list, one after the other. */
 static void shade__supply_all(shade__indices indices, int index_count, shade__supply *s)
 {
     s->indices = indices;
@@ -6297,10 +6296,10 @@ SHADE__INLINE shade_result shade__draw_refusal(const shade_target *t, const shad
     if (*why) return SHADE_ERROR_TEXTURE;
 
     if (index_count % 3)
-        *why = "index_count is no multiple of 3; it counts indices, three a triangle.";
+        *why = "index_count is not a multiple of 3; it counts indices, three a triangle.";
     else if (shade__check_indices(list, 0, index_count, vertex_count))
-        *why = "indices hold one at or past vertex_count, or without indices index_count exceeds "
-               "vertex_count, which counts vertices, not floats.";
+        *why = "indices holds an index at or past vertex_count or, without indices, index_count "
+               "exceeds vertex_count, which counts vertices, not floats.";
     return *why ? SHADE_ERROR_INDEX : SHADE_OK;
 }
 
@@ -6329,8 +6328,8 @@ static void shade__fill(uint8_t *SHADE_RESTRICT p, shade__in pattern, size_t n)
     SHADE_MEMCPY(p, pattern, n);
 }
 
-/* The 256 bytes of a colour from (x, y) on: 8 packed pixels, twice the period of the dither,
-   repeated. */
+/* Writes 256 bytes of a colour, for pixels from (x, y) on: 8 packed pixels, twice the period of the
+   dither, repeated. */
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
                                  uint8_t *pattern)
 {
@@ -6365,16 +6364,16 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 }
 
 /*------------------------------------------------------------------------------------------- >>mesh
-   A mesh is drawn by a vertex shader and a fragment shader, as in any pipeline.
+   A mesh is drawn by a vertex shader and a fragment shader, as by any pipeline.
      in      arrays in object space    out  varyings in world space: P, N, albedo; or one lit colour
      way     shade_draw_mesh: mesh_refusal; scene_of: plan_scene; draw_scene: run_draw, or
-             draw_chunks, which calls it; it calls the shaders.  mesh_vertex: fetch_vertices,
-             fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map; mesh_alpha.  Which
-             rows of the varyings they use: shade__mesh_rows in >>check
-     holds   Where faces have values of their own (normals or light), every corner of a triangle is
-             a vertex: its index is 3 times the triangle's plus the corner's number.  Where no
-             shader reads P and N, they are not computed: textured floors without lamps are drawn
-             1.15 to 1.23 times as fast, with colours 1.02 to 1.04 times.                 >>lines */
+             draw_chunks, which calls run_draw; that calls the shaders.  mesh_vertex:
+             fetch_vertices, fetch_faces, light_vertices.  mesh_fragment: mesh_colors: lit_map;
+             mesh_alpha.  shade__mesh_varyings in >>check says which varyings they use
+     holds   If faces have their own normals or light, every corner of a triangle is a vertex: its
+             index is 3 times the triangle's plus the corner's number.  If no shader reads P and N,
+             they are not computed: textured floors without lamps are drawn 1.15 to 1.23 times as
+             fast, with colours 1.02 to 1.04 times.                                       >>lines */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_mesh *mesh;
@@ -6382,18 +6381,18 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    shade_lighting lighting;             /* at vertices under a map, of terms that it multiplies */
+    shade_lighting lighting;             /* at vertices with a map: terms that the map multiplies */
     unsigned unmapped;                   /* the other terms */
-    shade__surface surface;              /* of lighting */
+    shade__surface surface;              /* made from lighting */
     const shade_texture *map;            /* NULL: none */
-    uint32_t white_map;                  /* of the map only the holes matter */
+    uint32_t white_map;                  /* all ones: the map counts as white, with its holes */
     int face_normals;                    /* N is the normal of the face */
     int corners;                         /* every corner is a vertex */
     int has_picture;                     /* the target has a picture */
-    int tinted;                          /* the mesh has colours that somebody reads */
-    int lit_vertices;                    /* light at its vertices, also where that is once a face */
+    int tinted;                          /* a shader reads the colours of the mesh */
+    int lit_vertices;                    /* light is computed at vertices, or once a face */
     int pn_unread;                       /* no shader reads P and N */
-    shade__mesh_rows row;
+    shade__mesh_varyings first;          /* of each attribute */
 } shade__scene;
 
 enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
@@ -6431,8 +6430,8 @@ SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s, const shade_verte
     return s->corners ? shade__corner_index(s->mesh, in->index[i]) : in->index[i];
 }
 
-/* What the vertices of a packet have in object space: rows of P and, where somebody reads them, of
-   N and albedo. */
+/* Fetches the vertices of a packet, in object space: rows of P and, if a shader reads them, of N
+   and albedo. */
 static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in,
                                                   shade__v3 *point, shade__v3 *normal,
                                                   shade__v3 *albedo)
@@ -6512,8 +6511,8 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
     }
 }
 
-/* Writes the light of vertices to rows 0 .. 2 of rgb; with a map the part that the map multiplies,
-   and the rest to rows 3 .. 5. */
+/* Writes the light of vertices to rows 0 .. 2 of rgb.  With a map these are the part that the map
+   multiplies, and rows 3 .. 5 get the rest. */
 static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
                                   const shade__v3 *normal, const float *albedo, float *rgb)
 {
@@ -6530,24 +6529,23 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     }
 }
 
-/* The rows of a varying, or spare ones where the draw does not have it. */
-SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *spare)
+/* The rows of a vector that begins at a varying, or spare ones for -1. */
+SHADE__INLINE shade__v3 *shade__varying_rows(shade_vertices *out, int first, shade__v3 *spare)
 {
-    return row < 0 ? spare : shade__three_rows(out->varying[row]);
+    return first < 0 ? spare : shade__three_rows(out->varying[first]);
 }
 
-/* Attributes are fetched into the rows of their varyings, or into spare rows where the draw needs
-   them but hands them to no fragment. */
+/* Fetches attributes into the rows of their varyings, or into spare rows if the draw needs them but
+   passes them to no fragment. */
 static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
     shade__v3 spare[3];
-    shade__v3 *point = shade__rows_at(out, s->row.point, &spare[0]);
-    shade__v3 *normal = shade__rows_at(out, s->row.normal, &spare[1]);
-    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &spare[2]);
-
+    shade__v3 *point = shade__varying_rows(out, s->first.point, &spare[0]);
+    shade__v3 *normal = shade__varying_rows(out, s->first.normal, &spare[1]);
+    shade__v3 *albedo = shade__varying_rows(out, s->first.albedo, &spare[2]);
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
     if (!s->pn_unread) {
@@ -6559,13 +6557,13 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->lit_vertices)
         shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL,
-                              out->varying[s->row.light]);
-    if (s->row.uv >= 0 && s->mesh->texcoords)
-        shade__fetch_texcoords(s, in, out->varying[s->row.uv]);
+                              out->varying[s->first.light]);
+    if (s->first.uv >= 0 && s->mesh->texcoords)
+        shade__fetch_texcoords(s, in, out->varying[s->first.uv]);
 }
 
-/* The row of alpha holds the map's alpha, the fragment shader's, or 1.  It is multiplied by the
-   opacity.  The product is stored, compared with the cut-off, and the factor of colours in ADD. */
+/* On entry alpha is the map's, the fragment shader's, or 1.  It is multiplied by the opacity.  The
+   product is stored, compared with the cut-off, and in ADD multiplies colours. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
@@ -6583,8 +6581,8 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
     }
 }
 
-/* Light where the colours of the map, which come in rgb, are the albedo.  It is kept out of line,
-   so that only maps take its stack. */
+/* Lights fragments whose albedo is the map: rgb holds its colours, and receives the light.  Not
+   inlined, so that only maps take its stack. */
 static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
                                            float *rgb)
 {
@@ -6597,21 +6595,21 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_ro
     shade__lit_packet(&s->surface, &mapped, rgb);
 }
 
-/* The rows of a varying; NULL where the draw does not have it. */
-SHADE__INLINE const float *shade__row(const shade_fragments *in, int row)
+/* The rows of a vector that begins at a varying; NULL for -1. */
+SHADE__INLINE const float *shade__varying_row(const shade_fragments *in, int first)
 {
-    return row < 0 ? NULL : in->varying[row];
+    return first < 0 ? NULL : in->varying[first];
 }
 
-/* The colour of the map, lit by what arrives: P and N of the pixel, or light of the vertices.
-   Draws without a picture need the map alone, for the holes that it cuts. */
+/* The colours of fragments: the map, lit at each pixel by P and N, or multiplied by the light of
+   the vertices.  Draws without a picture need the map alone, for the holes that it cuts. */
 static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHADE_RESTRICT in,
                                shade_colors *SHADE_RESTRICT out)
 {
-    const shade__mesh_rows *row = &s->row;
+    const shade__mesh_varyings *first = &s->first;
     float *to = out->color[0];
     if (s->map)
-        shade_sample_lanes(s->map, in->varying[row->uv], in->varying[row->uv + 1],
+        shade_sample_lanes(s->map, in->varying[first->uv], in->varying[first->uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (!s->has_picture) return;
     if (s->white_map)
@@ -6620,15 +6618,15 @@ static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHA
     if (!s->lit_vertices) {
         shade_rows rows;
         SHADE__ZERO(rows);
-        rows.position = shade__row(in, row->point);
-        rows.normal = shade__row(in, row->normal);
-        rows.albedo = shade__row(in, row->albedo);
+        rows.position = shade__varying_row(in, first->point);
+        rows.normal = shade__varying_row(in, first->normal);
+        rows.albedo = shade__varying_row(in, first->albedo);
         if (s->map) shade__lit_map(s, &rows, to);
         else shade__lit_packet(&s->surface, &rows, to);
     } else if (s->map) {
-        const float *light = in->varying[row->light], *rest = in->varying[row->rest];
+        const float *light = in->varying[first->light], *rest = in->varying[first->rest];
         for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = light[i] * to[i] + rest[i];
-    } else SHADE_MEMCPY(to, in->varying[row->light], 3 * sizeof in->varying[0]);
+    } else SHADE_MEMCPY(to, in->varying[first->light], 3 * sizeof in->varying[0]);
 }
 
 static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -6651,10 +6649,10 @@ static void shade__plan_scene(shade__scene *s)
     s->lit_vertices = !per_fragment && !s->pn_unread;
     s->corners = s->face_normals && !s->pn_unread;
     s->tinted = m->colors && (s->has_picture || state->fragment);
-    s->row = shade__rows_of_mesh(state, s->map != NULL, s->tinted, s->pn_unread);
+    s->first = shade__varyings_of(state, s->map != NULL, s->tinted, s->pn_unread);
 }
 
-/* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
+/* Not inlined: its temporaries would take half a kilobyte of stack during the whole draw. */
 static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
                                         const shade_draw_state *state, shade__scene *s)
 {
@@ -6684,8 +6682,8 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     shade__plan_scene(s);
 }
 
-/* Draws the chunks of a mesh that may be seen.  It is kept out of line, so that only meshes with
-   chunks have the planes on the stack. */
+/* Draws the chunks of a mesh that can be visible.  Not inlined, so that only meshes with chunks
+   have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
                                                        shade_pipeline *p, const shade__supply *all,
                                                        shade_stats *stats)
@@ -6698,7 +6696,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     return shade__run_draw(target, p, !scene->state->fragment, scene->eye, &supply, stats);
 }
 
-/* Draws a checked scene, with the vertex shader of meshes and this fragment shader. */
+/* Draws a checked scene, with the vertex shader of meshes and the given fragment shader. */
 static shade_result shade__draw_scene(const shade_target *target, const shade__scene *scene,
                                       shade_fragment_shader *fragment, int may_discard,
                                       shade_stats *stats)
@@ -6714,10 +6712,10 @@ static shade_result shade__draw_scene(const shade_target *target, const shade__s
     p.may_discard = may_discard;
     p.fragment = fragment;
     p.uniforms = scene;
-    p.varyings = scene->row.count;
+    p.varyings = scene->first.count;
     if (scene->map && (scene->map->mipmap_count || state->fragment)) {
         p.lod_texture = scene->map;
-        p.lod_varying = scene->row.uv;
+        p.lod_varying = scene->first.uv;
     }
     if (state->shading == SHADE_SHADING_PER_FACE && !scene->map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
@@ -6747,11 +6745,11 @@ SHADE__INLINE shade_result shade__mesh_refusal(const shade_target *t, const shad
     if (*why) return SHADE_ERROR_TEXTURE;
 
     if (shade__corner_count(m) % 3)
-        *why = "mesh.index_count is no multiple of 3, or without mesh.indices mesh.vertex_count "
-               "is none; they count indices and vertices, three a triangle.";
+        *why = "mesh.index_count is not a multiple of 3 or, without mesh.indices, "
+               "mesh.vertex_count is not; they count indices and vertices, three a triangle.";
     else if (shade__check_corners(m))
         *why = "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
-               "vertices, not floats, and indices are 32 bits wide, those of mesh.indices16 16.";
+               "vertices, not floats, and indices are 32 bits wide, or 16 in mesh.indices16.";
     return *why ? SHADE_ERROR_INDEX : SHADE_OK;
 }
 
@@ -6776,8 +6774,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
      way     shade_draw_lines: lines_refusal, stroke_of; run_draw, which calls the shaders.
              stroke_vertex: stroke_corner: stroke_end, stroke_part: trim.  stroke_color
      holds   A segment is cut at the near and far planes first, so that both ends have a place on
-             the screen.  One that lies outside becomes a triangle that lies outside, and counts as
-             clipped.                                                                    >>camera */
+             the screen.  A segment outside becomes triangles outside, which count as clipped.
+                                                                                         >>camera */
 
 typedef struct shade__stroke {           /* uniforms of the line shaders */
     const shade_vec3 *points;
@@ -6796,8 +6794,8 @@ static void shade__trim(double a, double b, double *t)
     else if (b < 0 && a / (a - b) < t[1]) t[1] = a / (a - b);
 }
 
-/* Sets p to the point t of the way along a segment, and at[] to its place relative to the middle of
-   the picture, in pixels, y up. */
+/* Sets p to the point at the fraction t of a segment, and at[] to its place relative to the middle
+   of the picture, in pixels, y up. */
 static void shade__stroke_point(const shade__stroke *s, double end[2][4], double t, double *p,
                                 double *at)
 {
@@ -6806,8 +6804,8 @@ static void shade__stroke_point(const shade__stroke *s, double end[2][4], double
 }
 
 /* Finds the part t[0] .. t[1] of a segment that is drawn, and its unit direction on the screen.
-   The segment is cut at near, far and w > 0, then 3 half widths and 2 pixels outside of the
-   picture: the ends of the cut stay unseen, and are exact to 1/256 pixel.  Returns 0 if nothing is
+   The segment is cut at near, far and w > 0, then 3 half widths and 2 pixels outside the picture,
+   so that the cut ends stay out of view; they are exact to 1/256 pixel.  Returns 0 if nothing is
    left. */
 static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *t, double *dir)
 {
@@ -6838,8 +6836,9 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     return t[0] <= t[1];
 }
 
-/* Wider lines are drawn as wide as this, 2000 times the largest picture.  Their corners stay within
-   2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
+/* The greatest width, 2000 times the largest picture; wider lines are drawn as wide.  Their corners
+   stay within 2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are
+   floats. */
 #define SHADE__WIDEST 33554432.0f
 
 /* The clip-space position of a point. */
@@ -6852,9 +6851,8 @@ static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4
         end[i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
 }
 
-/* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
-   Segments that are not drawn get a point outside, and those that are rejected one that is
-   rejected. */
+/* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.  A segment
+   that is not drawn gets a point outside; one with bad numbers gets a point that is rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner)
 {
     const double half = s->half_line;
@@ -6900,12 +6898,13 @@ SHADE__INLINE const char *shade__stroke_fault(const shade_line_state *state)
     shade_raster raster = state->raster;
     if (!shade__within(state->width, FLT_MAX) || state->width < 0)
         return "state.width must be a number of pixels; 0 means 1.";
-    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE)) return "state.cap is no SHADE_CAP_... value.";
+    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE))
+        return "state.cap is not a SHADE_CAP_... value.";
     raster.cull = SHADE_CULL_NONE;
     return shade__raster_fault(&raster);
 }
 
-/* Prepares the uniforms of the line shaders, and the pipeline that has them. */
+/* Prepares the uniforms of the line shaders, and their pipeline. */
 static void shade__stroke_of(const shade_target *target, const shade_vec3 *points,
                              const shade_line_state *state, shade__stroke *s, shade_pipeline *p)
 {
@@ -6961,17 +6960,17 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
 }
 
 /*----------------------------------------------------------------------------------------- >>camera
-   Where a draw is seen from: one camera for rays, fitted views and explanations.
+   The eye and line of sight of a draw: one camera for rays, fitted views and explanations.
      in      projection, view             out  a shade__camera, in double
      way     camera_of: ray_through
-     holds   It depends on the product of both matrices alone, not on which of them holds the
-             camera.                                                                      >>shape */
+     holds   A camera depends on the product of both matrices alone, not on how it is split between
+             them.                                                                        >>shape */
 
 typedef struct shade__camera {
     double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
     double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
                             parallel */
-    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
+    double sight[3];     /* unit: where w grows fastest, or where parallel rays point; zero if
                             the camera is degenerate */
     int perspective;     /* 0: rays are parallel */
     int reversed;        /* a perspective with greater depth near the eye */
@@ -6989,15 +6988,15 @@ SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Makes v unit, however long; zero where it is zero or not finite. */
+/* Makes v unit, for any length; zero if it is zero or not finite. */
 static void shade__direction3(double *v)
 {
-    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
+    const double sum = shade__abs(v[0]) + shade__abs(v[1]) + shade__abs(v[2]);
     for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
     shade__unit3(v);
 }
 
-/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
+/* The ray through x/w and y/w: the line where the planes of both meet.  In a perspective it starts
    on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
 static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
                                double *way)
@@ -7030,9 +7029,9 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
     shade__direction3(way);
 }
 
-/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
-   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
-   such noise. */
+/* Parallel rays: w should be constant, but rounded entries make it vary a little.  For near = n and
+   far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it counts as
+   rounding. */
 static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view, shade__camera *c)
 {
     double p[16], v[16], way[3];
@@ -7043,8 +7042,8 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
         c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
     }
     shade__cross3(c->row[0], c->row[1], way);
-    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
-                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    c->perspective = shade__abs(shade__dot3(c->row[3], way)) >
+                     shade__abs(shade__dot3(c->row[2], way)) * (1 / 65536.0);
     shade__ray_through(c, 0, 0, c->eye, c->sight);
     c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
     for (int k = 0; k < 3; k++) {
@@ -7055,8 +7054,7 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
-   What a mesh knows of its shape: normals of vertices and corners, edges, its box, and the view
-   that shows it.
+   The shape of a mesh: normals of vertices and corners, edges, its box, and the view that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
      way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
              sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
@@ -7078,17 +7076,17 @@ static double shade__angle(double y, double x)
     return x < 0 ? 4 * quarter - a : a;
 }
 
-/* Whether six doubles sum to 0 exactly.  x[0] .. x[i - 1] are kept as a sum whose parts do not
-   overlap, which is 0 only if each is; a + b is sum and, without rounding, the error of that.
+/* Returns 1 if six doubles sum to 0 exactly.  x[0] .. x[i - 1] are kept as a sum of parts that do
+   not overlap; it is 0 only if each part is.  a + b becomes sum and, exactly, the error of sum.
                                                                                      [Shewchuk97] */
 static int shade__sum_is_zero(double x[6])
 {
     double rough = 0, size = 0;
     for (int i = 0; i < 6; i++) {
         rough += x[i];
-        size += shade__size(x[i]);
+        size += shade__abs(x[i]);
     }
-    if (shade__size(rough) > size * 1e-15) return 0;    /* beyond what five roundings err by */
+    if (shade__abs(rough) > size * 1e-15) return 0;    /* more than five roundings can cause */
     for (int i = 1; i < 6; i++) {
         for (int k = 0; k < i; k++) {
             const double a = x[i], b = x[k], sum = a + b, rounded = sum - a;
@@ -7101,8 +7099,8 @@ static int shade__sum_is_zero(double x[6])
     return 1;
 }
 
-/* 0 if three points lie in a line, to the bit.  Products of two floats are exact in double, while
-   differences of far and near points may round. */
+/* Returns 0 if three points lie exactly on a line.  Products of two floats are exact in double,
+   while differences of far and near points may round. */
 static int shade__has_area(const shade_vec3 p[3])
 {
     double v[4][3];
@@ -7149,7 +7147,7 @@ static shade_result shade__check_mesh(const shade_mesh *m)
     return shade__mesh_fault(m) ? SHADE_ERROR_MESH : SHADE_OK;
 }
 
-/* out is the argument that must not be NULL beside the mesh. */
+/* Checks a mesh, and that out, the other argument, is not NULL. */
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
 {
     return m && out ? shade__check_mesh(m) : SHADE_ERROR_ARGUMENT;
@@ -7179,7 +7177,7 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     return SHADE_OK;
 }
 
-/* Whether two corners have the same position; NaN equals nothing. */
+/* Returns 1 if two corners have the same position; NaN equals nothing. */
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
     return shade__is_zero(shade_sub(shade__corner(m, i), shade__corner(m, j)));
@@ -7198,8 +7196,7 @@ static shade_edge shade__edge_from(const shade_mesh *m, uint32_t corner)
     return e;
 }
 
-/* Byte k of the key that corners are sorted by: their edge, a before b, or their position, in which
-   + 0 turns -0 into 0. */
+/* Byte k of the sort key of a corner: its edge, a before b, or its position, with 0 for -0. */
 SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t corner, int k)
 {
     uint32_t word;
@@ -7213,13 +7210,13 @@ SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t 
     return word >> 8 * (k & 3) & 255;
 }
 
-/* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.
-   Corners of equal keys ascend.  other has room for count more. */
+/* Sorts the corners 0 .. count - 1 byte by byte, which takes the same time for all keys.  Corners
+   with equal keys stay in ascending order.  other has room for count more. */
 static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, uint32_t *order,
                                 uint32_t *other)
 {
     for (uint32_t i = 0; i < count; i++) order[i] = i;
-    for (int k = 0; k < (edges ? 8 : 12); k++) {    /* an even number of steps ends in order */
+    for (int k = 0; k < (edges ? 8 : 12); k++) {    /* even: the last step sorts into `order` */
         uint32_t start[257] = { 0 }, *sorted = other;
         for (uint32_t i = 0; i < count; i++) start[shade__key_byte(m, edges, i, k) + 1]++;
         for (int b = 0; b < 256; b++) start[b + 1] += start[b];
@@ -7276,7 +7273,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     return SHADE_OK;
 }
 
-/* The caller's array is the scratch too: the sorted corners lie in its last quarter.  When i of
+/* The caller's array is scratch memory too: the sorted corners lie in its last quarter.  When i of
    them have become at most i entries, of 16 i bytes, the next corner stands at byte 12 corners + 4
    i, which is not overwritten. */
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
@@ -7327,7 +7324,7 @@ SHADE__INLINE int shade__finite3(shade_vec3 v)
            shade__within(v.z, FLT_MAX);
 }
 
-/* Computes the box around the finite corners of a chunk; low > high where there are none. */
+/* Computes the box around the finite corners of a chunk; low > high if there are none. */
 static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
 {
     c->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
@@ -7354,8 +7351,8 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
-/* The camera as a matrix: columns right, up and back, and a point on the axis of sight.  It is the
-   identity, to the bit, for an eye on the z axis that looks down -z. */
+/* The camera as a matrix: columns right, up and back, and a point on the line of sight.  It is
+   exactly the identity for an eye on the z axis that looks down -z. */
 static shade_mat4 shade__frame_of(const shade__camera *c)
 {
     const double *sight = c->sight;
@@ -7372,8 +7369,8 @@ static shade_mat4 shade__frame_of(const shade__camera *c)
                      shade__xyzw(shade__single3(at), 1));
 }
 
-/* How far an eye in the middle of a box must step back along z: until for each side of the picture
-   the plane w +- x or w +- y is not negative at the corner of the box where it is least. */
+/* Returns how far an eye in the middle of a box must step back along z: until, for each side of the
+   picture, the plane w +- x or w +- y is >= 0 at that corner of the box where it is least. */
 static double shade__step_back(const shade_mat4 *projection, const double *view, shade_vec3 low,
                                shade_vec3 high)
 {
@@ -7395,7 +7392,7 @@ static double shade__step_back(const shade_mat4 *projection, const double *view,
     return step;
 }
 
-/* 6e-8 is for the rounding to float. */
+/* The eye steps back by a further 6e-8, for the rounding to float. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up)
 {
@@ -7415,7 +7412,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
     shade__doubles(shade__entries(&view), 16, v);
     if (camera.perspective) step = shade__step_back(&projection, v, low, high);
     v[14] -= step;
-    view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
+    view.col[3].z = (float)(v[14] - shade__abs(v[14]) * 6e-8);
     view = shade__mat4_product(&frame, &view);
     if (!is_box || !shade__finite3(toward_eye) || !shade__finite3(up) || !shade__is_finite(&view))
         return shade_mat4_identity();
@@ -7423,16 +7420,16 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 }
 
 /*----------------------------------------------------------------------------------------- >>chunks
-   The triangles of a mesh sorted in space and cut into chunks with boxes; whether a box is seen.
+   Sorts the triangles of a mesh in space and cuts them into chunks with boxes; tests a box.
      in      meshes                              out  the caller's chunks and indices
      way     mesh_chunks: sort_triangles: split: longest_axis, partition; then box_chunk
      method  The list is split across its longest axis, at the border of a chunk nearest to the
              middle, and the two parts are split again.
-     holds   The order depends on nothing but the mesh and the size of chunks: it is the same on
-             every machine.                                                                >>rays */
+     holds   The order depends only on the mesh and the size of chunks: it is the same on every
+             machine.                                                                      >>rays */
 
-/* The size of chunks where the caller gives none.  Of 64, 128, 256 and 512 triangles it is the
-   fastest on 16 bands, and within 1 % of the fastest on one thread. */
+/* The default size of chunks.  Of 64, 128, 256 and 512 triangles it is the fastest on 16 bands, and
+   within 1 % of the fastest on one thread. */
 enum { SHADE__CHUNK = 128 };
 
 /* An integer key in the order of floats; NaN lies beyond the infinities. */
@@ -7501,9 +7498,9 @@ static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
     return front;
 }
 
-/* Moves those triangles to the front that are the first half along the longest axis.  The pivot
-   halves the range of values in the first 8 steps, which is 1.25 times as fast, then the range of
-   keys, so that there are never more than 40 steps. */
+/* Moves the first half of the triangles along the longest axis to the front.  The first 8 steps
+   take the middle of the range of values as pivot, which is 1.25 times as fast; the others take the
+   middle of the range of keys, so that there are never more than 40 steps. */
 static void shade__split(const shade_mesh *m, uint32_t *triangles, int count, int half)
 {
     uint32_t low, high;
@@ -7596,7 +7593,7 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
      in      rays in world space, meshes         out  the nearest triangle
      way     pick: object_ray_of, meets_box; pick_triangle: meets_box, shade_intersect
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
-     holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
+     holds   A ray that meets a triangle meets the box of each chunk that contains it.   >>survey */
 
 /* c = a - b */
 SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
@@ -7653,9 +7650,9 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 }
 
 /* A ray in object space, for tests of boxes.  Its coordinates are multiplied by the determinant of
-   the model matrix, which saves a division by it: coordinate i is the dot product with the cross
+   the model matrix, which saves a division: coordinate i is the dot product with the cross
    product of the two other columns.  World positions are rounded sums of products: slack times the
-   sum of the products' sizes bounds the error of that. */
+   sum of the products' sizes bounds their error. */
 typedef struct shade__object_ray {
     double origin[3], direction[3];
     double scale;                     /* the determinant */
@@ -7674,9 +7671,9 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
     shade__sub3(ray.origin, shade__xyz(m->col[3]), origin);
     s->reach = (double)FLT_MIN;    /* world positions and t may be denormal */
     for (int k = 0; k < 3; k++) {
-        s->size[k] = shade__size(column[k][0]) + shade__size(column[k][1]) +
-                     shade__size(column[k][2]);
-        s->reach += shade__size(origin[k]) + 2 * shade__size(column[3][k]);
+        s->size[k] = shade__abs(column[k][0]) + shade__abs(column[k][1]) +
+                     shade__abs(column[k][2]);
+        s->reach += shade__abs(origin[k]) + 2 * shade__abs(column[3][k]);
     }
     for (int k = 0; k < 3; k++) {
         const int a = k < 2 ? k + 1 : 0, b = k > 0 ? k - 1 : 2;
@@ -7688,9 +7685,9 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
     s->scale = shade__dot3(column[2], normal);
 }
 
-/* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
-   allowance for rounding.  Returns 0 if it does not meet the box there.  A larger box never has a
-   smaller range: a ray that meets the box of a triangle meets the box of its chunk. */
+/* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box;
+   rounding is allowed for.  Returns 0 if it misses the box there.  A larger box never has a smaller
+   range: a ray that meets the box of a triangle meets the box of its chunk. */
 static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_vec3 high,
                             float limit, double *range)
 {
@@ -7701,7 +7698,7 @@ static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_ve
     shade__double3(low, from);
     shade__double3(high, to);
     for (int k = 0; k < 3; k++) {
-        const double a = shade__size(from[k]), b = shade__size(to[k]);
+        const double a = shade__abs(from[k]), b = shade__abs(to[k]);
         size += s->size[k] * (a > b ? a : b);
     }
     for (int k = 0; k < 3; k++) {
@@ -7723,9 +7720,9 @@ static int shade__meets_box(const shade__object_ray *s, shade_vec3 low, shade_ve
 /* The nearest triangle so far. */
 typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } shade__hit;
 
-/* A hit counts only if its point lies in the triangle's own box, because then it lies in the box of
-   every chunk that has the triangle.  So a ray nearly in the plane of a triangle, where rounding
-   decides, gives one answer with chunks and without. */
+/* A hit counts only if its point lies in the triangle's own box; then it lies in the box of every
+   chunk that has the triangle.  So if a ray is nearly in the plane of a triangle, where rounding
+   decides, the answer is the same with chunks and without. */
 static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model, shade_ray ray,
                                  const shade__object_ray *local, int triangle, shade__hit *hit)
 {
@@ -7740,7 +7737,7 @@ static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model
     if (!shade_intersect(ray, p[0], p[1], p[2], &t, &where)) return;
     if ((double)t < range[0] || (double)t > range[1]) return;
     if (t == hit->t && triangle > hit->triangle) return;    /* t <= hit->t, as range ends there */
-    /* model may round three points of a line to a triangle with area */
+    /* model may round three points on a line to a triangle with area */
     if (!shade__has_area(q)) return;
     hit->triangle = triangle;
     hit->t = t;
@@ -7781,26 +7778,26 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
-     in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
+     in      arguments of shade_draw_mesh  out  numbers of pixels, stats; depths of some pixels
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read, and the caller's fragment shader is not called.
-     way     open_survey; of a copy: a change, then count or take_probes: draw_trial: draw_scene of
-             >>mesh, with judge as its fragment shader                                  >>explain */
+     way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
+             draw_scene of >>mesh, with judge as its fragment shader                    >>explain */
 
 enum {
-    SHADE__SUSPECTS = 16,                /* more lamps than these are left out of experiments */
+    SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
     SHADE__PROBES = 256                  /* pixels whose depths are compared; a power of two */
 };
 
-/* What the fragments of one pixel were, in drawing order. */
+/* The fragments of one sampled pixel, in drawing order. */
 typedef struct shade__probe {
     uint32_t place;                      /* 0: none yet */
     float    nearest, farthest, last;    /* depths */
-    uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
+    uint32_t front, any_front;           /* 1: the nearest is front-facing; any is */
 } shade__probe;
 
-/* A draw: the given one, and the one drawn in its place.  No pointer leads into the survey itself,
-   so that a copy is a survey of its own. */
+/* The given draw, and the one drawn in its place.  No pointer leads into the survey itself, so that
+   a copy is a survey of its own. */
 typedef struct shade__survey {
     const shade_target     *target;      /* the caller's */
     const shade_mesh       *given_mesh;
@@ -7809,13 +7806,13 @@ typedef struct shade__survey {
 
     shade_target     picture;            /* the pixels and the depth test of the experiment */
     shade_mesh       mesh;
-    shade_draw_state state;              /* but for its material and lamps, which follow */
+    shade_draw_state state;              /* but its material and lamps follow */
     shade_material   material;           /* the given one, or white */
     shade_light      lamp[SHADE__SUSPECTS];
     int              own_lamps;          /* lamp is in use, not state.lighting.lights */
-    uint32_t         white_map;          /* the map has its holes, but no colours */
-    float            apart;              /* depths this near to farthest do not count */
-    int              stored;             /* pixels count that the caller's picture has lit */
+    uint32_t         white_map;          /* the map counts as white, with its holes */
+    float            apart;              /* depths within this of farthest do not count */
+    int              lit_only;           /* count only pixels lit in the caller's picture */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
@@ -7830,12 +7827,12 @@ typedef struct shade__survey {
 typedef struct shade__trial {
     shade__scene scene;                  /* first, as the shaders of meshes expect */
     const shade__survey *survey;
-    float         least;                 /* pixels count if a channel is this; 0: all of them */
-    uint32_t      every;                 /* one of this many pixels is sampled; 0: none */
+    float         least;                 /* pixels count if a channel has this; 0: all do */
+    uint32_t      every;                 /* samples one pixel of this many; 0: none */
     shade__probe *probes;
 } shade__trial;
 
-/* Notes the depth of lane i, if its pixel is among those sampled. */
+/* Notes the depth of lane i, if its pixel is sampled. */
 static void shade__take_probe(const shade__trial *trial, const shade_fragments *in, int i)
 {
     const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * SHADE__SIDE_MAX + 1;
@@ -7857,9 +7854,9 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
     at->any_front |= in->front[i];
 }
 
-/* Is the caller's picture brighter than 8 of 255 there, or has it any light in floats?
+/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0?
    pre: the pixel is in the clip rectangle, and there is a picture */
-static int shade__is_stored(const shade_target *t, int x, int y)
+static int shade__is_lit_there(const shade_target *t, int x, int y)
 {
     const shade__layout *l = &shade__layouts[t->format];
     const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
@@ -7873,7 +7870,7 @@ static int shade__is_stored(const shade_target *t, int x, int y)
     return any;
 }
 
-/* The fragment shader of experiments: it discards what does not count. */
+/* The fragment shader of experiments: it discards fragments that do not count. */
 static void shade__judge(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
@@ -7887,7 +7884,7 @@ static void shade__judge(const void *uniforms, const shade_fragments *SHADE_REST
         int counts = !(trial->least > 0);
         for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
         if (s->apart > 0) counts &= !shade__within(in->z[i] - s->farthest, s->apart);
-        if (s->stored) counts &= shade__is_stored(s->target, (int)in->x[i], (int)in->y[i]);
+        if (s->lit_only) counts &= shade__is_lit_there(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
         if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
     }
@@ -7915,8 +7912,7 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     return stats;
 }
 
-/* Returns what became of the triangles; fragments is the number of pixels that have a channel of
-   least or more. */
+/* Returns the stats of a drawing.  fragments counts pixels with a channel of least or more. */
 static shade_stats shade__stats_of(const shade__survey *s, float least)
 {
     shade__trial trial;
@@ -7970,7 +7966,7 @@ static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE
     shade__draw_trial(&q, &trial);
 }
 
-/* Is there a pixel whose last fragment is not its nearest?  With last 0: whose farthest is not? */
+/* Is there a pixel where the last fragment (last = 0: the farthest) is not the nearest? */
 static int shade__hides_nearest(const shade__survey *s, int last)
 {
     shade__probe probes[SHADE__PROBES];
@@ -7983,7 +7979,7 @@ static int shade__hides_nearest(const shade__survey *s, int last)
     return n > 0;
 }
 
-/* ---- which pixels are drawn */
+/* ---- which fragments are drawn */
 
 /* All fragments, in the whole picture, without a depth test. */
 static void shade__look_at_all(shade__survey *q)
@@ -8009,16 +8005,16 @@ static void shade__look_through(shade__survey *q, shade_compare test)
     q->state.raster.depth_test = test;
 }
 
-/* Are there more fragments of stored depth than were drawn?  Then faces coincide. */
+/* Do more fragments have the stored depth than were drawn?  Then faces coincide. */
 static int shade__coincides(const shade__survey *s)
 {
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
-/* What the picture shows: after a whole, opaque draw the fragments that have the stored depth.  In
-   other cases it does not tell: a band shows too little, blending shows more, a bias clamps depths,
-   and depth may have changed since.  All fragments are drawn then: what none of them has, the
-   picture lacks.  Where depth is not written, fragments that passed hide others. */
+/* Draws what the picture shows: after a whole, opaque draw, the fragments with the stored depth.
+   In other cases depth cannot say: a band shows too little, blending shows more, a bias clamps
+   depths, and depth may have changed since.  Then all fragments are drawn: what none of them has,
+   the picture lacks.  If depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -8032,29 +8028,29 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
-/* Is n at most a tenth of all?  Where some of them may be hidden, is it 0? */
+/* Is n at most a tenth of all?  If some pixels may be hidden: is it 0? */
 static int shade__few(const shade__survey *s, long long n, long long all)
 {
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Does the picture show a pixel with a brightness from least to most?  Where fragments hide others,
-   and stored depth does not tell which, all fragments must have one. */
+/* Does the picture show a pixel with a brightness from least to most?  If fragments hide others,
+   and stored depth cannot say which, all fragments must have it. */
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
-    int told = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
+    int known = s->target->depth && !r->depth_read_only && r->depth_bias == 0;
     shade__survey q = *s;
     long long n;
-    if (!s->exact && told) {
+    if (!s->exact && known) {
         shade__look_through(&q, SHADE_COMPARE_EQUAL);
-        told = !shade__coincides(&q);
+        known = !shade__coincides(&q);
     }
     n = shade__count(&q, least) - shade__count(&q, most);
-    return n > 0 && (s->exact || told || n == shade__covered(s));
+    return n > 0 && (s->exact || known || n == shade__covered(s));
 }
 
-/* Is a pixel that the picture shows brighter than 12 of 255, more than 8 in each format? */
+/* Does the picture show a pixel brighter than 12 of 255, which is more than 8 in each format? */
 static int shade__lights_up(const shade__survey *s)
 {
     return shade__has_pixels(s, 1.5f * s->dim, FLT_MAX);
@@ -8109,7 +8105,7 @@ static void shade__drop_colors(shade__survey *q)
     q->white_map = 1;
 }
 
-/* The material reflects all light, with wide highlights; one that is NULL has none. */
+/* The material reflects all light, with wide highlights; white Lambert, for NULL, stays without. */
 static void shade__polish(shade__survey *q)
 {
     const shade_vec3 one = shade_v3(1, 1, 1);
@@ -8187,8 +8183,8 @@ static void shade__light_fragments(shade__survey *q)
 
 /* ---- questions that need no drawing */
 
-/* The SHADE__OUT_... bits that all corners share.  Where z is 0 at the eye, but for the rounding of
-   floats, depth is the same everywhere, and near and far are not told apart. */
+/* The SHADE__OUT_... bits that all corners share.  If z is 0 at the eye, but for the rounding of
+   floats, depth is the same everywhere, and near and far cannot be told apart. */
 static uint32_t shade__outside(const shade__survey *s)
 {
     const double *z = s->camera.row[2];
@@ -8201,12 +8197,12 @@ static uint32_t shade__outside(const shade__survey *s)
         all &= shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
     }
     if (s->camera.perspective &&
-        shade__size(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__size(z[3]))
+        shade__abs(shade__dot3(z, s->camera.eye) + z[3]) <= 1e-6 * shade__abs(z[3]))
         all &= ~(uint32_t)(SHADE__OUT_NEAR | SHADE__OUT_FAR);
     return all;
 }
 
-/* Was anything drawn before?  Then the caller's depth buffer holds different values. */
+/* Does the caller's depth buffer hold different values, because something was drawn before? */
 static int shade__depth_varies(const shade_target *t)
 {
     int clip[4];
@@ -8231,7 +8227,7 @@ static int shade__eye_inside(const shade__survey *s)
     return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
 }
 
-/* Is depth the same all over a plane that the viewer faces? */
+/* Is depth constant on planes at a right angle to the line of sight? */
 static int shade__faces_ahead(const shade__camera *c)
 {
     double across[3];
@@ -8243,13 +8239,14 @@ static int shade__faces_ahead(const shade__camera *c)
 
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
-     in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     method  Numbers that cannot be meant are looked for first.  Then come ladders: tables of
-             changes and sentences, tried from top to bottom.
-     holds   A sentence is true of the pixels that are shown: of all, or of the share that its rung
-             asks for.  Black: none is brighter than 8 of 255.  A band or a strip is never blamed
-             for what another may show.  A function or ladder that returns NULL has found nothing,
-             and the next is tried; "" ends the search without a sentence.
+     in      arguments of shade_draw_mesh, its stats   out  a constant sentence; "" for nothing
+     method  First come numbers that make no sense, then ladders: tables of changes and sentences,
+             tried from top to bottom.  For example: with culling off, are there pixels?  Then
+             raster.cull is at fault.
+     holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
+             Black: none is brighter than 8 of 255.  A band or strip is not blamed for what another
+             may show.  A function or ladder that finds nothing returns NULL, and the next is
+             tried; "" ends the search without a sentence.
      way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
              ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
              why_black, wrong_light, flat; helps; doubt                                 >>replay */
@@ -8268,16 +8265,17 @@ static const char *shade__no_mesh(const shade_mesh *m)
 
 /* ---- matrices and numbers of the state */
 
-/* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), (0, 0, -1, 0) of a
-   perspective, or (0, 0, 1, 0) of a left-handed one.  A matrix that flattens, as those of shadows
-   on planes do, is none of them, nor is a projection whose w grows with z alone, from one point. */
+/* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), or (0, 0, -1, 0)
+   of a perspective, or (0, 0, 1, 0) of a left-handed one.  Two kinds are not counted: matrices that
+   flatten, for shadows on planes, and projections from one point, with a w that grows with z
+   alone. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
     const shade_vec4 z = m->col[2], last = m->col[3];
     const int from_point = m->col[0].w == 0 && m->col[1].w == 0 &&
                            !shade__within(z.x * z.x + z.y * z.y + z.z * z.z - 1, 0.01f);
     if (shade_mat4_determinant(*m) == 0) return 0;
-    if (last.w == 0)    /* z.w is none of 0, 1 and -1 */
+    if (last.w == 0)    /* z.w is not 0, 1 or -1 */
         return (last.z == 1 || last.z == -1) && z.w * (1 - z.w * z.w) != 0;
     return last.w == 1 && shade__is_zero(shade__xyz(last)) && !shade__is_affine(m) && !from_point;
 }
@@ -8294,13 +8292,13 @@ static int shade__is_rigid(const shade_mat4 *m)
     return rigid;
 }
 
-/* Is the last row (0, 0, 0, w) with another w than 1? */
+/* Is the last row (0, 0, 0, w) with w other than 1? */
 static int shade__scales_w(const shade_mat4 *m)
 {
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
-/* Is the view transposed, in a way that shows? */
+/* Is the view transposed, and does the picture change if it is not? */
 static int shade__view_by_rows(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8325,9 +8323,9 @@ static const char *shade__bad_matrix(const shade__survey *s)
     if (shade__scales_w(model) || shade__scales_w(view))
         return "The last row of state.model or state.view is not 0, 0, 0, 1: set col[3].w to 1.";
     if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
-        return "state.projection is what cameras give for bad arguments: fovy must be in radians "
-               "and below pi (use shade_radians for degrees), near and far above 0 and different, "
-               "the aspect not 0, left not equal to right, bottom not to top.";
+        return "state.projection is the matrix that cameras return for bad arguments: fovy must be "
+               "in radians and below pi (use shade_radians for degrees), near and far above 0 and "
+               "different, the aspect not 0, left not equal to right, bottom not to top.";
     if (!shade__is_affine(view) || (!shade__is_rigid(view) && shade__is_rigid(p) &&
                                     !shade__is_zero(shade__xyz(p->col[3]))))
         return "state.view holds a projection, which belongs in state.projection: light takes the "
@@ -8345,15 +8343,15 @@ static const char *shade__bad_lamp(const shade_light *l)
     for (size_t k = 0; k < sizeof *l / sizeof *number; k++)
         if (number[k] != number[k]) return "A light of lighting.lights holds a NaN.";
     if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
-        return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the angle, "
-               "not the angle; make the light with shade_spot_light.";
+        return "A light's spot_cos_cutoff is outside -1 .. 1: it is the cosine of the angle, not "
+               "the angle; make the light with shade_spot_light.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
     return NULL;
 }
 
-/* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
+/* Are corners beyond 1e12, or does the draw reject triangles, as for NaN and infinity? */
 static int shade__positions_are_bad(const shade__survey *s)
 {
     shade__survey all = *s;
@@ -8365,7 +8363,7 @@ static int shade__positions_are_bad(const shade__survey *s)
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
-/* How many triangles a draw of the mesh counts. */
+/* The number of triangles that a draw of the mesh counts. */
 static long long shade__triangles_of(const shade_mesh *m)
 {
     long long count = 0;
@@ -8384,8 +8382,8 @@ static const char *shade__bad_number(const shade__survey *s)
     const shade_lighting *l = &s->state.lighting;
     const char *why = shade__bad_matrix(s);
     if (s->given_stats && s->given_stats->triangles != shade__triangles_of(s->given_mesh))
-        return "stats are not of this draw: their triangles are not as many as the mesh has; pass "
-               "what shade_draw_mesh wrote.";
+        return "stats are not of this draw: they do not count as many triangles as the mesh has; "
+               "pass the stats that shade_draw_mesh wrote.";
     if (!why && l->light_count < 0)
         why = "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
     for (int i = 0; i < l->light_count && !why; i++) why = shade__bad_lamp(&l->lights[i]);
@@ -8399,10 +8397,10 @@ static const char *shade__bad_number(const shade__survey *s)
 
 typedef struct shade__rung {
     int (*change)(shade__survey *q);     /* returns whether the sentence is true */
-    const char *sentence;                /* NULL: this may be meant, the ladder ends */
+    const char *sentence;                /* NULL: this may be on purpose; the ladder ends */
 } shade__rung;
 
-/* Returns the sentence of the first true rung; the last one always is.  Changes stay in q: the
+/* Returns the sentence of the first true rung; the last one is always true.  Changes stay in q: the
    last change names the fault, and two faults at once are found as well. */
 static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
 {
@@ -8428,10 +8426,10 @@ static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
 
 static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
-    "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
+    "drawn: pass all the chunks that shade_mesh_chunks made, and check its result.";
 static const char shade__wrong_box[] =
-    "A box of mesh.chunks does not hold its triangles, which may vanish: make the chunks again "
-    "with shade_mesh_chunks after the positions have changed.";
+    "A box of mesh.chunks does not contain its triangles, so that they may vanish: call "
+    "shade_mesh_chunks again after positions change.";
 
 static int shade__chunks_are_few(shade__survey *q)
 {
@@ -8451,8 +8449,8 @@ static int shade__fronts_are_culled(shade__survey *q)
     return q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q);
 }
 
-/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
-   Such a mesh may well be hidden, or seen edge-on. */
+/* Is the mesh one of many in a scene, with fragments for less than a quarter of the picture?  Such
+   a mesh may well be hidden, or seen edge-on. */
 static int shade__is_scattered(shade__survey *q)
 {
     return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
@@ -8478,7 +8476,7 @@ static int shade__projection_by_rows(shade__survey *q)
     return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
 }
 
-/* Does each triangle lie outside of the view volume? */
+/* Does every triangle lie outside of the view volume? */
 static int shade__is_beside(shade__survey *q)
 {
     const shade_stats stats = shade__stats_of(q, 0);
@@ -8512,13 +8510,13 @@ static int shade__before_near(shade__survey *q)
     return (shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0;
 }
 
-/* Changes are kept. */
+/* Each rung keeps the changes of those above it. */
 static const shade__rung shade__nothing[] = {
     { shade__chunks_are_few, shade__left_out },
     { shade__appears, shade__wrong_box },
     { shade__culled_inside,
-      "raster.cull leaves out every triangle in view, and the eye lies inside of the mesh's box: "
-      "set state.view, or move the eye out." },
+      "raster.cull leaves out every triangle in view, and the eye lies inside the mesh's box: set "
+      "state.view, or move the eye out." },
     { shade__fronts_are_culled,
       "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
       "SHADE_CULL_BACK or SHADE_CULL_NONE." },
@@ -8538,7 +8536,7 @@ static const shade__rung shade__nothing[] = {
       "translation in col[3]; pass it through shade_mat4_transpose." },
     { shade__model_projects, NULL },
     { shade__projection_is_none,
-      "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, or no "
+      "Every triangle lies outside the cube from -1 to 1: state.projection is unset, or not a "
       "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
     { shade__beyond_far,
       "The whole mesh lies beyond the far plane of state.projection; raise far, or move the eye "
@@ -8560,9 +8558,9 @@ static const shade__rung shade__nothing[] = {
       "beside the picture; check state.model and state.view." },
 };
 
-/* ---- the mesh covers pixels, but the draw gave none, or maybe none */
+/* ---- the mesh covers pixels, but the draw stored none, or perhaps none */
 
-/* Would the other test show another depth in some pixel? */
+/* Would the reverse test show another depth in some pixel? */
 static int shade__test_is_turned(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
@@ -8579,7 +8577,8 @@ static const shade__rung shade__test[] = {
     { NULL, NULL }
 };
 
-/* Is this all of the picture, or a band or strip of it?  Other ones may show what it does not. */
+/* Is the clip rectangle the whole picture, or a band or strip of it?  Other bands may show what
+   this one does not. */
 static int shade__is_band(const shade_target *t)
 {
     int clip[4];
@@ -8593,7 +8592,7 @@ static int shade__beside_clip(shade__survey *q)
     return !shade__is_band(q->target) && !shade__covered(q);
 }
 
-/* How many pixels pass the depth test now: all, if there is no depth. */
+/* The number of pixels that pass the depth test now: all, if there is no depth. */
 static long long shade__passed(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8601,8 +8600,7 @@ static long long shade__passed(const shade__survey *s)
     return shade__covered(&q);
 }
 
-/* Has the draw given pixels?  Without stats: does one pass the depth test, or hold the depth of the
-   mesh? */
+/* Did the draw store pixels?  Without stats: does one pass the depth test, or have this depth? */
 static int shade__is_drawn(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8611,7 +8609,7 @@ static int shade__is_drawn(const shade__survey *s)
     return shade__passed(s) || shade__covered(&q);
 }
 
-/* Has the mesh pixels in the clip rectangle, of which none passes the depth test? */
+/* Does the mesh have pixels in the clip rectangle, and does none of them pass the depth test? */
 static int shade__is_hidden(const shade__survey *s)
 {
     shade__survey q = *s;
@@ -8624,8 +8622,8 @@ static int shade__shader_discards(shade__survey *q)
     return q->given_stats && q->given_state->fragment && shade__passed(q);
 }
 
-/* Is the depth of all pixels that of the far plane, with this bias or none, so that they never pass
-   a test without equality? */
+/* Do all pixels have the depth of the far plane, with this bias or none, so that they never pass a
+   test without equality? */
 static int shade__is_far(const shade__survey *s)
 {
     const shade_compare test = s->given_state->raster.depth_test;
@@ -8635,7 +8633,7 @@ static int shade__is_far(const shade__survey *s)
     return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
 }
 
-/* Without stats the mesh itself may be stored. */
+/* Was depth not cleared?  Without stats the mesh itself may be stored. */
 static int shade__depth_uncleared(shade__survey *q)
 {
     if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL ||
@@ -8649,7 +8647,7 @@ static int shade__depth_uncleared(shade__survey *q)
     return !shade__is_far(q);
 }
 
-/* Is the mesh hidden in the whole picture, and no detail of a scene?  Leaves q without a bias. */
+/* Is the mesh hidden in the whole picture, and not a small part of a scene?  Sets q's bias to 0. */
 static int shade__all_hidden(shade__survey *q)
 {
     const int hidden = q->whole && shade__is_hidden(q);
@@ -8681,28 +8679,29 @@ static const shade__rung shade__unseen[] = {
       "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
       "clip_height; all four zero mean everywhere." },
     { shade__shader_discards,
-      "state.fragment discards all pixels of the mesh, or leaves them an alpha below "
+      "state.fragment discards all pixels of the mesh, or gives them an alpha below "
       "state.alpha_cutoff." },
     { shade__nothing_is_equal,
-      "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds the mesh's own depth "
-      "nowhere: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
+      "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the mesh's own "
+      "depth: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
     { shade__depth_uncleared,
       "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
       "0 for a reversed projection." },
     { shade__depth_is_far,
-      "Every depth of the mesh is the far plane's, so that nothing passes raster.depth_test: near "
-      "of state.projection is too small beside far for floats; raise near." },
+      "Every pixel of the mesh has the depth of the far plane, so that nothing passes "
+      "raster.depth_test: near of state.projection is too small for floats, compared with far; "
+      "raise near." },
     { shade__depth_hides,
-      "The mesh is hidden by depth that target.depth already holds: of other meshes, of the frame "
-      "before without a shade_clear, or of the mesh itself, which then needs "
-      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh behind." },
+      "The mesh is hidden by depth that target.depth already holds: from other meshes, from the "
+      "frame before if shade_clear was not called, or from the mesh itself, which then needs "
+      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh back." },
     { NULL, NULL }
 };
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Of the pixels with a front face, do nine tenths have a back face before it? */
+/* In nine tenths of the pixels with a front face, is a back face nearer? */
 static int shade__is_inside_out(const shade__survey *s)
 {
     shade__probe probes[SHADE__PROBES];
@@ -8725,7 +8724,7 @@ static int shade__backs_in_view(shade__survey *q)
     return q->state.raster.cull == SHADE_CULL_BACK && shade__is_inside_out(q);
 }
 
-/* Does light depend on the side to which normals point? */
+/* Does light depend on the side that normals point to? */
 static int shade__sides_matter(const shade__survey *s)
 {
     const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
@@ -8743,7 +8742,7 @@ static int shade__wound_inward(shade__survey *q)
     return shade__is_inside_out(q);
 }
 
-/* Has a pixel a last fragment that is not its nearest? */
+/* Is there a pixel where the last fragment is not the nearest? */
 static int shade__lacks_depth(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
@@ -8770,8 +8769,8 @@ static const shade__rung shade__picture[] = {
 
 /* ---- the mesh is drawn, but black: the surface */
 
-/* Does blending hide the mesh: does it show without, or would not even a glowing surface show with
-   it?  From here on blending is left out. */
+/* Does blending hide the mesh?  It does if the mesh shows without it, or if not even a glowing
+   surface would show with it.  From here on blending is off. */
 static int shade__alpha_is_zero(shade__survey *q)
 {
     shade__survey glow = *q;
@@ -8783,7 +8782,7 @@ static int shade__alpha_is_zero(shade__survey *q)
     return blended && (!shade__shows(&glow) || shade__shows(q));
 }
 
-/* Outlines of back faces are meant to be black, and so are shadows, blended over a ground. */
+/* Outlines made of back faces are black on purpose, and so are shadows blended over a ground. */
 static int shade__black_is_meant(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
@@ -8799,7 +8798,7 @@ static int shade__shading_is_coarse(shade__survey *q)
     return shade__lights_up(q);
 }
 
-/* Are the normals of faces lit, which SHADE_SHADING_PER_FRAGMENT would not take? */
+/* Do face normals give light that SHADE_SHADING_PER_FRAGMENT would not? */
 static int shade__faces_are_lit(shade__survey *q)
 {
     if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
@@ -8838,29 +8837,29 @@ static const char shade__transparent[] =
     "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
     "state.transparency, times the alpha of state.diffuse_map.";
 static const char shade__coarse[] =
-    "state.shading lights vertices or middles of faces, which no light reaches, though it "
-    "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
+    "state.shading lights only vertices, or centroids of faces, and no light reaches these, though "
+    "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
 static const char shade__no_terms[] =
     "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
     "terms, and the model SHADE_MODEL_BLINN_PHONG.";
 static const char shade__black_material[] =
-    "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
-    "or specular, lighting.ambient needs material.ambient; NULL is white.";
+    "state.material reflects nothing, or almost nothing, of the light in the scene: lamps need "
+    "diffuse or specular, lighting.ambient needs material.ambient; NULL is white.";
 static const char shade__behind[] =
     "Every lamp is behind nine tenths or more of the visible pixels, on the side that the normals "
-    "point away from: turn mesh.normals (without them the winding), move light.position, set "
-    "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside of the mesh?";
+    "point away from: turn mesh.normals (or the winding, if there are no normals), move "
+    "light.position, set SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside the mesh?";
 static const char shade__black_colors[] =
     "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
     "check mesh.texcoords and the picture.";
 static const char shade__no_normals[] =
-    "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
-    "shade_mesh_normals, or make mesh.normals NULL.";
+    "mesh.normals are zero or NaN, so that no lamp lights them; fill them with shade_mesh_normals, "
+    "or make mesh.normals NULL.";
 static const char shade__fall_off[] =
     "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
     "constant, linear or quadratic, or raise the light's diffuse and specular.";
 static const char shade__no_cone[] =
-    "No cone of the lights shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
+    "No cone of a spotlight shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
     "the cosine of an angle in radians.";
 static const char shade__no_color[] =
     "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
@@ -8881,8 +8880,7 @@ static int shade__count_is_zero(shade__survey *q)
     return q->state.lighting.lights && shade__lights_are_none(q);
 }
 
-/* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
-   there is one. */
+/* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 for all others. */
 static int shade__lacks_normals(shade__survey *q)
 {
     shade__survey open = *q;
@@ -8892,7 +8890,7 @@ static int shade__lacks_normals(shade__survey *q)
     return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
 }
 
-/* Leaves only the terms of lamps in the survey, not blended.  Returns whether it has any. */
+/* Leaves only the terms of lamps in the survey, without blending.  Returns whether any is left. */
 static int shade__lamps_alone(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -8902,8 +8900,8 @@ static int shade__lamps_alone(shade__survey *q)
     return l->model <= SHADE_MODEL_LAMBERT && l->terms;
 }
 
-/* Do nine tenths of the visible pixels face away from every lamp, which would light them if they
-   had two sides?  Lamps are taken without cone and attenuation. */
+/* Do nine tenths of the visible pixels face away from every lamp, and would two-sided light show
+   them?  Cones and attenuation are off. */
 static int shade__lamps_behind(shade__survey *q)
 {
     const shade_vec3 glow = q->material.emission;
@@ -8946,7 +8944,7 @@ static int shade__cones_miss(shade__survey *q)
     return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
 }
 
-/* Is there light after all, which does not only graze the surface? */
+/* Is there light after all that does more than graze the surface? */
 static int shade__sides_show(shade__survey *q)
 {
     q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
@@ -8962,7 +8960,7 @@ static int shade__lamps_are_many(shade__survey *q)
     return q->given_state->lighting.light_count > SHADE__SUSPECTS;
 }
 
-/* Changes are kept. */
+/* Each rung keeps the changes of those above it. */
 static const shade__rung shade__black[] = {
     { shade__alpha_is_zero, shade__transparent },
     { shade__shading_is_coarse, shade__coarse },
@@ -9030,7 +9028,7 @@ static int shade__normals_turned(shade__survey *q)
     return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
 }
 
-/* Has no normal a negative component, though an eighth of the faces or more would need one? */
+/* Do all normals lack negative components, though at least an eighth of the faces need one? */
 static int shade__normals_differ(const shade_mesh *m)
 {
     int behind = 0, before = 0;
@@ -9068,7 +9066,7 @@ static int shade__alpha_is_stored(shade__survey *q)
            shade__has_pixels(q, 0.02f / d->transparency, 1 / (1 - d->transparency));
 }
 
-/* Do highlights cover more than they would of a surface that is polished? */
+/* Do highlights cover more than they would on a polished surface? */
 static int shade__highlights_are_wide(shade__survey *q)
 {
     long long all;
@@ -9080,8 +9078,8 @@ static int shade__highlights_are_wide(shade__survey *q)
     return shade__count(q, q->dim) < all;
 }
 
-/* Does light take another eye than the camera's, and would the picture differ with it?  A
-   one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
+/* Does light use another eye than the camera has, and would the picture differ with the camera's?
+   A one-point projection, with w = 1 at the origin of view, has its eye elsewhere on purpose. */
 static int shade__eye_is_astray(shade__survey *q)
 {
     const shade__camera *c = &q->camera;
@@ -9110,10 +9108,11 @@ static const shade__rung shade__wrong_light[] = {
     { shade__colors_are_zero, shade__black_colors },
     { shade__normals_turned,
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
-      "fill them by shade_mesh_normals, or reverse the winding, as a mirroring model does." },
+      "fill them with shade_mesh_normals, or reverse the winding, as a mirroring model does." },
     { shade__eye_is_astray,
-      "Highlights belong to another eye: light takes it from state.view, in which +z points back "
-      "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
+      "Highlights belong to another eye: light takes the eye from state.view, in which +z points "
+      "back to the viewer, but state.projection moves the eye or looks along +z; do that in "
+      "state.view." },
     { shade__wound_inward, shade__inward },
     { shade__normals_disagree,
       "mesh.normals have no negative component, and lie behind some of the faces: are they stored "
@@ -9127,14 +9126,14 @@ static const shade__rung shade__wrong_light[] = {
     { NULL, NULL }
 };
 
-/* Is light of lamps not asked for, or does some show?  Other light is left out from here on. */
+/* Does lamp light show, or is there to be none?  Other light is off from here on. */
 static int shade__lamps_show(shade__survey *q)
 {
     return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
            shade__is_zero(q->material.diffuse) || shade__shows(q);
 }
 
-/* Meshes without lamps may be meant: bright ones, and overlays without normals. */
+/* Meshes may be without lamps on purpose: bright ones, and overlays without normals. */
 static int shade__unlit_is_meant(shade__survey *q)
 {
     const shade_vec3 light = q->state.lighting.ambient;
@@ -9148,7 +9147,7 @@ static int shade__white_shows(shade__survey *q)
     return shade__shows(q);
 }
 
-/* Changes are kept. */
+/* Each rung keeps the changes of those above it. */
 static const shade__rung shade__flat[] = {
     { shade__lamps_show, NULL },
     { shade__count_is_zero,
@@ -9165,7 +9164,7 @@ static const shade__rung shade__flat[] = {
     { shade__always, shade__no_color },
 };
 
-/* ---- numbers that may be meant, but seldom are */
+/* ---- numbers that are possible, but seldom right */
 
 static int shade__boxes_are_small(const shade_mesh *m)
 {
@@ -9181,13 +9180,13 @@ static int shade__boxes_are_small(const shade_mesh *m)
     return beyond;
 }
 
-/* The map that the draw reads itself. */
+/* The map, if the library reads it and not a shader of the caller. */
 static const shade_texture *shade__map_of(const shade__survey *s)
 {
     return s->target->color && !s->given_state->fragment ? s->given_state->diffuse_map : NULL;
 }
 
-/* Does u end where the texels of a row do? */
+/* Does u go up to the width of the map in texels? */
 static int shade__u_reaches(const shade_mesh *m, int width)
 {
     const size_t stride = m->texcoord_stride ? (size_t)m->texcoord_stride : 8;
@@ -9212,15 +9211,15 @@ static const char *shade__doubt_of_map(const shade__survey *s)
         (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
         (!map->mipmaps || map->mipmap_count <= 0))
         return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
-               "fill them by shade_build_mipmaps.";
+               "fill them with shade_build_mipmaps.";
     if (shade__u_reaches(&s->mesh, map->width))
         return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
                "1 over the map, whatever its size.";
     return NULL;
 }
 
-/* Is the aspect of the projection, that of its rows x and y across the sight, not the picture's, in
-   a way that shows?  The cells of a terminal are twice as high as wide. */
+/* Is the aspect of the projection, computed from its rows x and y across the line of sight, other
+   than the picture's, and does that show?  Cells of a terminal are twice as high as wide. */
 static int shade__aspect_is_wrong(const shade__survey *s)
 {
     const shade_mat4 none = shade_mat4_identity();
@@ -9234,9 +9233,9 @@ static int shade__aspect_is_wrong(const shade__survey *s)
     wide = shade__dot3(x, x) * w * w;
     high = shade__dot3(y, y) * h * h;
     if (s->state.projection.col[3].w != 0 || !shade__faces_ahead(&c) ||
-        shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
-        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high) ||
-        shade__size(wide - high) <= 0.06 * wide)
+        shade__abs(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
+        (h < 128 && shade__abs(wide - 4 * high) < 0.24 * high) ||
+        shade__abs(wide - high) <= 0.06 * wide)
         return 0;
     for (int k = 0; k < 4; k++)
         mended.state.projection.col[k].x *= shade__sqrt((float)(high / wide));
@@ -9254,8 +9253,8 @@ static const char *shade__doubt_of_view(const shade__survey *s)
                "the target as floats to shade_mat4_perspective.";
     if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && p->col[3].x == 0 &&
         p->col[3].y == 0 && shade__eye_inside(s))
-        return "state.view is unset, so that the eye is at the origin, inside of the mesh's box; "
-               "make it with shade_mat4_look_at.";
+        return "state.view is unset, so that the eye is at the origin, inside the mesh's box; make "
+               "it with shade_mat4_look_at.";
     return NULL;
 }
 
@@ -9266,8 +9265,8 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     if (s->target->color && !d->fragment && d->lighting.light_count > 0 && !d->lighting.terms &&
         e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
         d->lighting.model < SHADE_MODEL_EMISSIVE && !shade__is_zero(s->material.diffuse))
-        return "state.material.emission alone makes all white, whatever light arrives: it is what "
-               "the surface sends out, and 0 for most.";
+        return "state.material.emission alone makes everything white, whatever light arrives: it "
+               "is the light that a surface emits by itself, 0 for most.";
     return NULL;
 }
 
@@ -9292,7 +9291,7 @@ static const char *shade__doubt(const shade__survey *s)
 
 /* ---- the way through the ladders */
 
-/* Does the advice help by itself, with all else as it is given? */
+/* Does the advice help by itself, with all else as given? */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
@@ -9328,17 +9327,17 @@ static const char *shade__why_black(const shade__survey *seen)
     return shade__helps(seen, why) ? why : shade__multiply;
 }
 
-/* Is all dark that the mesh may show, or the caller's picture?  A channel of least is not dark. */
+/* Is every pixel of the mesh dark, below least in each channel, or dark in the caller's picture? */
 static int shade__is_dark(const shade__survey *seen, float least)
 {
     shade__survey q = *seen;
     if ((!q.whole && shade__is_band(q.target)) || shade__black_is_meant(&q)) return 0;
     if (!q.exact) shade__look_in_clip(&q);
-    q.stored = 1;
+    q.lit_only = 1;
     return !shade__count(&q, least);
 }
 
-/* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */
+/* Looks at a picture in which the mesh has pixels.  Light is judged if the library computes it. */
 static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
@@ -9390,8 +9389,8 @@ static const char *shade__clip_fault(const shade_target *t)
     int clip[4];
     picture.row_offset = picture.row_count = 0;
     if (!shade__clip_rectangle(&picture, clip))
-        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
-               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
+        return "The clip rectangle is empty or outside the picture: check target.clip_x, clip_y, "
+               "clip_width and clip_height; all four zero mean everywhere.";
     return shade__clip_rectangle(t, clip) ? NULL : "";
 }
 
@@ -9413,22 +9412,22 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
 
 /*----------------------------------------------------------------------------------------- >>replay
    Why lines or a pipeline give no picture, or a wrong one, in one sentence.
-     in      what shade_draw_lines or shade_draw took, its stats
+     in      arguments of shade_draw_lines or shade_draw, its stats
      out     a constant sentence; "" for nothing
      method  The draw is run again without a picture.  Shaders of this section call the given ones
-             and count what they give.
+             and count what these return.
      holds   The caller's memory is only read, unless the caller's own shaders write.
      way     explain_replay: run_again; why_matrix of lines; why_nowhere; why_kept_out; why_faint
                                                                                           >>image */
 
-/* What the shaders gave in one run. */
+/* What the shaders returned in one run. */
 typedef struct shade__tally {
     shade_stats stats;                   /* fragments: neither discarded nor hidden */
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
-    int         any_w;                   /* is a w not 0? */
+    int         any_w;                   /* 1: some w is not 0 */
     long long   fragments;               /* all of them; of these: */
     long long   discarded, clear;        /* alpha is 0 */
-    long long   nan, dark, bright;       /* a channel is; all are stored as 0; one is 16 or more */
+    long long   nan, dark, bright;       /* a channel is; all are dim; one is 16 or more */
 } shade__tally;
 
 /* A draw that is run again. */
@@ -9457,7 +9456,7 @@ static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *S
     }
 }
 
-/* Calls the given shader where a draw calls it. */
+/* Calls the given shader if a draw would. */
 static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                    shade_colors *SHADE_RESTRICT out)
 {
@@ -9503,13 +9502,13 @@ static shade__tally shade__run_again(const shade__replay *r)
 
 /* ---- the matrix of lines */
 
-/* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
+/* Do the rows of z and w come from a perspective times a view: parallel, with w of length 1? */
 static int shade__is_camera(const shade_mat4 *m)
 {
     const shade_mat4 one = shade_mat4_identity();
     shade__camera c;
     shade__camera_of(m, &one, &c);
-    return shade__faces_ahead(&c) && shade__size(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
+    return shade__faces_ahead(&c) && shade__abs(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
 }
 
 static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
@@ -9519,9 +9518,9 @@ static const char *shade__why_matrix(const shade__replay *r, const shade__tally 
     shade__replay by_rows = *r;
     shade__stroke stroke = *(const shade__stroke *)r->pipe.uniforms;
     if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
-        return "Every line lies outside of the cube from -1 to 1: state.clip_from_points is unset, "
-               "or no projection; it is projection times view, in this order.";
-    /* w = -z, but the rest is no perspective */
+        return "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or "
+               "not a projection; it is projection times view, in this order.";
+    /* w = -z, but the rest is not a perspective */
     if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
         (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
         return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
@@ -9559,8 +9558,8 @@ static const char *shade__why_outside(const shade__replay *r)
     if (r->lines) points.pipe.vertex = shade__point_vertex;
     t = shade__run_again(&points);
     if (!t.any_w)
-        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 where no "
-               "matrix projects; or the matrix is not projection times view, in this order.";
+        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 without a "
+               "projection; or the matrix is not projection times view, in this order.";
     if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
         return "All positions lie beyond the far plane, as if projection had near = far, degrees "
                "for radians, or an aspect of 0; or raise far, or move the eye nearer.";
@@ -9592,7 +9591,7 @@ static const char *shade__why_nowhere(const shade__replay *r, const shade_stats 
                       "their corners coincide or they are seen edge-on, or lie beside the picture.";
 }
 
-/* ---- pixels are covered, but the draw gave none, or maybe none */
+/* ---- pixels are covered, but the draw stored none, or perhaps none */
 
 static const char *shade__why_kept_out(const shade__replay *r, const shade__tally *t)
 {
@@ -9612,20 +9611,21 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
     raster->depth_test = SHADE_COMPARE_EQUAL;
     if (!r->given && shade__run_again(&part).stats.fragments) return NULL;    /* its own depth */
     raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
-    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth that there is */
+    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth possible */
     if (!shade__run_again(&part).stats.fragments)
         return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
-    raster->depth_bias *= 2e-6f;    /* of two planes that are one, depths differ by less */
+    raster->depth_bias *= 2e-6f;    /* depths of coinciding planes differ by less */
     if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
-        return "The lines lie in surfaces that target.depth holds, which hide them: use "
-               "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
+        return "The lines lie in surfaces that target.depth already holds, and these hide them: "
+               "use SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
     if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
-        return NULL;    /* one of many things in a scene may well be hidden */
-    return "Everything is hidden by depth that target.depth already holds: of other draws, or of "
-           "the frame before without a shade_clear; or raster.depth_bias pushes it back.";
+        return NULL;    /* one part of a scene may well be hidden */
+    return "Everything is hidden by depth that target.depth already holds: from other draws, or "
+           "from the frame before if shade_clear was not called; or raster.depth_bias pushes it "
+           "back.";
 }
 
 /* ---- pixels are drawn, but wrongly */
@@ -9738,12 +9738,12 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
 }
 
 /*------------------------------------------------------------------------------------------ >>image
-   Pictures made of pictures: smaller ones, mipmaps, files.
+   Makes pictures from pictures: smaller ones, mipmaps, files.
      in      a picture of any format
      out     means in linear light, or a file
      way     resolve, build_mipmaps and encode_ppm: open_decoder; convert: reduce: means, halve or
              shrink; store_run of >>store
-     method  The values of a channel are few: each is decoded once a call.              >>presets */
+     method  A channel has few values: each is decoded once a call.                     >>presets */
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
 {
@@ -9757,11 +9757,11 @@ static shade_result shade__check_picture(const shade_target *t)
     return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
 
-/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
-   2 i + 2 of the level above, and of each a share. */
+/* Along one axis, texel i of a mipmap covers a share of each of pixels 2 i, 2 i + 1 and, if the
+   size is odd, 2 i + 2 of the level above. */
 typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
 
-/* What a level of mipmaps is made with. */
+/* Tables to make a level of mipmaps. */
 enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
 typedef struct shade__halving {
     double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
@@ -9774,7 +9774,7 @@ typedef struct shade__decoder {
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *of[4];
-    float value[512];    /* of colours, then of alpha; channels of one size share theirs */
+    float value[512];    /* of colours, then of alpha; channels of equal size share values */
 } shade__decoder;
 
 static void shade__open_decoder(const shade_target *t, shade__decoder *d)
@@ -9886,8 +9886,8 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows
     }
 }
 
-/* The light of pixels x .. x + n - 1 of row y of a picture that is made of another one: means of
-   factor x factor pixels, or of what the texels of a mipmap cover. */
+/* The light of pixels x .. x + n - 1 of row y of a smaller picture: means of factor x factor
+   pixels, or of the pixels that the texels of a mipmap cover. */
 static void shade__reduce(const shade__decoder *d, const shade_target *to, int factor, int x, int y,
                           int n, float *mean)
 {
@@ -9907,8 +9907,8 @@ static void shade__reduce(const shade__decoder *d, const shade_target *to, int f
     else shade__means(d, p, pitch, factor, n, bytes, mean);
 }
 
-/* Makes a picture of the decoder's, in its clip rectangle.  With a sink the picture is one row of
-   RGBA8 that goes there as R, G, B bytes. */
+/* Makes the clip rectangle of a picture from the decoder's.  With a sink, the picture is one row of
+   RGBA8, and the sink gets it as R, G, B bytes. */
 static shade_result shade__convert(const shade__decoder *d, const shade_target *to, int factor,
                                    shade_write_fn *sink, void *user)
 {
@@ -10074,15 +10074,15 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
      source  [Kilgard94]                                                                   >>refs */
 
 /* One row of the table: name; k_a, k_d, k_s, shininess / 128. */
-typedef struct shade__preset_row {
+typedef struct shade__preset_entry {
     const char *name;
     float ar, ag, ab, dr, dg, db, sr, sg, sb, shininess;
-} shade__preset_row;
+} shade__preset_entry;
 
-/* NULL where there is no such material. */
-static const shade__preset_row *shade__preset(int preset)
+/* Returns NULL if there is no such material. */
+static const shade__preset_entry *shade__preset(int preset)
 {
-    static const shade__preset_row table[SHADE_PRESET_COUNT] = {
+    static const shade__preset_entry table[SHADE_PRESET_COUNT] = {
         { "emerald", 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
             0.633f, 0.727811f, 0.633f, 0.6f },
         { "jade", 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
@@ -10125,7 +10125,7 @@ static const shade__preset_row *shade__preset(int preset)
 
 SHADEDEF shade_material shade_preset_material(shade_preset preset)
 {
-    const shade__preset_row *row = shade__preset((int)preset);
+    const shade__preset_entry *row = shade__preset((int)preset);
     shade_material m = shade__white_lambert();
     if (!row) return m;
     m.ambient = shade_v3(row->ar, row->ag, row->ab);
@@ -10137,7 +10137,7 @@ SHADEDEF shade_material shade_preset_material(shade_preset preset)
 
 SHADEDEF const char *shade_preset_name(shade_preset preset)
 {
-    const shade__preset_row *row = shade__preset((int)preset);
+    const shade__preset_entry *row = shade__preset((int)preset);
     return row ? row->name : "";
 }
 
@@ -10185,7 +10185,7 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md tells
+   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md says
    what each brought.
    From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */

@@ -27,18 +27,18 @@ static void prove_take(int most, int room)
     const shade__indices wide = { list, NULL };
     const int first = SHADE__BATCH_TRIANGLES - most;
     int taken;
-    any_incoming(&d.u.in, room + 3);
+    any_incoming(&d.u.incoming, room + 3);
     memset(corner, 0, sizeof corner);
     any_ints((int32_t *)list, 3 * SHADE__BATCH_TRIANGLES, INT32_MIN, INT32_MAX);
-    d.u.in.ids.count = ANY_OF(0, room);
-    taken = shade__take_triangles(&d.u.in, wide, (uint32_t)first, most, room, corner + first);
+    d.u.incoming.ids.count = ANY_OF(0, room);
+    taken = shade__take_triangles(&d.u.incoming, wide, (uint32_t)first, most, room, corner + first);
     /*@ assert 0 <= taken <= most; */
-    /*@ assert 0 <= d.u.in.ids.count <= room + 3; */
+    /*@ assert 0 <= d.u.incoming.ids.count <= room + 3; */
     for (int i = 0; i < 4 * SHADE__BATCH_TRIANGLES; i++) {
         /*@ assert corner[i / 4][i % 4] < room + 3; */
     }
     for (int i = 0; i < 2 * SHADE_LANES; i++) {
-        /*@ assert d.u.in.slot_of[i] < room + 3; */
+        /*@ assert d.u.incoming.slot_of[i] < room + 3; */
     }
 }
 
@@ -52,13 +52,13 @@ static int anywhere(shade__draw *to)
 
 static void prove_batch(int stride, int vertices)
 {
-    any_incoming(&d.u.in, vertices);
+    any_incoming(&d.u.incoming, vertices);
     d.supply = &supply;
     d.plan.value_stride = stride;
     supply.more = anywhere;
     anywhere(&d);
     shade__take_batch(&d);
-    /*@ assert 0 <= d.u.in.ids.count <= vertices; */
+    /*@ assert 0 <= d.u.incoming.ids.count <= vertices; */
     /*@ assert 0 <= d.batch.count <= SHADE__BATCH_TRIANGLES; */
     /*@ assert 0 <= d.batch.parts <= SHADE__PARTS; */
     /*@ assert d.setup.count == 0; */

@@ -54,7 +54,7 @@ static void prove_parts(void)
     uint32_t packed[N];
     any_floats(rgba, 4 * SHADE_LANES);
     for (int i = 0; i < N; i++) {
-        float unit = shade__unit(rgba[i]);
+        float unit = shade__saturate(rgba[i]);
         /*@ assert 0 <= unit <= 1; */
         x[i] = Frama_C_float_interval(0, 16400);
         y[i] = Frama_C_float_interval(0, 16400);

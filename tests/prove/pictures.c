@@ -21,7 +21,7 @@ static void prove_resolve(shade_format format, int factor)
     in.color = fine + sizeof fine - (size_t)(WIDTH * HEIGHT * factor * factor) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(WIDTH * HEIGHT) * bytes;
     shade__open_decoder(&in, &decoder);
-    shade__convert(&decoder, NULL, &in, &out, factor, NULL, NULL);
+    shade__convert(&decoder, &out, factor, NULL, NULL);
 }
 
 /* a level of mipmaps from the one before, in memory that ends with the last texel of each */
@@ -37,7 +37,8 @@ static void prove_shrink(shade_format format, int width, int height)
     out.color = coarse + sizeof coarse - (size_t)(out.width * out.height) * bytes;
     shade__open_decoder(&in, &decoder);
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
-    shade__convert(&decoder, &halving, &in, &out, 2, NULL, NULL);
+    decoder.halving = &halving;
+    shade__convert(&decoder, &out, 2, NULL, NULL);
 }
 
 /* offsets of pixels in the greatest picture, its rows however far apart */

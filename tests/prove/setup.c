@@ -6,7 +6,7 @@
 enum { N = SHADE__TRIANGLES, FAR = 1 << 24 };
 
 static shade__setup s;
-static shade__corner_rows c;
+static shade__corner_rows c, turned;
 static shade__turns turns;
 static double inverse[N];
 
@@ -26,7 +26,7 @@ static void prove_areas(void)
     uint32_t order[N];
     shade__areas(&c, area, inverse);
     shade__choose_turns(&c, area, &turns, order);
-    shade__turn(shade__words(c.z), &turns);
+    shade__turn(shade__words(c.z), &turns, shade__words(turned.z));
     for (int i = 0; i < N; i++) {
         /*@ assert -2251799813685248. <= area[i] <= 2251799813685248.; */
         /*@ assert !(inverse[i] < 0); */
@@ -37,8 +37,8 @@ static void prove_areas(void)
 static void prove_boxes(void)
 {
     const int x0 = ANY_OF(0, 16384), x1 = ANY_OF(0, 16384);
-    shade__box(c.x[0], c.x[1], c.x[2], x0, x1 - 1, s.x0, s.x1);
-    shade__box(c.y[0], c.y[1], c.y[2], x0, x1 - 1, s.y0, s.y1);
+    shade__box(c.x, x0, x1 - 1, s.x0, s.x1);
+    shade__box(c.y, x0, x1 - 1, s.y0, s.y1);
     for (int i = 0; i < N; i++) {
         /*@ assert 0 <= s.x0[i] <= 65536 && -65537 <= s.x1[i] <= 16383; */
     }

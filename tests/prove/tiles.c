@@ -53,7 +53,9 @@ static void prove_columns(int width, int less_only, int full)
         tile.set[r] = 0;
         tile.row_z[r] = any_float();
     }
-    shade__test_columns(&plan, &t, &edges, &tile, SHADE__TILE - width, width, less_only, full);
+    tile.edges = &edges;
+    shade__test_columns(&plan, &t, &tile, SHADE__TILE - width, width,
+                        (less_only ? SHADE__LESS : 0) | (full ? SHADE__FULL : 0));
 }
 
 /* The edges of a small triangle: anywhere in the 1024 rows of its box, from 31 pixels before its

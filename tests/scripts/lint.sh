@@ -37,6 +37,12 @@ check "at least 8 % of the implementation is air" "$(awk '
     / >>refs$/ { exit }
     { lines++; blank += !NF }
     END { if (blank < 0.08 * lines) print blank " blank lines of " lines }' $H)"
+check "no blank line after the declarations of a function: blank lines stand between steps" "$(awk '
+    BEGIN { type = "^    (const|static|unsigned|int|float|double|u?int[0-9]+_t|size_t|ptrdiff_t|long|char|shade_[a-z0-9_]+|SHADE_ALIGNED) " }
+    /^\{$/ { head = 1; next }
+    head && !NF && declared { print FNR ": blank" }
+    head && $0 !~ type && !(declared && /^     /) { head = declared = 0 }
+    head { declared = 1 }' $H)"
 check "functions of at most 80 lines" "$(awk '/^\{$/ { start = FNR } /^\}$/ && start { if (FNR - start > 80) print FNR ": " FNR - start; start = 0 }' $H)"
 check "#if on compilers and targets only in >>config, >>plumbing and >>machine" "$(awk '
     /^\/\*-+ >>/ { section = $2 }

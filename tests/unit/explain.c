@@ -256,7 +256,7 @@ TEST(explain, of_a_pool_beside_the_middle_of_a_face_no_field_is_blamed_alone)
     s->state.lighting.light_count = 1;
     CHECK(strstr(stage_explain(s, 1), "several of them may be at fault"));
     s->mesh.normals = NULL;
-    CHECK(strstr(stage_explain(s, 1), "state.shading lights vertices or middles"));
+    CHECK(strstr(stage_explain(s, 1), "state.shading lights only vertices"));
     free(s);
 }
 /* The stats are believed: the small picture of shade_explain may miss what the large one shows. */
@@ -295,7 +295,7 @@ TEST(explain, small_pools_of_light_are_light)
         }
         s->state.view = shade_mat4_look_at(shade_v3(0, 3, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
         if (k % 4 != 1) stage_is_good(s, "a pool");
-        else CHECK(strstr(stage_explain(s, 1), "No cone of the lights shows"));
+        else CHECK(strstr(stage_explain(s, 1), "No cone of a spotlight"));
         free(s);
     }
 }

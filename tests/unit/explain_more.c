@@ -54,7 +54,7 @@ NEAR(equal, 1, "is SHADE_COMPARE_EQUAL")
         s->clear = NAN;
     }
 }
-NEAR(far_plane, 1, "Every depth of the mesh is the far plane's")
+NEAR(far_plane, 1, "Every pixel of the mesh has the depth of the far plane")
 {
     s->z_near = miss ? 1e-5f : 1e-8f;
     stage_look(s);
@@ -426,7 +426,7 @@ NEAR(clip, 1, "lies beyond the picture")
     s->target.clip_width = miss ? STAGE_WIDTH - 40 : STAGE_WIDTH - 39;
     s->target.clip_height = STAGE_HEIGHT - 1;
 }
-NEAR(box, 2, "does not hold its triangles")
+NEAR(box, 2, "does not contain its triangles")
 {
     stage_chunk(s, shade_v3(-1, -1, -1), shade_v3(1, miss ? 1 : 0.999f, 1));
     if (miss == 2) {    /* a part without triangles has a box, and no need of one */
