@@ -23,13 +23,12 @@ static double half_angle(float n)
 }
 
 /* One ball with two lines of text below it */
-static void ball(const canvas *c, const owned_mesh *mesh, const shade_draw_state *state, int middle,
-                 int top, int size, const char *name, const char *formula)
+static void ball(const canvas *c, const owned_mesh *mesh, const shade_draw_state *state,
+                 int middle, int top, int size, const char *name, const char *formula)
 {
-    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     shade_target panel = canvas_panel(c, middle - size / 2, top, size, size);
     shade_draw_mesh(&panel, &mesh->view, state, NULL);
-    label_caption(c, middle, top + size + 20, grey, name, formula);
+    label_caption(c, middle, top + size + 20, shade_v3(0.7f, 0.7f, 0.7f), name, formula);
 }
 
 int main(int argc, char **argv)
@@ -48,8 +47,7 @@ int main(int argc, char **argv)
                                  shade_directional_light(shade_v3(0.9f, 0.2f, 0.6f), white),
                                  shade_directional_light(shade_v3(0.1f, -1, 0.8f), white),
                                  shade_directional_light(shade_v3(-0.1f, 1, 1), half_white) };
-    const shade_texture earth = { .pixels = map, .width = 512, .height = 256,
-                                  .format = SHADE_FORMAT_RGBA32F };
+    const shade_texture earth = { map, 512, 256, .format = SHADE_FORMAT_RGBA32F };
     shade_draw_state state = { .lighting = { lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
     owned_mesh mesh = mesh_sphere(128, 64);
     canvas c = canvas_new(960, 580, 2);
@@ -67,8 +65,7 @@ int main(int argc, char **argv)
     }
     state.material = &metal;
     state.lighting.light_count = 5;    /* metal shows what is around it */
-    sprintf(text, "n = %g, k_s = %g k_d", (double)metal.shininess,
-            (double)(metal.specular.x / metal.diffuse.x));
+    sprintf(text, "n = 32, k_s = %g k_d", (double)(metal.specular.x / metal.diffuse.x));
     ball(&c, &mesh, &state, 160, 256, 264, "metal", text);
     state.material = &plastic;
     state.lighting.light_count = 1;

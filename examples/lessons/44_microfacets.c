@@ -61,8 +61,7 @@ static void draw_ray(sketch *s, int k, shade_vec3 L, float roughness)
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "smooth: mirror", "rough: glossy", "pigment: diffuse" };
-    static const char *const format[3] = { "k_s, ±%.1f° about R", "k_s, ±%.1f° about R",
-                                           "k_d, ±%.1f° about N" };
+    static const char *const format[2] = { "k_s, ±%.1f° about R", "k_d, ±%.1f° about N" };
     static const float roughness[3] = { 0, 0.22f, -1 };
     const shade_vec3 L = sketch_direction(-30), N = { 0, 1, 0 };
     canvas c = canvas_new(960, 400, 3);
@@ -73,8 +72,7 @@ int main(int argc, char **argv)
         canvas_fill(&c.target, 3 * (s.x - 140), 3 * 205, 3 * 280, 3 * 100, body);
         for (int k = 0; k < DRAWN; k++) draw_ray(&s, k, L, roughness[i]);
         label_center(&c, s.x, 342, 22, black, name[i]);
-        snprintf(caption, sizeof caption, format[i],
-                 spread(L, roughness[i], i < 2 ? shade_mirror(L, N) : N));
+        sprintf(caption, format[i / 2], spread(L, roughness[i], i < 2 ? shade_mirror(L, N) : N));
         label_center(&c, s.x, 376, 21, i < 2 ? shade_scale(amber, 0.5f) : teal, caption);
     }
     return canvas_save(&c, argc, argv, "microfacets.ppm");
