@@ -69,14 +69,14 @@ if [ "$STB" ]; then
     check "embedded" "$T/models" "$T" "$T/embed.png"
     check "glTF with a picture inside" draw embedded.gltf a.png --model emissive --rotate 0
     check "no warning" test ! -s "$T/err"
+    sed 's/"baseColorTexture":{"index":0},//' "$T/embedded.gltf" >"$T/plain.gltf"
+    same "emissiveFactor is all of the emission" embedded.gltf plain.gltf 0 "--model emissive"
+    sed 's/"emissiveFactor"/"emissiveTexture":{"index":0},&/' "$T/plain.gltf" >"$T/glow.gltf"
     sed 's/"TEXCOORD_0":2/"TEXCOORD_0":3,"TEXCOORD_1":2/; s/"type":"VEC2"}\]/"type":"VEC2"},{"bufferView":0,"componentType":5126,"count":4,"type":"VEC2"}]/
-        s/"baseColorTexture":{"index":0}/"baseColorTexture":{"index":0,"texCoord":1}/' \
-        "$T/embedded.gltf" >"$T/second.gltf"
-    same "the second of two sets of coordinates" embedded.gltf second.gltf 0 "--model emissive"
-    sed 's/"baseColorTexture":{"index":0},//; s/"emissiveFactor"/"emissiveTexture":{"index":0},&/' \
-        "$T/embedded.gltf" >"$T/glow.gltf"
-    same "a map of emission" embedded.gltf glow.gltf 0 "--model emissive"
-    check "glTF with a picture inside" draw embedded.gltf a.png --model emissive --rotate 0
+        s/"emissiveTexture":{"index":0}/"emissiveTexture":{"index":0,"texCoord":1}/' \
+        "$T/glow.gltf" >"$T/second.gltf"
+    same "the second of two sets of coordinates" glow.gltf second.gltf 0 "--model emissive"
+    check "a map of emission" draw glow.gltf a.png --model emissive --rotate 0
     cp "$T/embed.png" "$T/the map.png"
     sed 's/the map.tga/the map.png/; s/Ke .*/Ke 0.7 0.7 0.7/' "$T/map.mtl" >"$T/embedded.mtl"
     sed 's/map.mtl/embedded.mtl/' "$T/map.obj" >"$T/embedded.obj"

@@ -182,6 +182,18 @@ static int list_pictures(model *m)
     return held;
 }
 
+/* In glTF what a surface sends by itself has a picture of its own.  Elsewhere the map multiplies it
+   too, as in OpenGL's fixed pipeline, for which those formats were made. */
+static void picture_shines(const model *m, model_surface *s)
+{
+    const shade_vec3 e = s->material.emission;
+    if (m->physical || s->glow_picture >= 0 || e.x + e.y + e.z <= 0) return;
+    if (s->picture < 0 || !m->picture[s->picture].pixels) return;
+    s->glow_picture = s->picture;
+    s->glow = e;
+    s->material.emission = shade_v3(0, 0, 0);
+}
+
 /* Once pictures have pixels: what they say of their surfaces. */
 static void heed_pictures(model *m)
 {
@@ -195,6 +207,7 @@ static void heed_pictures(model *m)
         int clear;
         if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
         if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
+        picture_shines(m, s);
         if (s->picture < 0 || !m->picture[s->picture].pixels || s->opaque) continue;
         if (s->alpha_cutoff > 0 || s->blended) continue;
         clear = picture_clearness(&m->picture[s->picture]);

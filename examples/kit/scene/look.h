@@ -258,15 +258,16 @@ static void look_color(const look *k, const shade_fragments *in, look_rows texel
         {
             albedo[a][i] = own[a][i] * texel[a][i];
         }
+    if (k->glow_map) look_glow(k, in, glow);
     if (k->per_vertex) {
         for (int a = 0; a < 3; a++) SHADE_EACH_LANE(i)
             {
                 out[a][i] = in->varying[LOOK_P + a][i] * (texel ? texel[a][i] : 1);
+                out[a][i] += k->glow_map ? glow[a][i] : 0;
             }
         return;
     }
     look_surface(k, in, P, N);
-    if (k->glow_map) look_glow(k, in, glow);
     look_light(k, P[0], N[0],
                own && texel ? albedo[0]
                : own        ? own[0]

@@ -672,6 +672,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
         look k;
         if (part_is_clear(&s->model, &o, i) != clear) continue;
         look_dress(&k, &o, &s->model, s->model.part[i].surface);
+        if (k.map && k.glow_map == k.map) k.material.emission = k.glow;
         state.material = &k.material;
         state.diffuse_map = k.map;
         state.alpha_cutoff = k.alpha_cutoff;

@@ -200,3 +200,11 @@ def test_a_renderer_tells_what_it_leaves_out():
     renderer = shade.Renderer(32, 32)
     with pytest.warns(UserWarning, match="its normal, bump and emissive maps are left out"):
         renderer.mesh(square(glow=np.zeros((2, 2, 3), np.uint8)))
+
+
+def test_the_map_of_mtl_multiplies_what_shines(tmp_path):
+    shade.Picture(np.full((8, 8, 4), (255, 128, 0, 255), np.uint8)).save(tmp_path / "map.png")
+    (tmp_path / "a.mtl").write_text("newmtl m\nKd 0 0 0\nKe .5 1 1\nmap_Kd map.png\n")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                    "usemtl m\nf 1/1 2/2 3/3 4/4\n")
+    assert np.abs(inner(seen(shade.load(tmp_path / "a.obj"))) - (127.5, 128, 0)).max() <= 1
