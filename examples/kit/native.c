@@ -685,6 +685,19 @@ int python_pictures(model *m, int *beside)
     return m->picture_count;
 }
 
+/* 1: faces show the picture, or what it says of their surface. */
+NATIVE(picture_shown)
+int python_picture_shown(const model *m, int i);
+int python_picture_shown(const model *m, int i)
+{
+    for (int k = 0; k < m->part_count && m->surface_count && m->mesh.texcoords; k++) {
+        const model_surface *s = &m->surface[m->part[k].surface];
+        if (s->picture == i || s->relief.picture == i || s->glow_picture == i || s->polish == i)
+            return 1;
+    }
+    return 0;
+}
+
 NATIVE(picture_of) void python_picture_of(const model *m, int i, python_picture *out);
 void python_picture_of(const model *m, int i, python_picture *out)
 {

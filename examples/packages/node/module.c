@@ -594,19 +594,6 @@ void module_model_of(const model *m, module_model *out)
 EXPORT(model_part) void module_model_part(const model *m, int i, python_part *part);
 void module_model_part(const model *m, int i, python_part *part) { python_part_of(m, i, part); }
 
-/* 1: a surface of the mesh shows picture i, or shines as it says. */
-EXPORT(picture_shown) int module_picture_shown(const model *m, int i);
-int module_picture_shown(const model *m, int i)
-{
-    if (!m->surface_count || !m->mesh.texcoords) return 0;
-    for (int k = 0; k < m->part_count; k++) {
-        const model_surface *s = &m->surface[m->part[k].surface];
-        if (s->picture == i || s->relief.picture == i || s->glow_picture == i || s->polish == i)
-            return 1;
-    }
-    return 0;
-}
-
 /* ---- words, colours and sizes --------------------------------------------------------------- */
 
 EXPORT(words) const char *module_words(shade_result result);

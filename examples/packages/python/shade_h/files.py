@@ -76,23 +76,21 @@ def _warn(words: str) -> None:
 
 # ---- by the reader of the programs ---------------------------------------------------------------
 
-def _decode(owned: Any, i: int, model: str, outside: bool) -> Any:
-    """The pixels of a picture inside the file or beside it; None where it cannot be read."""
-    one = FilePicture()
-    library.python_picture_of(owned, i, ctypes.byref(one))
-    try:
-        return decoded(ctypes.string_at(one.bytes, one.size), "a picture") if one.bytes else \
-            _image(model, os.fsdecode(one.name), outside)
-    except Error as why:
-        _warn(f"{model}: {why}; its faces are drawn without it")
-        return None
-
-
 def _pictures(owned: Any, model: str, outside: bool) -> list[Any]:
-    """The pixels of all pictures, which the library is told."""
-    beside = ctypes.c_int()
-    count = library.python_pictures(owned, ctypes.byref(beside))
-    images = [_decode(owned, i, model, outside) if i < 256 else None for i in range(count)]
+    """The pixels of the pictures that faces show, which the library is told; None for others."""
+    beside, one = ctypes.c_int(), FilePicture()
+    images: list[Any] = [None] * library.python_pictures(owned, ctypes.byref(beside))
+    for i in range(len(images)):
+        if not library.python_picture_shown(owned, i):
+            continue
+        library.python_picture_of(owned, i, ctypes.byref(one))
+        if i >= beside.value:
+            images[i] = _image(model, os.fsdecode(one.name), outside)
+        elif one.bytes:
+            try:
+                images[i] = decoded(ctypes.string_at(one.bytes, one.size), "a picture")
+            except Error as why:
+                _warn(f"{model}: {why}; its faces are drawn without it")
     for i, image in enumerate(images):
         if image is not None:
             rgba = np.ascontiguousarray(image)

@@ -96,7 +96,7 @@ class Piece:
             item.state.diffuse_map = ctypes.pointer(self.map)
         if self.relief is not None:
             item.relief, item.relief_heights = ctypes.pointer(self.relief), self.heights
-            item.relief_strength = arguments.number("strength", look.strength, 0, 1e6)
+            item.relief_strength = arguments.number("strength", look.strength, -1e9, 1e9)
         if self.glow is not None:
             item.glow_map = ctypes.pointer(self.glow)
             item.glow = tuple(arguments.floats("glow_factor", look.glow_factor, (3,), True).tolist())

@@ -1,6 +1,7 @@
 """Normal, bump and emissive maps, and what a picture of metal and roughness says, against squares
 whose normals, light and factors are given outright."""
 import io
+import warnings
 
 import numpy as np
 import pytest
@@ -181,7 +182,7 @@ def test_what_is_wrong_is_refused():
         square(relief=np.zeros((4, 4)))
     with pytest.raises(shade.Error, match="uv is missing"):
         shade.Mesh(CORNERS, FACES, surfaces=([0, 0], [shade.Surface(glow=np.zeros((2, 2, 3)))]))
-    for wrong in (dict(relief=np.zeros((2, 2, 3)), strength=-1),
+    for wrong in (dict(relief=np.zeros((2, 2, 3)), strength=np.inf),
                   dict(glow=np.zeros((2, 2, 3)), glow_factor=(1, 1)),
                   dict(glow=np.zeros((2, 2, 3)), glow_factor=(1, np.nan, 1))):
         with pytest.raises(shade.Error, match="strength|glow_factor"):
@@ -208,3 +209,21 @@ def test_the_map_of_mtl_multiplies_what_shines(tmp_path):
     (tmp_path / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
                                     "usemtl m\nf 1/1 2/2 3/3 4/4\n")
     assert np.abs(inner(seen(shade.load(tmp_path / "a.obj"))) - (127.5, 128, 0)).max() <= 1
+
+
+def test_pictures_that_no_face_shows_are_not_read(tmp_path):
+    (tmp_path / "a.mtl").write_text("newmtl m\nKd 1 0 0\nnewmtl other\nKd 1 1 1\nmap_Kd missing.png\nmap_bump missing.png\n")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        shade.load(tmp_path / "a.obj")
+
+
+def test_a_picture_that_cannot_be_read_is_told_once(tmp_path):
+    (tmp_path / "a.mtl").write_text("newmtl m\nKd 1 0 0\nmap_Kd missing.png\nnewmtl n\nKd 1 1 1\nmap_Kd missing.png\n")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                                    "usemtl m\nf 1/1 2/2 3/3\nusemtl n\nf 3/3 2/2 1/1\n")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        shade.load(tmp_path / "a.obj")
+    assert len([one for one in told if "missing.png" in str(one.message)]) == 1
