@@ -356,3 +356,22 @@ property $2 green\nproperty $2 blue/"; rows "$3 0 0"; printf "$ply_faces"; } >"$
     check "a material of glass" draw glass.gltf a.ppm
     check "is told" said "glass.*COLOR_0 does not count; it has KHR_materials_transmission, which is not read"
 }
+
+# Numbers of another kind than a reader expects: the picture is that of the plain file.
+value_reports() {
+    for k in "0 0 0" "nan nan nan" "-nan 0 inf"; do
+        { printf "${wedge}vn $k\n"; printf "$faces" | sed 's/ \([0-9]\)/ \1\/\/1/g'; } >"$T/none.obj"
+        same "vn $k in OBJ is made anew" wedge.obj none.obj 0 "--up y"
+    done
+    printf "${wedge}vn 0 0 1\nvn 0 0 0\nf 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 2//2 3//2 4//2\n" >"$T/one.obj"
+    printf "${wedge}vn 0 0 1\nf 1//1 3//1 2//1\nf 1 2 4\nf 2 3 4\n" >"$T/two.obj"
+    same "one vn of several" two.obj one.obj 0 "--up y"
+    for k in 1 1e30 1e-30; do
+        { printf "${wedge}vn $k 0 $k\n"; printf "$faces" | sed 's/ \([0-9]\)/ \1\/\/1/g'; } >"$T/vn$k.obj"
+        { printf "$ply_head" | sed 's/vertex 5/vertex 4/; s/.*double z/&\nproperty double nx\
+property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ $k 0 $k/"
+            printf "$ply_faces"; } >"$T/n$k.ply"
+        same "vn as long as $k" vn1.obj vn$k.obj 1 "--up y"
+        same "in PLY" vn1.obj n$k.ply 1 "--up y"
+    done
+}

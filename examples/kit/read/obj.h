@@ -96,7 +96,7 @@ static inline int obj_normal(mesh_reader *r, obj_data *o)
     float n[3];
     int count;
     if (obj_numbers(r, v, 3, 3, &count)) return 1;
-    for (int k = 0; k < 3; k++) n[k] = mesh_or_zero(v[k]);
+    mesh_normal(v, n);
     return mesh_push(&o->list[OBJ_VN], n, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -283,8 +283,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
             memcpy(m->texcoords + 2 * i, o->list[OBJ_VT].v + 2 * ((size_t)k[OBJ_VT] - 1), 8);
         if (k[OBJ_VN])
             memcpy(m->normals + 3 * i, o->list[OBJ_VN].v + 3 * ((size_t)k[OBJ_VN] - 1), 12);
-        else
-            missing = 1;
+        missing |=
+            m->normals[3 * i] == 0 && m->normals[3 * i + 1] == 0 && m->normals[3 * i + 2] == 0;
     }
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);

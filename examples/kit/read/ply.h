@@ -393,7 +393,8 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
     }
     if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
-    for (int k = PLY_NX; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
+    for (int k = PLY_RED; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
+    mesh_normal(v + PLY_NX, single + PLY_NX);
     single[PLY_U + 1] = 1 - single[PLY_U + 1];
     mesh_relative(&p->origin, v, single);
     if (p->column->count / 3 >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
