@@ -374,4 +374,31 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
         same "vn as long as $k" vn1.obj vn$k.obj 1 "--up y"
         same "in PLY" vn1.obj n$k.ply 1 "--up y"
     done
+    rgb_of() {                  # a number for each vertex of the wedge: v with it, and two others
+        i=0; printf "$wedge" | while read -r line; do
+            i=$((i + 1)); eval k=\${$i}; echo "$line $k $k 0"
+        done; printf "$faces"
+    }
+    rgb_of 1 0.2 0.4 0 >"$T/parts.obj"
+    rgb_of 255 51 102 0 >"$T/bytes.obj"
+    same "colours of vertices to 255 in OBJ" parts.obj bytes.obj 0 "$plain"
+    check "without a word" test ! -s "$T/err"
+    { printf 'v -1 0 0\nv -1 1 0\n'; sed 's/^f \(.\) \(.\) \(.\)/f -4 -3 -2/' "$T/bytes.obj"; } >"$T/some.obj"
+    { printf 'v -1 0 0\nv -1 1 0\n'; sed 's/^f \(.\) \(.\) \(.\)/f -4 -3 -2/' "$T/parts.obj"; } >"$T/two.obj"
+    same "of some vertices" two.obj some.obj 0 "$plain"
+    painted parts "1 0 0" "0 0.2 0" "0 0 1" "0.4 0.4 0"
+    sed 's/Kd 1 0 0/Kd 255 0 0/; s/0\.2/51/; s/Kd 0 0 1/Kd 0 0 255/; s/0\.4 0\.4/102 102/' "$T/parts.mtl" >"$T/bytes.mtl"
+    sed 's/parts/bytes/' "$T/parts.obj" >"$T/bytes.obj"
+    same "and of materials" parts.obj bytes.obj 0 "$plain"
+    coff() { { printf "COFF\n4 4 0\n"; rgb_of "$@" | grep ^v | sed 's/^v //'; faces_of; } >"$T/$off"; }
+    rgb_of 1 0.2 0.4 0 >"$T/parts.obj"
+    off=mixed.off; coff 1 0.2 0.4 0
+    same "OFF with some fractions that have no point" parts.obj mixed.off 0 "$plain"
+    off=whole.off; coff 255.0 51.0 102.0 0.0
+    same "and with a point in numbers to 255" parts.obj whole.off 0 "$plain"
+    tinted() { { printf "OFF\n4 4 0\n"; printf "$wedge" | sed 's/^v //'
+        printf "3 0 2 1 $1\n3 0 1 3 $2\n3 1 2 3 $3\n3 0 3 2 $4\n"; } >"$T/$off"; }
+    off=bytes.off; tinted "255 0 0" "0 51 0" "0 0 255" "102 102 0"
+    off=mixed.off; tinted "1 0 0" "0 0.2 0" "0 0 1" "0.4 0.4 0"
+    same "in faces" bytes.off mixed.off 0 "$plain"
 }
