@@ -401,4 +401,20 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
     off=bytes.off; tinted "255 0 0" "0 51 0" "0 0 255" "102 102 0"
     off=mixed.off; tinted "1 0 0" "0 0.2 0" "0 0 1" "0.4 0.4 0"
     same "in faces" bytes.off mixed.off 0 "$plain"
+    for k in 1 0.5; do
+        { printf "$wedge" | sed "s/\$/ 1 0 0 $k/"; printf "$faces"; } >"$T/clear$k.obj"
+        ply_of clear$k.ply float 1
+        sed "s/property float blue/&\nproperty float alpha/; s/ 1 0 0\$/& $k/" "$T/clear$k.ply" >"$T/a.ply"
+        mv "$T/a.ply" "$T/clear$k.ply"
+        { printf "COFF\n4 4 0\n"; rows "1.0 0 0 $k"; faces_of; } >"$T/clear$k.off"
+    done
+    ply_of clear.ply uchar 255
+    sed "s/property uchar blue/&\nproperty uchar alpha/; s/ 255 0 0\$/& 200/" "$T/clear.ply" >"$T/clear0.5uchar.ply"
+    sed 's/ 200$/ 255/' "$T/clear0.5uchar.ply" >"$T/clear1uchar.ply"
+    for k in .obj .ply .off uchar.ply; do
+        same "an alpha of 1" clear1.obj clear1$k 0 "$plain"
+        check "is no word worth" test ! -s "$T/err"
+        same "of half" clear1.obj clear0.5$k 0 "$plain"
+        check "is told of" said "clear0.5.*: it has alpha, which is not read"
+    done
 }

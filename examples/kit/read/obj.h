@@ -41,6 +41,7 @@ typedef struct obj_data {
     mesh_floats list[3], color; /* color: of the first so many v, NAN where there is none, as the
                                    file has it and at the end in linear light; empty: none */
     float bright;               /* the greatest of them */
+    float clearest;             /* the least number behind them, which is alpha */
     mesh_origin origin;
     mesh_set corners; /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
@@ -74,6 +75,7 @@ static inline int obj_vertex(mesh_reader *r, obj_data *o)
         rgb[k] = mesh_or_zero(v[3 + k]);
         o->bright = fmaxf(o->bright, rgb[k]);
     }
+    if (count == 7) o->clearest = fminf(o->clearest, mesh_or_zero(v[6]));
     while (count >= 6 && o->color.count < o->list[OBJ_V].count)
         if (mesh_push(&o->color, none, 3)) return mesh_fail(r, "out of memory");
     if (count >= 6 && mesh_push(&o->color, rgb, 3)) return mesh_fail(r, "out of memory");
@@ -222,9 +224,10 @@ static inline int obj_no_faces(mesh_reader *r, const obj_data *o)
 
 /* Brings the colours to linear light; they are sRGB values from 0 to 1, or to 255 where one is
    brighter than any light of 1 would be. */
-static inline void obj_light(obj_data *o)
+static inline void obj_light(mesh_reader *r, obj_data *o, model *out)
 {
     const float white = o->bright > 2 ? 255 : 1;
+    if (o->clearest < white) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
     for (size_t i = 0; i < o->color.count; i += 3) {
         float *c = o->color.v + i;
         const shade_vec3 seen = shade_v3(c[0] / white, c[1] / white, c[2] / white);
@@ -271,7 +274,7 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     size_t n;
     int missing = 0;
     if (obj_number(r, o)) return 1;
-    obj_light(o);
+    obj_light(r, o, out);
     n = o->corners.count;
     if (!n && o->list[OBJ_V].count) return obj_points(r, o, out);
     if (!o->faces.triangles) return obj_no_faces(r, o);
@@ -315,6 +318,7 @@ static inline int obj_read(mesh_reader *r, model *m)
     static const obj_data empty;
     obj_data o = empty;
     int failed = 0;
+    o.clearest = FLT_MAX;
     model_place(m, &o.origin);
     for (size_t i = 0; r->at < r->end && !failed; i++) {
         int comment;

@@ -24,6 +24,7 @@ typedef struct off_data {
     int others;      /* there are numbers behind vertices or faces that are no colours */
     float brightest; /* of all colours: those to 1 are fractions */
     int fractions;   /* some have a point: to 2 they are fractions */
+    float clearest;  /* the least alpha */
 } off_data;
 
 /* Moves to the next line with something on it.  Returns 1 where there is none. */
@@ -76,6 +77,7 @@ static inline int off_color(mesh_reader *r, off_data *o, float rgb[3])
 {
     mesh_reader ahead = *r;
     int point = 0;
+    float alpha;
     mesh_skip_blanks(&ahead, 0);
     if (mesh_at_word_end(&ahead)) return 0;
     ahead.error_size = 0;
@@ -88,16 +90,24 @@ static inline int off_color(mesh_reader *r, off_data *o, float rgb[3])
     }
     for (int k = 0; k < 3; k++) o->brightest = fmaxf(o->brightest, rgb[k]);
     o->fractions |= point;
+    mesh_skip_blanks(&ahead, 0);
+    if (!mesh_take_number(&ahead, &alpha)) o->clearest = fminf(o->clearest, alpha);
     return 1;
 }
 
-/* A colour as bytes.  One number of a file may have no point, where the others are fractions. */
+/* The greatest value of a colour.  One number may have no point, where the others are fractions. */
+static inline float off_white(const off_data *o)
+{
+    return o->brightest > (o->fractions ? 2 : 1) ? 255 : 1;
+}
+
+/* A colour as bytes */
 static inline uint32_t off_bytes(const off_data *o, const float rgb[3])
 {
-    const float white = o->brightest > (o->fractions ? 2 : 1) ? 1 : 255;
+    const float scale = 255 / off_white(o);
     uint32_t bytes = 0;
     for (int k = 0; k < 3; k++)
-        bytes = bytes << 8 | (uint32_t)(fminf(255, fmaxf(0, white * rgb[k])) + 0.5f);
+        bytes = bytes << 8 | (uint32_t)(fminf(255, fmaxf(0, scale * rgb[k])) + 0.5f);
     return bytes;
 }
 
@@ -241,6 +251,7 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
     if (failed) return mesh_fail(r, "out of memory");
     if (o->others && !out->unread[0])
         model_warn(out, r->name, "numbers behind its vertices or faces that are no colours");
+    if (o->clearest < off_white(o)) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);
@@ -254,6 +265,7 @@ static inline int off_read(mesh_reader *r, model *m)
     double vertices = 0, count = 0;
     int failed;
     model_place(m, &o.origin);
+    o.clearest = FLT_MAX;
     failed = off_header(r, &o, m, &vertices, &count);
     for (double i = 0; i < vertices + count && !failed; i++) {
         failed = mesh_tell(r, (size_t)i);
