@@ -672,6 +672,7 @@ both() {
     gltf_reports
     color_reports
     habit_reports
+    value_reports
     bad_output
     bad_options
 }

@@ -356,3 +356,65 @@ property $2 green\nproperty $2 blue/"; rows "$3 0 0"; printf "$ply_faces"; } >"$
     check "a material of glass" draw glass.gltf a.ppm
     check "is told" said "glass.*COLOR_0 does not count; it has KHR_materials_transmission, which is not read"
 }
+
+# Numbers of another kind than a reader expects: the picture is that of the plain file.
+value_reports() {
+    for k in "0 0 0" "nan nan nan" "-nan 0 inf"; do
+        { printf "${wedge}vn $k\n"; printf "$faces" | sed 's/ \([0-9]\)/ \1\/\/1/g'; } >"$T/none.obj"
+        same "vn $k in OBJ is made anew" wedge.obj none.obj 0 "--up y"
+    done
+    printf "${wedge}vn 0 0 1\nvn 0 0 0\nf 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 2//2 3//2 4//2\n" >"$T/one.obj"
+    printf "${wedge}vn 0 0 1\nf 1//1 3//1 2//1\nf 1 2 4\nf 2 3 4\n" >"$T/two.obj"
+    same "one vn of several" two.obj one.obj 0 "--up y"
+    for k in 1 1e30 1e-30; do
+        { printf "${wedge}vn $k 0 $k\n"; printf "$faces" | sed 's/ \([0-9]\)/ \1\/\/1/g'; } >"$T/vn$k.obj"
+        { printf "$ply_head" | sed 's/vertex 5/vertex 4/; s/.*double z/&\nproperty double nx\
+property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ $k 0 $k/"
+            printf "$ply_faces"; } >"$T/n$k.ply"
+        same "vn as long as $k" vn1.obj vn$k.obj 1 "--up y"
+        same "in PLY" vn1.obj n$k.ply 1 "--up y"
+    done
+    rgb_of() {                  # a number for each vertex of the wedge: v with it, and two others
+        i=0; printf "$wedge" | while read -r line; do
+            i=$((i + 1)); eval k=\${$i}; echo "$line $k $k 0"
+        done; printf "$faces"
+    }
+    rgb_of 1 0.2 0.4 0 >"$T/parts.obj"
+    rgb_of 255 51 102 0 >"$T/bytes.obj"
+    same "colours of vertices to 255 in OBJ" parts.obj bytes.obj 0 "$plain"
+    check "without a word" test ! -s "$T/err"
+    { printf 'v -1 0 0\nv -1 1 0\n'; sed 's/^f \(.\) \(.\) \(.\)/f -4 -3 -2/' "$T/bytes.obj"; } >"$T/some.obj"
+    { printf 'v -1 0 0\nv -1 1 0\n'; sed 's/^f \(.\) \(.\) \(.\)/f -4 -3 -2/' "$T/parts.obj"; } >"$T/two.obj"
+    same "of some vertices" two.obj some.obj 0 "$plain"
+    painted parts "1 0 0" "0 0.2 0" "0 0 1" "0.4 0.4 0"
+    sed 's/Kd 1 0 0/Kd 255 0 0/; s/0\.2/51/; s/Kd 0 0 1/Kd 0 0 255/; s/0\.4 0\.4/102 102/' "$T/parts.mtl" >"$T/bytes.mtl"
+    sed 's/parts/bytes/' "$T/parts.obj" >"$T/bytes.obj"
+    same "and of materials" parts.obj bytes.obj 0 "$plain"
+    coff() { { printf "COFF\n4 4 0\n"; rgb_of "$@" | grep ^v | sed 's/^v //'; faces_of; } >"$T/$off"; }
+    rgb_of 1 0.2 0.4 0 >"$T/parts.obj"
+    off=mixed.off; coff 1 0.2 0.4 0
+    same "OFF with some fractions that have no point" parts.obj mixed.off 0 "$plain"
+    off=whole.off; coff 255.0 51.0 102.0 0.0
+    same "and with a point in numbers to 255" parts.obj whole.off 0 "$plain"
+    tinted() { { printf "OFF\n4 4 0\n"; printf "$wedge" | sed 's/^v //'
+        printf "3 0 2 1 $1\n3 0 1 3 $2\n3 1 2 3 $3\n3 0 3 2 $4\n"; } >"$T/$off"; }
+    off=bytes.off; tinted "255 0 0" "0 51 0" "0 0 255" "102 102 0"
+    off=mixed.off; tinted "1 0 0" "0 0.2 0" "0 0 1" "0.4 0.4 0"
+    same "in faces" bytes.off mixed.off 0 "$plain"
+    for k in 1 0.5; do
+        { printf "$wedge" | sed "s/\$/ 1 0 0 $k/"; printf "$faces"; } >"$T/clear$k.obj"
+        ply_of clear$k.ply float 1
+        sed "s/property float blue/&\nproperty float alpha/; s/ 1 0 0\$/& $k/" "$T/clear$k.ply" >"$T/a.ply"
+        mv "$T/a.ply" "$T/clear$k.ply"
+        { printf "COFF\n4 4 0\n"; rows "1.0 0 0 $k"; faces_of; } >"$T/clear$k.off"
+    done
+    ply_of clear.ply uchar 255
+    sed "s/property uchar blue/&\nproperty uchar alpha/; s/ 255 0 0\$/& 200/" "$T/clear.ply" >"$T/clear0.5uchar.ply"
+    sed 's/ 200$/ 255/' "$T/clear0.5uchar.ply" >"$T/clear1uchar.ply"
+    for k in .obj .ply .off uchar.ply; do
+        same "an alpha of 1" clear1.obj clear1$k 0 "$plain"
+        check "is no word worth" test ! -s "$T/err"
+        same "of half" clear1.obj clear0.5$k 0 "$plain"
+        check "is told of" said "clear0.5.*: it has alpha, which is not read"
+    done
+}

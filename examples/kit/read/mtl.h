@@ -28,8 +28,8 @@ static const known_name mtl_known[] = {
     { NULL, KNOWN_TOLD }
 };
 
-/* A colour: three numbers, or one number for all three */
-static inline int mtl_color(mesh_reader *r, shade_vec3 *out)
+/* A colour: three numbers, or one number for all three, which are white at 1, or at 255 */
+static inline int mtl_color(mesh_reader *r, float white, shade_vec3 *out)
 {
     float v[3];
     for (int k = 0; k < 3; k++) {
@@ -40,8 +40,25 @@ static inline int mtl_color(mesh_reader *r, shade_vec3 *out)
         }
         if (mesh_take_number(r, &v[k])) return 1;
     }
-    *out = shade_linear_from_srgb(shade_v3(v[0], v[1], v[2]));
+    *out = shade_linear_from_srgb(shade_v3(v[0] / white, v[1] / white, v[2] / white));
     return 0;
+}
+
+/* What white is in a file: 1, or 255 where a surface reflects more than twice the light there is. */
+static inline float mtl_white(mesh_reader r)
+{
+    float number, most = 0;
+    r.error_size = 0;
+    for (; r.at < r.end; mesh_next_line(&r, 1)) {
+        mesh_skip_blanks(&r, 1);
+        if (!mesh_take_word(&r, "kd")) continue;
+        mesh_skip_blanks(&r, 1);
+        while (!mesh_take_number(&r, &number)) {
+            most = fmaxf(most, number);
+            mesh_skip_blanks(&r, 1);
+        }
+    }
+    return most > 2 ? 255 : 1;
 }
 
 static inline int mtl_number(mesh_reader *r, float lowest, float highest, float *out)
@@ -60,8 +77,9 @@ typedef struct mtl_clear {
     int has_d, mapped, others; /* mapped: there is a map_d; others: another picture */
     char *map;
     float move[4];
+    float white; /* of the colours of all surfaces */
 } mtl_clear;
-static const mtl_clear mtl_fresh = { 0, 0, 0, NULL, { 0, 0, 1, 1 } };
+static const mtl_clear mtl_fresh = { 0, 0, 0, NULL, { 0, 0, 1, 1 }, 1 };
 
 /* The name of a picture behind options, which begin with a dash: the numbers after one are its
    own, and of those that take a word the word.  What may be missing: *strength becomes the number
@@ -129,9 +147,9 @@ static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_
 {
     shade_material *k = &s->material;
     float number;
-    if (mesh_take_word(r, "kd")) return mtl_color(r, &k->diffuse);
-    if (mesh_take_word(r, "ks")) return mtl_color(r, &k->specular);
-    if (mesh_take_word(r, "ke")) return mtl_color(r, &k->emission);
+    if (mesh_take_word(r, "kd")) return mtl_color(r, c->white, &k->diffuse);
+    if (mesh_take_word(r, "ks")) return mtl_color(r, c->white, &k->specular);
+    if (mesh_take_word(r, "ke")) return mtl_color(r, c->white, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
     if (mesh_take_word(r, "map_kd")) return mtl_map(r, m, &s->map, NULL, s->move);
     if (mesh_take_word(r, "map_ke")) return mtl_other(r, m, c, &s->glow_map, NULL);
@@ -157,7 +175,9 @@ static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
     if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))
         model_warn(m, c->map, "map_d counts only where it is the picture of map_Kd");
     free(c->map);
-    *c = mtl_fresh;
+    c->has_d = c->mapped = c->others = 0;
+    c->map = NULL;
+    memcpy(c->move, mtl_fresh.move, sizeof c->move);
 }
 
 /* Fills the surfaces of m that stand in the text; of two with one name the first counts.  A
@@ -167,6 +187,7 @@ static inline int mtl_read(mesh_reader *r, model *m)
     model_surface *s = NULL;
     mtl_clear clear = mtl_fresh;
     int failed = 0;
+    clear.white = mtl_white(*r);
     while (r->at < r->end) {
         mesh_skip_blanks(r, 1);
         if (mesh_take_word(r, "newmtl")) {

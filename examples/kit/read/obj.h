@@ -38,7 +38,10 @@ typedef struct obj_corner_place {
 } obj_corner_place;
 
 typedef struct obj_data {
-    mesh_floats list[3], color; /* color: of the first so many v; empty: none has one */
+    mesh_floats list[3], color; /* color: of the first so many v, NAN where there is none, as the
+                                   file has it and at the end in linear light; empty: none */
+    float bright;               /* the greatest of them */
+    float clearest;             /* the least number behind them, which is alpha */
     mesh_origin origin;
     mesh_set corners; /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
@@ -62,19 +65,20 @@ static inline int obj_numbers(mesh_reader *r, double *out, int wanted, int allow
 
 static inline int obj_vertex(mesh_reader *r, obj_data *o)
 {
-    static const float white[3] = { 1, 1, 1 };
+    static const float none[3] = { NAN, NAN, NAN };
     double v[7];
-    float place[3];
+    float place[3], rgb[3];
     int count;
     if (obj_numbers(r, v, 3, 7, &count)) return 1;
     mesh_relative(&o->origin, v, place);
-    if (count >= 6) { /* colours are sRGB values */
-        shade_vec3 rgb = shade_v3(mesh_or_zero(v[3]), mesh_or_zero(v[4]), mesh_or_zero(v[5]));
-        rgb = shade_linear_from_srgb(rgb);
-        while (o->color.count < o->list[OBJ_V].count)
-            if (mesh_push(&o->color, white, 3)) return mesh_fail(r, "out of memory");
-        if (mesh_push(&o->color, (const float *)&rgb, 3)) return mesh_fail(r, "out of memory");
+    for (int k = 0; k < 3 && count >= 6; k++) {
+        rgb[k] = mesh_or_zero(v[3 + k]);
+        o->bright = fmaxf(o->bright, rgb[k]);
     }
+    if (count == 7) o->clearest = fminf(o->clearest, mesh_or_zero(v[6]));
+    while (count >= 6 && o->color.count < o->list[OBJ_V].count)
+        if (mesh_push(&o->color, none, 3)) return mesh_fail(r, "out of memory");
+    if (count >= 6 && mesh_push(&o->color, rgb, 3)) return mesh_fail(r, "out of memory");
     if (mesh_push(&o->list[OBJ_V], place, 3)) return mesh_fail(r, "out of memory");
     return 0;
 }
@@ -96,7 +100,7 @@ static inline int obj_normal(mesh_reader *r, obj_data *o)
     float n[3];
     int count;
     if (obj_numbers(r, v, 3, 3, &count)) return 1;
-    for (int k = 0; k < 3; k++) n[k] = mesh_or_zero(v[k]);
+    mesh_normal(v, n);
     return mesh_push(&o->list[OBJ_VN], n, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -218,6 +222,21 @@ static inline int obj_no_faces(mesh_reader *r, const obj_data *o)
                                              : "is no OBJ: it has neither vertices nor faces");
 }
 
+/* Brings the colours to linear light; they are sRGB values from 0 to 1, or to 255 where one is
+   brighter than any light of 1 would be. */
+static inline void obj_light(mesh_reader *r, obj_data *o, model *out)
+{
+    const float white = o->bright > 2 ? 255 : 1;
+    if (o->clearest < white) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
+    for (size_t i = 0; i < o->color.count; i += 3) {
+        float *c = o->color.v + i;
+        const shade_vec3 seen = shade_v3(c[0] / white, c[1] / white, c[2] / white);
+        const shade_vec3 light = shade_linear_from_srgb(seen);
+        for (int k = 0; k < 3 && !(c[0] <= FLT_MAX); k++) c[k] = 1;
+        if (seen.x <= FLT_MAX) memcpy(c, &light, sizeof light);
+    }
+}
+
 /* Vertices of a file without a single corner */
 static inline int obj_points(mesh_reader *r, const obj_data *o, model *out)
 {
@@ -255,6 +274,7 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     size_t n;
     int missing = 0;
     if (obj_number(r, o)) return 1;
+    obj_light(r, o, out);
     n = o->corners.count;
     if (!n && o->list[OBJ_V].count) return obj_points(r, o, out);
     if (!o->faces.triangles) return obj_no_faces(r, o);
@@ -283,8 +303,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
             memcpy(m->texcoords + 2 * i, o->list[OBJ_VT].v + 2 * ((size_t)k[OBJ_VT] - 1), 8);
         if (k[OBJ_VN])
             memcpy(m->normals + 3 * i, o->list[OBJ_VN].v + 3 * ((size_t)k[OBJ_VN] - 1), 12);
-        else
-            missing = 1;
+        missing |=
+            m->normals[3 * i] == 0 && m->normals[3 * i + 1] == 0 && m->normals[3 * i + 2] == 0;
     }
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
@@ -298,6 +318,7 @@ static inline int obj_read(mesh_reader *r, model *m)
     static const obj_data empty;
     obj_data o = empty;
     int failed = 0;
+    o.clearest = FLT_MAX;
     model_place(m, &o.origin);
     for (size_t i = 0; r->at < r->end && !failed; i++) {
         int comment;

@@ -15,13 +15,16 @@ static const known_name off_known[] = { { "OFF", KNOWN_DRAWN },    { "COFF", KNO
                                         { NULL, KNOWN_REFUSED } };
 
 typedef struct off_data {
-    mesh_floats position, color; /* color: of vertices, three each; of those before, where there */
-    mesh_uints tint;             /* of each face: 1 + its red, green and blue, or 0 */
+    mesh_floats position, color; /* color: of vertices, three each, as the file has them */
+    mesh_floats shown;           /* of faces, likewise; NAN: none */
+    mesh_uints tint;             /* of each face: 1 + its red, green and blue in bytes, or 0 */
     mesh_origin origin;
     faces faces;
     int has_color, has_normal, tinted;
-    int others;       /* there are numbers behind vertices or faces that are no colours */
-    double brightest; /* of whole numbers: to 1 they are fractions */
+    int others;      /* there are numbers behind vertices or faces that are no colours */
+    float brightest; /* of all colours: those to 1 are fractions */
+    int fractions;   /* some have a point: to 2 they are fractions */
+    float clearest;  /* the least alpha */
 } off_data;
 
 /* Moves to the next line with something on it.  Returns 1 where there is none. */
@@ -70,11 +73,11 @@ static inline int off_goes_on(mesh_reader *r)
 }
 
 /* The rest of a line as red, green and blue; 0: there are none. */
-static inline int off_color(mesh_reader *r, off_data *o, uint32_t rgb[3])
+static inline int off_color(mesh_reader *r, off_data *o, float rgb[3])
 {
     mesh_reader ahead = *r;
-    double value[3];
-    int whole = 1;
+    int point = 0;
+    float alpha;
     mesh_skip_blanks(&ahead, 0);
     if (mesh_at_word_end(&ahead)) return 0;
     ahead.error_size = 0;
@@ -82,29 +85,42 @@ static inline int off_color(mesh_reader *r, off_data *o, uint32_t rgb[3])
         const unsigned char *from;
         mesh_skip_blanks(&ahead, 0);
         from = ahead.at;
-        if (mesh_take_double(&ahead, &value[k])) return 0;
-        whole &= !memchr(from, '.', (size_t)(ahead.at - from));
+        if (mesh_take_number(&ahead, &rgb[k])) return 0;
+        point |= memchr(from, '.', (size_t)(ahead.at - from)) != NULL;
     }
-    for (int k = 0; k < 3; k++) {
-        const double v = whole ? value[k] : 255 * value[k];
-        o->brightest = fmax(o->brightest, v);
-        rgb[k] = (uint32_t)(fmin(255, fmax(0, v)) + 0.5);
-    }
+    for (int k = 0; k < 3; k++) o->brightest = fmaxf(o->brightest, rgb[k]);
+    o->fractions |= point;
+    mesh_skip_blanks(&ahead, 0);
+    if (!mesh_take_number(&ahead, &alpha)) o->clearest = fminf(o->clearest, alpha);
     return 1;
 }
 
-static inline shade_vec3 off_linear(const uint32_t rgb[3])
+/* The greatest value of a colour.  One number may have no point, where the others are fractions. */
+static inline float off_white(const off_data *o)
 {
-    return shade_linear_from_srgb(
-        shade_v3((float)rgb[0] / 255, (float)rgb[1] / 255, (float)rgb[2] / 255));
+    return o->brightest > (o->fractions ? 2 : 1) ? 255 : 1;
+}
+
+/* A colour as bytes */
+static inline uint32_t off_bytes(const off_data *o, const float rgb[3])
+{
+    const float scale = 255 / off_white(o);
+    uint32_t bytes = 0;
+    for (int k = 0; k < 3; k++)
+        bytes = bytes << 8 | (uint32_t)(fminf(255, fmaxf(0, scale * rgb[k])) + 0.5f);
+    return bytes;
+}
+
+static inline shade_vec3 off_linear(uint32_t bytes)
+{
+    return shade_linear_from_srgb(shade_v3(
+        (float)(bytes >> 16) / 255, (float)(bytes >> 8 & 255) / 255, (float)(bytes & 255) / 255));
 }
 
 static inline int off_vertex(mesh_reader *r, off_data *o)
 {
     double v[3], unused;
-    uint32_t rgb[3];
-    shade_vec3 c;
-    float place[3];
+    float place[3], rgb[3];
     long long line = 0;
     for (int k = 0; k < 3; k++) {
         if (off_coordinate(r, &v[k])) return 1;
@@ -120,13 +136,12 @@ static inline int off_vertex(mesh_reader *r, off_data *o)
     }
     if (!o->has_color) return 0;
     if (!off_color(r, o, rgb)) return mesh_fail(r, "a vertex of COFF has no colour");
-    c = shade_v3((float)rgb[0], (float)rgb[1], (float)rgb[2]);
-    return mesh_push(&o->color, (const float *)&c, 3) ? mesh_fail(r, "out of memory") : 0;
+    return mesh_push(&o->color, rgb, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
 static inline int off_face(mesh_reader *r, off_data *o, double vertices)
 {
-    uint32_t rgb[3], tint = 0;
+    float rgb[3] = { NAN, NAN, NAN };
     const size_t before = o->faces.triangles;
     double corners, corner;
     if (off_count(r, &corners)) return 1;
@@ -138,12 +153,13 @@ static inline int off_face(mesh_reader *r, off_data *o, double vertices)
         if (faces_corner(&o->faces, (uint32_t)corner)) return mesh_fail(r, "out of memory");
     }
     if (faces_end(&o->faces)) return mesh_fail(r, "out of memory");
-    if (off_color(r, o, rgb))
-        tint = 1 + (rgb[0] << 16 | rgb[1] << 8 | rgb[2]);
-    else
+    if (off_color(r, o, rgb)) {
+        o->tinted = 1;
+    } else {
         o->others |= off_goes_on(r);
-    o->tinted |= tint != 0;
-    if (o->faces.triangles > before && mesh_push_uint(&o->tint, tint))
+        rgb[0] = NAN;
+    }
+    if (o->faces.triangles > before && mesh_push(&o->shown, rgb, 3))
         return mesh_fail(r, "out of memory");
     return mesh_check_triangles(r, o->faces.triangles);
 }
@@ -190,6 +206,10 @@ static inline int off_paint(off_data *o, size_t *count, mesh_set *made)
 {
     size_t face = 0;
     int failed = 0;
+    for (size_t i = 0; i < o->shown.count && !failed; i += 3) {
+        const float *c = o->shown.v + i;
+        failed = mesh_push_uint(&o->tint, c[0] <= FLT_MAX ? 1 + off_bytes(o, c) : 0);
+    }
     for (size_t at = 0; at < o->faces.stream.count && !failed; face++) {
         size_t corners;
         uint32_t *corner = faces_next(&o->faces, &at, &corners);
@@ -219,22 +239,19 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
     for (size_t i = 0; i < n && !failed; i++) {
         const size_t vertex = o->tinted ? made.triple[i].k[0] : i;
         const uint32_t tint = o->tinted ? made.triple[i].k[1] : 0;
-        const uint32_t bits = tint ? tint - 1 : 0xBFBFBFu;
-        uint32_t rgb[3] = { bits >> 16, bits >> 8 & 255, bits & 255 };
+        uint32_t bytes = tint ? tint - 1 : 0xBFBFBFu;
         shade_vec3 c;
         memcpy(m->positions + 3 * i, o->position.v + 3 * vertex, 12);
         if (!m->colors) continue;
-        for (int k = 0; k < 3; k++) {
-            if (!tint && o->has_color) rgb[k] = (uint32_t)o->color.v[3 * vertex + (size_t)k];
-            if ((tint || o->has_color) && o->brightest <= 1) rgb[k] *= 255;
-        }
-        c = off_linear(rgb);
+        if (!tint && o->has_color) bytes = off_bytes(o, o->color.v + 3 * vertex);
+        c = off_linear(bytes);
         memcpy(m->colors + 3 * i, &c, sizeof c);
     }
     mesh_set_free(&made);
     if (failed) return mesh_fail(r, "out of memory");
     if (o->others && !out->unread[0])
         model_warn(out, r->name, "numbers behind its vertices or faces that are no colours");
+    if (o->clearest < off_white(o)) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);
@@ -248,6 +265,7 @@ static inline int off_read(mesh_reader *r, model *m)
     double vertices = 0, count = 0;
     int failed;
     model_place(m, &o.origin);
+    o.clearest = FLT_MAX;
     failed = off_header(r, &o, m, &vertices, &count);
     for (double i = 0; i < vertices + count && !failed; i++) {
         failed = mesh_tell(r, (size_t)i);
@@ -261,6 +279,7 @@ static inline int off_read(mesh_reader *r, model *m)
     free(o.position.v);
     free(o.color.v);
     free(o.tint.v);
+    free(o.shown.v);
     faces_free(&o.faces);
     return failed;
 }

@@ -19,6 +19,8 @@ enum {
     PLY_VALUES = 11,
     PLY_CORNERS,
     PLY_TEXCOORD,
+    PLY_ALPHA,
+    PLY_A, /* the same, by its other name */
     PLY_UNUSED
 };
 enum { PLY_MOST = 256 }; /* properties in all */
@@ -54,9 +56,12 @@ typedef struct ply_data {
     mesh_floats column[PLY_COLUMNS]; /* of vertices; empty: the file has none */
     faces faces;
     mesh_origin origin;
-    double highest; /* corner */
-    float bright;   /* the greatest colour of more than a byte, and ... */
-    double whole;   /* ... what full light is in its type; 0: floats */
+    double highest;     /* corner */
+    float bright;       /* the greatest colour of more than a byte, and ... */
+    double whole;       /* ... what full light is in its type; 0: floats */
+    const char *alpha;  /* its name */
+    int clear;          /* an alpha of bytes is less than all, or ... */
+    double least, most; /* ... where it is of another type, the least and the greatest */
     /* where faces have texture coordinates for their corners, as MeshLab writes them: */
     int by_corner;
     mesh_uints corner;       /* the vertex of each corner, which becomes a vertex at the end */
@@ -70,7 +75,7 @@ static const known_name ply_elements[] = { { "vertex", KNOWN_DRAWN },
                                            { "camera", KNOWN_SILENT },
                                            { NULL, KNOWN_TOLD } };
 
-/* Of vertices.  Alpha is 255 in most files, and colours of vertices are opaque here. */
+/* Of vertices.  Alpha, which is 255 in most files, is told of where it is less. */
 static const known_name ply_of_vertex[] = { { "x", KNOWN_DRAWN },
                                             { "y", KNOWN_DRAWN },
                                             { "z", KNOWN_DRAWN },
@@ -92,8 +97,8 @@ static const known_name ply_of_vertex[] = { { "x", KNOWN_DRAWN },
                                             { "t", KNOWN_DRAWN },
                                             { "texture_u", KNOWN_DRAWN },
                                             { "texture_v", KNOWN_DRAWN },
-                                            { "alpha", KNOWN_SILENT },
-                                            { "a", KNOWN_SILENT },
+                                            { "alpha", KNOWN_TOLD },
+                                            { "a", KNOWN_TOLD },
                                             { "quality", KNOWN_SILENT },
                                             { "confidence", KNOWN_SILENT },
                                             { "intensity", KNOWN_SILENT },
@@ -150,6 +155,8 @@ static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
         (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
         return PLY_CORNERS;
     if (is_list && kind == PLY_FACE && mesh_take_word(r, "texcoord")) return PLY_TEXCOORD;
+    if (!is_list && kind == PLY_VERTEX && mesh_take_word(r, "alpha")) return PLY_ALPHA;
+    if (!is_list && kind == PLY_VERTEX && mesh_take_word(r, "a")) return PLY_A;
     for (size_t k = 0; kind == PLY_VERTEX && !is_list && k < sizeof names / sizeof *names; k++)
         if (mesh_take_word(r, names[k])) return meaning[k];
     return PLY_UNUSED;
@@ -362,6 +369,16 @@ static inline double ply_color(ply_data *p, ply_type type, double value)
     return value;
 }
 
+/* Notes an alpha. */
+static inline void ply_alpha(ply_data *p, const ply_property *at, double value)
+{
+    p->alpha = at->meaning == PLY_A ? "a" : "alpha";
+    if (at->type < PLY_INT16) p->clear |= value < (at->type == PLY_INT8 ? 127 : 255);
+    if (at->type < PLY_INT16) return;
+    if (value < p->least) p->least = value;
+    if (value > p->most) p->most = value;
+}
+
 /* What full light is: 1 or 255 in floats, 255 or the greatest value in integers of several bytes */
 static inline double ply_white(const ply_data *p)
 {
@@ -389,11 +406,13 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
         }
         if (ply_number(r, p->format, at->type, &value)) return 1;
         if (at->meaning >= PLY_RED && at->meaning < PLY_U) value = ply_color(p, at->type, value);
+        if (at->meaning == PLY_ALPHA || at->meaning == PLY_A) ply_alpha(p, at, value);
         if (at->meaning < PLY_VALUES) v[at->meaning] = value;
     }
     if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
-    for (int k = PLY_NX; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
+    for (int k = PLY_RED; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
+    mesh_normal(v + PLY_NX, single + PLY_NX);
     single[PLY_U + 1] = 1 - single[PLY_U + 1];
     mesh_relative(&p->origin, v, single);
     if (p->column->count / 3 >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
@@ -475,6 +494,9 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
         memcpy(c, &seen, sizeof seen);
     }
     model_placed(out, &p->origin);
+    if ((p->clear || p->least < p->most || p->least < 1) &&
+        known_take(r, out, KNOWN_TOLD, 0, p->alpha, strlen(p->alpha)))
+        return 1;
     if (!has_faces) return points_finish(r, out, n);
     m->texcoords = ply_take(p, PLY_PLACE);
     m->normals = ply_take(p, PLY_NORMAL);
@@ -497,6 +519,8 @@ static inline int ply_read(mesh_reader *r, model *m)
     int failed;
     if (!p) return mesh_fail(r, "out of memory");
     model_place(m, &p->origin);
+    p->least = 1e300;
+    p->most = -1e300;
     failed = ply_read_header(r, p, m) || ply_read_body(r, p, m) || ply_finish(r, p, m);
     for (int k = 0; k < PLY_COLUMNS; k++) free(p->column[k].v);
     free(p->corner.v);

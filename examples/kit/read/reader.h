@@ -478,6 +478,15 @@ static inline int mesh_finite(const float *p)
 /* Other numbers that are not finite count as 0. */
 static inline float mesh_or_zero(double v) { return fabs(v) <= (double)FLT_MAX ? (float)v : 0; }
 
+/* A normal as the file has it, brought to a length of 1 where floats could not square it.  One
+   without a direction is 0: it is made anew. */
+static inline void mesh_normal(const double *v, float *out)
+{
+    const double length = fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
+    const int wrong = !(length > 0 && length <= DBL_MAX), usual = length > 1e-6 && length < 1e6;
+    for (int k = 0; k < 3; k++) out[k] = wrong ? 0 : (float)(usual ? v[k] : v[k] / length);
+}
+
 /* A position that is not finite stays so: the faces around it are dropped. */
 static inline void mesh_relative(mesh_origin *o, const double *v, float *out)
 {
