@@ -215,6 +215,21 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     polished metal.gltf '"roughnessFactor":0.4015686'
     check "metal" draw metal.gltf b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+    squared() {                 # file, the bytes of a PPM, its sampler
+        bytes=$(printf "P6\n$2" | base64 | tr -d '\n')
+        sed "s|UDYKMSAxCjI1NQoAgAA=|$bytes|; s|\"textures\":\[{|&\"sampler\":0,|
+            s|,\"images\"|,\"samplers\":[{$3}]&|" "$T/map.gltf" >"$T/$1"
+    }
+    polished map.gltf '"metallicFactor":0,"baseColorTexture":{"index":0}'
+    sed -i 's/A\{32\}"}\]}$/AAAAAAAAAAAAAIA\/AAAAAAAAAAAAAIA\/"}]}/' "$T/map.gltf"
+    two='\377\000\000\000\377\000' four='\377\000\000\377\000\000\000\377\000\000\377\000'
+    near='"magFilter":9728,"minFilter":9728' linear='"magFilter":9729'
+    squared two.gltf "2 1\n255\n$two" $near
+    squared four.gltf "4 1\n255\n$four" $near
+    same "texels as squares" two.gltf four.gltf 0 "--up y --view right"
+    squared two.gltf "2 1\n255\n$two" $linear
+    check "without that" draw two.gltf b.ppm --up y --view right
+    check "they run into each other" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
     # a chart of metal and roughness
     chart=
     for k in 0,0 0,0.25 0,0.5 0,0.75 0,1 1,0 1,0.25 1,0.5 1,0.75 1,1; do

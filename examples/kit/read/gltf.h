@@ -515,8 +515,17 @@ static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
     if (at && size < sizeof p->kind) memcpy(p->kind, g->j.text + g->j.value[at].from, size);
 }
 
-/* The picture of an image, with how it goes on beyond its edges.  *number is -1 where it cannot be
-   read, which is a warning. */
+/* 1: texels are to be seen as squares.  Where pictures are drawn by others, that is told. */
+static inline int gltf_nearest(gltf *g, uint32_t sampler, int *nearest)
+{
+    static const char name[] = "magFilter NEAREST";
+    const int wanted = json_number_of(&g->j, sampler, "magFilter", 9729) == 9728;
+    *nearest = wanted && g->m->polish_wanted;
+    return wanted && !*nearest ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1) : 0;
+}
+
+/* The picture of an image, with how it goes on beyond its edges and between its texels.  *number is
+   -1 where it cannot be read, which is a warning. */
 static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what, int *number)
 {
     const int wrap[2] = { gltf_wrap(g, sampler, "wrapS"), gltf_wrap(g, sampler, "wrapT") };
@@ -526,8 +535,10 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
     gltf_bytes bytes = { NULL, 0, NULL };
     char name[64], error[300] = "out of memory", *path = NULL;
     double stride;
-    int failed;
-    snprintf(name, sizeof name, "picture %lu, %d, %d", (unsigned long)image, wrap[0], wrap[1]);
+    int failed, nearest;
+    if (gltf_nearest(g, sampler, &nearest)) return 1;
+    snprintf(name, sizeof name, "picture %lu, %d, %d%s", (unsigned long)image, wrap[0], wrap[1],
+             nearest ? ", squares" : "");
     *number = picture_find(g->m, name, what);
     if (*number >= 0) return 0;
     quiet.error = error;
@@ -556,6 +567,7 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
         p->path = path;
         p->map.wrap_u = (shade_wrap)wrap[0];
         p->map.wrap_v = (shade_wrap)wrap[1];
+        p->map.filter = nearest ? SHADE_FILTER_NEAREST : SHADE_FILTER_BILINEAR;
     }
     return 0;
 }
