@@ -230,6 +230,12 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     squared two.gltf "2 1\n255\n$two" $linear
     check "without that" draw two.gltf b.ppm --up y --view right
     check "they run into each other" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    sed 's/,"TEXCOORD_0":1//' "$T/map.gltf" >"$T/bare.gltf"
+    check "a picture without texture coordinates" draw bare.gltf a.ppm
+    check "is told" said "bare.gltf: a picture has no texture coordinates"
+    printf "mtllib still.mtl\nusemtl q\n$wedge$faces" >"$T/bare.obj"
+    check "in OBJ" draw bare.obj a.ppm
+    check "is told as well" said "bare.obj: a picture has no texture coordinates"
     # a chart of metal and roughness
     chart=
     for k in 0,0 0,0.25 0,0.5 0,0.75 0,1 1,0 1,0.25 1,0.5 1,0.75 1,1; do

@@ -974,8 +974,12 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     if (g->counting) return gltf_count(g, primitive, mode, in->count);
     if (gltf_surface(g, primitive, &surface)) return 1;
     place = surface == g->plain ? NULL : &g->place[surface];
-    failed = gltf_load(g, primitive, surface, &v) || gltf_morph(g, primitive, mesh, node, &v) ||
-             gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
+    failed = gltf_load(g, primitive, surface, &v);
+    if (!failed && place && place->used > 0 && !v.uv.width)
+        model_warn(g->m, g->r->name, "a picture has no texture coordinates");
+    if (!failed)
+        failed = gltf_morph(g, primitive, mesh, node, &v) ||
+                 gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
     g->all.textured |= v.uv.width && place && place->used > 0;
     g->all.colored |= v.color.width > 0;
     g->all.texcoords_kept = g->all.textured;
