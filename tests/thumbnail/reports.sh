@@ -230,6 +230,18 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     squared two.gltf "2 1\n255\n$two" $linear
     check "without that" draw two.gltf b.ppm --up y --view right
     check "they run into each other" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    polished cut.gltf '"metallicFactor":0'
+    sed -i 's/"doubleSided":true,/&"alphaMode":"MASK",/; s/0.2,1\]/0.2,0.3]/' "$T/cut.gltf"
+    bad_model "less alpha than is cut away" cut.gltf "cut.gltf: nothing of it can be seen: its alpha is below"
+    sed 's/\("primitives":\[\)\([^]]*\)/\1\2,{"attributes":{"POSITION":0}}/' "$T/cut.gltf" >"$T/half.gltf"
+    check "of some faces" draw half.gltf a.ppm --up y --view right
+    check "is told" said "half.gltf: faces whose alpha is below their alphaCutoff"
+    sed 's/,{"attributes":{"POSITION":0}}//; s/{"attributes[^}]*},"material":0}/{"attributes":{"POSITION":0}}/' \
+        "$T/half.gltf" >"$T/one.gltf"
+    same "and the others are drawn" one.gltf half.gltf 0 "--up y --view right"
+    printf 'v -3e38 0 0\nv 3e38 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/needle.obj"
+    check "a needle" draw needle.obj a.ppm --no-shadow
+    check "that nobody sees is told" grep "needle.obj: nothing of it can be seen" "$T/err"
     sed 's/,"TEXCOORD_0":1//' "$T/map.gltf" >"$T/bare.gltf"
     check "a picture without texture coordinates" draw bare.gltf a.ppm
     check "is told" said "bare.gltf: a picture has no texture coordinates"

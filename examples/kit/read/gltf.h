@@ -94,6 +94,7 @@ typedef struct gltf {
     int plain; /* the surface of faces without a material; -1: not yet */
     gather all;
     int counting, nodes, depth, others; /* others: there are points or lines */
+    int cut;                            /* faces are left out, for all of them are holes */
     double triangles, vertices;
 } gltf;
 
@@ -973,6 +974,10 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     }
     if (g->counting) return gltf_count(g, primitive, mode, in->count);
     if (gltf_surface(g, primitive, &surface)) return 1;
+    if (g->m->surface[surface].alpha_cutoff > 1) { /* no alpha of a picture is enough */
+        g->cut = 1;
+        return 0;
+    }
     place = surface == g->plain ? NULL : &g->place[surface];
     failed = gltf_load(g, primitive, surface, &v);
     if (!failed && place && place->used > 0 && !v.uv.width)
@@ -1184,6 +1189,9 @@ static inline int gltf_build(gltf *g)
                          g->others ? "points and lines alone are not drawn" : "no faces in it");
     if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
     if (g->others) model_warn(g->m, g->r->name, "its points and lines");
+    if (g->cut && !g->all.faces.triangles)
+        return mesh_fail(g->r, "nothing of it can be seen: its alpha is below its alphaCutoff");
+    if (g->cut) model_warn(g->m, g->r->name, "faces whose alpha is below their alphaCutoff");
     if (gltf_extensions(g, "extensionsUsed", 0)) return 1;
     return gather_finish(g->r, &g->all, g->m);
 }
