@@ -93,6 +93,10 @@ gltf_reports() {
     bad_model "200 deep" deep.gltf "its JSON is more than 100 deep"
     printf '{"asset":{"version":"1.0"}}' >"$T/one.gltf"
     bad_model "glTF 1" one.gltf "glTF 1.0 is not read, 2 is"
+    printf '{"asset":{"version":"2.1","minVersion":"2.1"}}' >"$T/one.gltf"
+    bad_model "glTF that needs a later reader" one.gltf "it needs glTF 2.1; 2.0 is read"
+    sed 's/POSITION/\\u0050OSITION/; s/"VEC3"/"VEC\\u0033"/; s/"mesh"/"m\\u0065sh"/' "$T/torus.gltf" >"$T/names.gltf"
+    same "names with escapes" torus.obj names.gltf 0 "--up y"
     printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"count":3,
         "type":"VEC3","componentType":5126,"bufferView":0}],"bufferViews":[{"buffer":0,
         "byteLength":36}],"buffers":[{"uri":"../torus.gltf"}]}' "$gltf_head" >"$T/out.gltf"

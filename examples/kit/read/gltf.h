@@ -511,9 +511,9 @@ static inline int gltf_wrap(const gltf *g, uint32_t sampler, const char *name)
 /* The kind of a picture, where the file says it in few letters */
 static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
 {
-    const uint32_t at = json_of(&g->j, image, "mimeType", JSON_TEXT);
-    const size_t size = at ? g->j.value[at].size : 0;
-    if (at && size < sizeof p->kind) memcpy(p->kind, g->j.text + g->j.value[at].from, size);
+    char *kind = json_copy(&g->j, json_of(&g->j, image, "mimeType", JSON_TEXT));
+    if (kind && strlen(kind) < sizeof p->kind) memcpy(p->kind, kind, strlen(kind));
+    free(kind);
 }
 
 /* 1: texels are to be seen as squares.  Where pictures are drawn by others, that is told. */
@@ -1169,13 +1169,18 @@ static inline int gltf_version(gltf *g)
 {
     const uint32_t asset = json_of(&g->j, JSON_ROOT, "asset", JSON_OBJECT);
     char *version = json_copy(&g->j, json_member(&g->j, asset, "version"));
+    char *least = json_copy(&g->j, json_member(&g->j, asset, "minVersion"));
     const int two = version && version[0] == '2' && (version[1] == '.' || !version[1]);
+    const int later = two && least && *least && strcmp(least, "2.0") != 0;
     if (g->j.value[JSON_ROOT].kind != JSON_OBJECT)
         mesh_fail(g->r, "its JSON is no object");
     else if (!two)
         mesh_fail(g->r, "glTF %s is not read, 2 is", version && *version ? version : "1");
+    else if (later)
+        mesh_fail(g->r, "it needs glTF %s; 2.0 is read", least);
     free(version);
-    return !two;
+    free(least);
+    return !two || later;
 }
 
 static inline int gltf_build(gltf *g)
