@@ -454,4 +454,20 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
         same "of half" clear1.obj clear0.5$k 0 "$plain"
         check "is told of" said "clear0.5.*: it has alpha, which is not read"
     done
+    { printf "$ply_head" | sed 's/vertex 5/vertex 4/; s/double z/&\nproperty double x/'
+        rows 9; printf "$ply_faces"; } >"$T/twice.ply"
+    same "a property that PLY has twice" wedge.obj twice.ply 0 "--up y"
+    check "is told" said "twice.ply: it has x, which is not read"
+    for k in -4 3.5; do
+        { printf "$ply_head" | sed "s/vertex 5/vertex 4/; s/face 4/face $k/"; rows
+            printf "$ply_faces"; } >"$T/count.ply"
+        bad_model "$k faces" count.ply "count.ply:7: a count is no whole number"
+    done
+    { echo solid a; facets | sed 's/endloop/end loop/; s/endfacet/END FACET/'; echo end solid a; } >"$T/ends.stl"
+    same "ends in two words" wedge.obj ends.stl 0 "--up y"
+    for k in '\032' '\000\000\000' '\r\n\032\000'; do
+        { cat "$T/ends.stl"; printf "$k"; } >"$T/fill.stl"
+        same "text STL that ends in $k" wedge.obj fill.stl 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
 }
