@@ -93,6 +93,10 @@ gltf_reports() {
     bad_model "200 deep" deep.gltf "its JSON is more than 100 deep"
     printf '{"asset":{"version":"1.0"}}' >"$T/one.gltf"
     bad_model "glTF 1" one.gltf "glTF 1.0 is not read, 2 is"
+    printf '{"asset":{"version":"2.1","minVersion":"2.1"}}' >"$T/one.gltf"
+    bad_model "glTF that needs a later reader" one.gltf "it needs glTF 2.1; 2.0 is read"
+    sed 's/POSITION/\\u0050OSITION/; s/"VEC3"/"VEC\\u0033"/; s/"mesh"/"m\\u0065sh"/' "$T/torus.gltf" >"$T/names.gltf"
+    same "names with escapes" torus.obj names.gltf 0 "--up y"
     printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"count":3,
         "type":"VEC3","componentType":5126,"bufferView":0}],"bufferViews":[{"buffer":0,
         "byteLength":36}],"buffers":[{"uri":"../torus.gltf"}]}' "$gltf_head" >"$T/out.gltf"
@@ -215,6 +219,39 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     polished metal.gltf '"roughnessFactor":0.4015686'
     check "metal" draw metal.gltf b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+    squared() {                 # file, the bytes of a PPM, its sampler
+        bytes=$(printf "P6\n$2" | base64 | tr -d '\n')
+        sed "s|UDYKMSAxCjI1NQoAgAA=|$bytes|; s|\"textures\":\[{|&\"sampler\":0,|
+            s|,\"images\"|,\"samplers\":[{$3}]&|" "$T/map.gltf" >"$T/$1"
+    }
+    polished map.gltf '"metallicFactor":0,"baseColorTexture":{"index":0}'
+    sed -i 's/A\{32\}"}\]}$/AAAAAAAAAAAAAIA\/AAAAAAAAAAAAAIA\/"}]}/' "$T/map.gltf"
+    two='\377\000\000\000\377\000' four='\377\000\000\377\000\000\000\377\000\000\377\000'
+    near='"magFilter":9728,"minFilter":9728' linear='"magFilter":9729'
+    squared two.gltf "2 1\n255\n$two" $near
+    squared four.gltf "4 1\n255\n$four" $near
+    same "texels as squares" two.gltf four.gltf 0 "--up y --view right"
+    squared two.gltf "2 1\n255\n$two" $linear
+    check "without that" draw two.gltf b.ppm --up y --view right
+    check "they run into each other" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    polished cut.gltf '"metallicFactor":0'
+    sed -i 's/"doubleSided":true,/&"alphaMode":"MASK",/; s/0.2,1\]/0.2,0.3]/' "$T/cut.gltf"
+    bad_model "less alpha than is cut away" cut.gltf "cut.gltf: nothing of it can be seen: its alpha is below"
+    sed 's/\("primitives":\[\)\([^]]*\)/\1\2,{"attributes":{"POSITION":0}}/' "$T/cut.gltf" >"$T/half.gltf"
+    check "of some faces" draw half.gltf a.ppm --up y --view right
+    check "is told" said "half.gltf: faces whose alpha is below their alphaCutoff"
+    sed 's/,{"attributes":{"POSITION":0}}//; s/{"attributes[^}]*},"material":0}/{"attributes":{"POSITION":0}}/' \
+        "$T/half.gltf" >"$T/one.gltf"
+    same "and the others are drawn" one.gltf half.gltf 0 "--up y --view right"
+    printf 'v -3e38 0 0\nv 3e38 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/needle.obj"
+    check "a needle" draw needle.obj a.ppm --no-shadow
+    check "that nobody sees is told" grep "needle.obj: nothing of it can be seen" "$T/err"
+    sed 's/,"TEXCOORD_0":1//' "$T/map.gltf" >"$T/bare.gltf"
+    check "a picture without texture coordinates" draw bare.gltf a.ppm
+    check "is told" said "bare.gltf: a picture has no texture coordinates"
+    printf "mtllib still.mtl\nusemtl q\n$wedge$faces" >"$T/bare.obj"
+    check "in OBJ" draw bare.obj a.ppm
+    check "is told as well" said "bare.obj: a picture has no texture coordinates"
     # a chart of metal and roughness
     chart=
     for k in 0,0 0,0.25 0,0.5 0,0.75 0,1 1,0 1,0.25 1,0.5 1,0.75 1,1; do
@@ -416,5 +453,21 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
         check "is no word worth" test ! -s "$T/err"
         same "of half" clear1.obj clear0.5$k 0 "$plain"
         check "is told of" said "clear0.5.*: it has alpha, which is not read"
+    done
+    { printf "$ply_head" | sed 's/vertex 5/vertex 4/; s/double z/&\nproperty double x/'
+        rows 9; printf "$ply_faces"; } >"$T/twice.ply"
+    same "a property that PLY has twice" wedge.obj twice.ply 0 "--up y"
+    check "is told" said "twice.ply: it has x, which is not read"
+    for k in -4 3.5; do
+        { printf "$ply_head" | sed "s/vertex 5/vertex 4/; s/face 4/face $k/"; rows
+            printf "$ply_faces"; } >"$T/count.ply"
+        bad_model "$k faces" count.ply "count.ply:7: a count is no whole number"
+    done
+    { echo solid a; facets | sed 's/endloop/end loop/; s/endfacet/END FACET/'; echo end solid a; } >"$T/ends.stl"
+    same "ends in two words" wedge.obj ends.stl 0 "--up y"
+    for k in '\032' '\000\000\000' '\r\n\032\000'; do
+        { cat "$T/ends.stl"; printf "$k"; } >"$T/fill.stl"
+        same "text STL that ends in $k" wedge.obj fill.stl 0 "--up y"
+        check "without a word" test ! -s "$T/err"
     done
 }

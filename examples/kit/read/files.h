@@ -349,6 +349,10 @@ static inline void model_read_libraries(const char *path, model *m)
         }
     }
     if (strlen(m->warning) == before) model_tell_missing(path, m);
+    for (int i = 0; i < m->part_count && m->surface_count && !m->mesh.texcoords && !m->physical;
+         i++)
+        if (m->surface[m->part[i].surface].map)
+            model_warn(m, path, "a picture has no texture coordinates");
     known_tell(m, path);
     for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
         const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;

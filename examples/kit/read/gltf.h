@@ -94,6 +94,7 @@ typedef struct gltf {
     int plain; /* the surface of faces without a material; -1: not yet */
     gather all;
     int counting, nodes, depth, others; /* others: there are points or lines */
+    int cut;                            /* faces are left out, for all of them are holes */
     double triangles, vertices;
 } gltf;
 
@@ -510,13 +511,22 @@ static inline int gltf_wrap(const gltf *g, uint32_t sampler, const char *name)
 /* The kind of a picture, where the file says it in few letters */
 static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
 {
-    const uint32_t at = json_of(&g->j, image, "mimeType", JSON_TEXT);
-    const size_t size = at ? g->j.value[at].size : 0;
-    if (at && size < sizeof p->kind) memcpy(p->kind, g->j.text + g->j.value[at].from, size);
+    char *kind = json_copy(&g->j, json_of(&g->j, image, "mimeType", JSON_TEXT));
+    if (kind && strlen(kind) < sizeof p->kind) memcpy(p->kind, kind, strlen(kind));
+    free(kind);
 }
 
-/* The picture of an image, with how it goes on beyond its edges.  *number is -1 where it cannot be
-   read, which is a warning. */
+/* 1: texels are to be seen as squares.  Where pictures are drawn by others, that is told. */
+static inline int gltf_nearest(gltf *g, uint32_t sampler, int *nearest)
+{
+    static const char name[] = "magFilter NEAREST";
+    const int wanted = json_number_of(&g->j, sampler, "magFilter", 9729) == 9728;
+    *nearest = wanted && g->m->polish_wanted;
+    return wanted && !*nearest ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1) : 0;
+}
+
+/* The picture of an image, with how it goes on beyond its edges and between its texels.  *number is
+   -1 where it cannot be read, which is a warning. */
 static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what, int *number)
 {
     const int wrap[2] = { gltf_wrap(g, sampler, "wrapS"), gltf_wrap(g, sampler, "wrapT") };
@@ -526,8 +536,10 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
     gltf_bytes bytes = { NULL, 0, NULL };
     char name[64], error[300] = "out of memory", *path = NULL;
     double stride;
-    int failed;
-    snprintf(name, sizeof name, "picture %lu, %d, %d", (unsigned long)image, wrap[0], wrap[1]);
+    int failed, nearest;
+    if (gltf_nearest(g, sampler, &nearest)) return 1;
+    snprintf(name, sizeof name, "picture %lu, %d, %d%s", (unsigned long)image, wrap[0], wrap[1],
+             nearest ? ", squares" : "");
     *number = picture_find(g->m, name, what);
     if (*number >= 0) return 0;
     quiet.error = error;
@@ -556,6 +568,7 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
         p->path = path;
         p->map.wrap_u = (shade_wrap)wrap[0];
         p->map.wrap_v = (shade_wrap)wrap[1];
+        p->map.filter = nearest ? SHADE_FILTER_NEAREST : SHADE_FILTER_BILINEAR;
     }
     return 0;
 }
@@ -962,9 +975,17 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     }
     if (g->counting) return gltf_count(g, primitive, mode, in->count);
     if (gltf_surface(g, primitive, &surface)) return 1;
+    if (g->m->surface[surface].alpha_cutoff > 1) { /* no alpha of a picture is enough */
+        g->cut = 1;
+        return 0;
+    }
     place = surface == g->plain ? NULL : &g->place[surface];
-    failed = gltf_load(g, primitive, surface, &v) || gltf_morph(g, primitive, mesh, node, &v) ||
-             gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
+    failed = gltf_load(g, primitive, surface, &v);
+    if (!failed && place && place->used > 0 && !v.uv.width)
+        model_warn(g->m, g->r->name, "a picture has no texture coordinates");
+    if (!failed)
+        failed = gltf_morph(g, primitive, mesh, node, &v) ||
+                 gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
     g->all.textured |= v.uv.width && place && place->used > 0;
     g->all.colored |= v.color.width > 0;
     g->all.texcoords_kept = g->all.textured;
@@ -1149,13 +1170,18 @@ static inline int gltf_version(gltf *g)
 {
     const uint32_t asset = json_of(&g->j, JSON_ROOT, "asset", JSON_OBJECT);
     char *version = json_copy(&g->j, json_member(&g->j, asset, "version"));
+    char *least = json_copy(&g->j, json_member(&g->j, asset, "minVersion"));
     const int two = version && version[0] == '2' && (version[1] == '.' || !version[1]);
+    const int later = two && least && *least && strcmp(least, "2.0") != 0;
     if (g->j.value[JSON_ROOT].kind != JSON_OBJECT)
         mesh_fail(g->r, "its JSON is no object");
     else if (!two)
         mesh_fail(g->r, "glTF %s is not read, 2 is", version && *version ? version : "1");
+    else if (later)
+        mesh_fail(g->r, "it needs glTF %s; 2.0 is read", least);
     free(version);
-    return !two;
+    free(least);
+    return !two || later;
 }
 
 static inline int gltf_build(gltf *g)
@@ -1169,6 +1195,9 @@ static inline int gltf_build(gltf *g)
                          g->others ? "points and lines alone are not drawn" : "no faces in it");
     if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
     if (g->others) model_warn(g->m, g->r->name, "its points and lines");
+    if (g->cut && !g->all.faces.triangles)
+        return mesh_fail(g->r, "nothing of it can be seen: its alpha is below its alphaCutoff");
+    if (g->cut) model_warn(g->m, g->r->name, "faces whose alpha is below their alphaCutoff");
     if (gltf_extensions(g, "extensionsUsed", 0)) return 1;
     return gather_finish(g->r, &g->all, g->m);
 }

@@ -210,11 +210,22 @@ static inline int json_read(mesh_reader *r, json_doc *j)
 
 /* ---- answers --------------------------------------------------------------------------------- */
 
+static inline char *json_copy(const json_doc *j, uint32_t at);
+
+/* 1: the value is that text, which has no escapes; the file's may have. */
 static inline int json_is(const json_doc *j, uint32_t at, const char *text)
 {
     const json_value *v = &j->value[at];
-    return v->kind == JSON_TEXT && strlen(text) == v->size &&
-           !memcmp(j->text + v->from, text, v->size);
+    const size_t n = strlen(text);
+    char *plain;
+    int same;
+    if (v->kind != JSON_TEXT || v->size < n) return 0;
+    if (v->size == n) return !memcmp(j->text + v->from, text, n);
+    if (!memchr(j->text + v->from, '\\', v->size)) return 0;
+    plain = json_copy(j, at);
+    same = plain && !strcmp(plain, text);
+    free(plain);
+    return same;
 }
 
 /* The member of an object; 0: none, or no object.  Of two of one name the first counts. */

@@ -165,6 +165,7 @@ static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
 static inline int ply_take_property(mesh_reader *r, ply_data *p, model *m)
 {
     ply_property *at = &p->property[p->properties];
+    const unsigned char *name;
     ply_element *e;
     if (!p->elements) return mesh_fail(r, "a property before any element");
     if (p->properties == PLY_MOST) return mesh_fail(r, "more than %d properties", PLY_MOST);
@@ -176,11 +177,15 @@ static inline int ply_take_property(mesh_reader *r, ply_data *p, model *m)
         return mesh_fail(r, "a list counts in integers");
     if (ply_take_type(r, &at->type)) return 1;
     mesh_skip_blanks(r, 0);
+    name = r->at;
     at->meaning = ply_meaning(r, e->kind, at->is_list);
     if (at->meaning == PLY_UNUSED && e->kind != PLY_OTHER &&
         known_word(r, m, e->kind == PLY_VERTEX ? ply_of_vertex : ply_of_face))
         return 1;
-    if (at->meaning < PLY_VALUES) p->has[at->meaning] = 1;
+    if (at->meaning < PLY_VALUES && p->has[at->meaning]++) { /* twice: the first counts */
+        at->meaning = PLY_UNUSED;
+        if (known_take(r, m, KNOWN_TOLD, 0, name, (size_t)(r->at - name))) return 1;
+    }
     p->properties++;
     e->properties++;
     return 0;
@@ -199,6 +204,8 @@ static inline int ply_take_element(mesh_reader *r, ply_data *p, model *m)
     while (!mesh_at_word_end(r)) r->at++;
     mesh_skip_blanks(r, 0);
     if (mesh_take_double(r, &e->count)) return 1;
+    if (e->count < 0 || e->count != floor(e->count))
+        return mesh_fail(r, "a count is no whole number");
     e->first = p->properties;
     e->properties = 0;
     p->elements++;

@@ -112,10 +112,22 @@ static inline int stl_vertex(mesh_reader *r, stl_data *s, uint32_t *number)
     return stl_place(r, s, p, number);
 }
 
+/* Takes a word, endsolid and its like also in two: end solid. */
+static inline int stl_take(mesh_reader *r, const char *word)
+{
+    mesh_reader two = *r;
+    if (mesh_take_word(r, word)) return 1;
+    if (memcmp(word, "end", 3) != 0 || !mesh_take_word(&two, "end")) return 0;
+    mesh_skip_blanks(&two, 0);
+    if (!mesh_take_word(&two, word + 3)) return 0;
+    *r = two;
+    return 1;
+}
+
 static inline int stl_expect(mesh_reader *r, const char *word)
 {
     mesh_skip_lines(r);
-    if (mesh_take_word(r, word)) return 0;
+    if (stl_take(r, word)) return 0;
     return mesh_fail(r, "expected %s, found %s", word, mesh_here(r).text);
 }
 
@@ -145,7 +157,7 @@ static inline int stl_read_text(mesh_reader *r, stl_data *s)
         if (r->at == r->end) return 0;
         if (mesh_take_word(r, "facet")) {
             if (mesh_tell(r, facets++) || stl_facet(r, s)) return 1;
-        } else if (mesh_take_word(r, "solid") || mesh_take_word(r, "endsolid")) {
+        } else if (mesh_take_word(r, "solid") || stl_take(r, "endsolid")) {
             mesh_next_line(r, 0);
         } else {
             return mesh_fail(r, "expected facet, found %s", mesh_here(r).text);
@@ -159,11 +171,18 @@ static inline int stl_fits(const unsigned char *bytes, size_t size)
     return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == mesh_uint32(bytes + 80);
 }
 
-/* Binary where the size fits the count to the byte; then text where no zero byte is near. */
-static inline int stl_is_text(const mesh_reader *r)
+/* Binary where the size fits the count to the byte; then text where no zero byte is near.  Bytes
+   that fill up the end of text, zeros and Ctrl-Z, are no longer the reader's then. */
+static inline int stl_is_text(mesh_reader *r)
 {
-    size_t size = (size_t)(r->end - r->begin), head = size < 1024 ? size : 1024;
-    return !stl_fits(r->begin, size) && !memchr(r->begin, 0, head);
+    const size_t size = (size_t)(r->end - r->begin);
+    const unsigned char *end = r->end;
+    size_t head;
+    while (end > r->begin && (!end[-1] || end[-1] == 26)) end--;
+    head = end - r->begin < 1024 ? (size_t)(end - r->begin) : 1024;
+    if (stl_fits(r->begin, size) || memchr(r->begin, 0, head)) return 0;
+    r->end = end;
+    return 1;
 }
 
 /* The colour of a word: with the highest bit triangles of Magics have the usual one, those of the

@@ -898,6 +898,8 @@ static inline int threemf_place(threemf *t, threemf_object *o, const gather_matr
     const int mirrored = gather_determinant(at) < 0;
     const int colored = t->groups.count > 0;
     int number, surface = 0;
+    if (!colored && o->faces && threemf_face_at(t, o->face)->pid != UINT32_MAX)
+        model_warn(t->m, t->r->name, "it has colours by numbers that it does not have");
     if (t->groups.count && !o->ready && threemf_dress(t, o)) return 1;
     o->ready = 1;
     t->all.colors_kept = t->all.texcoords_kept = colored;
@@ -995,6 +997,31 @@ static inline int threemf_pass(threemf *t, int counting)
     return 0;
 }
 
+/* Slicers keep in files of their own which parts cut others, or only change how these are printed.
+   Such parts are drawn as others are, which is told. */
+static inline void threemf_tell_parts(threemf *t)
+{
+    static const char *const files[] = { "Metadata/Slic3r_PE_model.config",
+                                         "Metadata/model_settings.config", NULL };
+    static const char *const words[] = { "NegativeVolume",  "negative_part",    "ParameterModifier",
+                                         "modifier_part",   "SupportBlocker",   "support_blocker",
+                                         "SupportEnforcer", "support_enforcer", NULL };
+    mesh_reader quiet = *t->r;
+    quiet.error_size = 0;
+    for (int k = 0; files[k]; k++) {
+        const zip_entry *e = zip_find(&t->z, files[k]);
+        unsigned char *text = e ? zip_unpack(&quiet, &t->z, e) : NULL;
+        int found = 0;
+        if (!text) continue;
+        text[e->size] = 0;
+        for (int w = 0; words[w]; w++) found |= strstr((const char *)text, words[w]) != NULL;
+        if (found)
+            model_warn(t->m, t->r->name,
+                       "it has negative parts or modifiers, which are drawn like others");
+        free(text);
+    }
+}
+
 static inline int threemf_make(threemf *t)
 {
     char *path = NULL;
@@ -1004,6 +1031,7 @@ static inline int threemf_make(threemf *t)
     failed = !path || threemf_load(t, path, &root);
     free(path);
     if (failed || (!t->items.count && threemf_all(t))) return 1;
+    threemf_tell_parts(t);
     if (threemf_pass(t, 1)) return 1;
     if (t->triangles <= 0)
         return mesh_fail(t->r, "no faces in it%s%s%s", *t->m->unread ? ", but " : "", t->m->unread,

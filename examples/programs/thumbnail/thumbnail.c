@@ -69,6 +69,16 @@ static int read_model(const options *o, model *m, progress *p)
     return portrait_prepare(m, &o->picture, &o->how);
 }
 
+/* 1: nothing can be seen: each row of the picture is of one colour, as the background is. */
+static int is_blank(const shade_target *picture)
+{
+    const shade_vec4 *row = (const shade_vec4 *)picture->color;
+    for (int y = 0; y < picture->height; y++, row += picture->width)
+        for (int x = 1; x < picture->width; x++)
+            if (memcmp(row, row + x, sizeof *row) != 0) return 0;
+    return picture->width > 1;
+}
+
 static int draw_and_save(const options *o, const model *m, progress *p)
 {
     static studio light;
@@ -87,6 +97,7 @@ static int draw_and_save(const options *o, const model *m, progress *p)
         failed = complain("%s", portrait_says(result));
     } else {
         picture = canvas_finish(&c);
+        if (!o->how.quiet && is_blank(&picture)) complain("%s: nothing of it can be seen", m->path);
         failed = save_picture(&picture, o);
     }
     studio_close(&light);

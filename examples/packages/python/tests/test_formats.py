@@ -409,6 +409,30 @@ def test_what_3mf_has_beyond_is_told_or_refused_by_name():
             assert len(shade.load(io.BytesIO(data)).faces) == 12
 
 
+@pytest.mark.parametrize("name, text, told", [
+    ("Slic3r_PE_model", '<metadata key="volume_type" value="NegativeVolume"/>', True),
+    ("Slic3r_PE_model", '<metadata key="volume_type" value="ModelPart"/>', False),
+    ("model_settings", '<part id="2" subtype="modifier_part"/>', True),
+    ("model_settings", '<part id="2" subtype="normal_part"/>', False)])
+def test_parts_of_slicers_that_are_no_plain_ones_are_told(name, text, told):
+    more = {f"Metadata/{name}.config": f"<config>{text}</config>"}
+    said = corners_of("", "", more)[1]
+    assert bool(said) == told and all("negative parts or modifiers" in line for line in said)
+
+
+def test_names_of_3mf_may_have_percent_signs():
+    red = shade.Picture(np.full((1, 1, 4), 255, np.uint8)).png()
+    texture = '<m:texture2d id="5" path="/3D/a%20%c3%bc.png" contenttype="image/png"/>' \
+        '<m:texture2dgroup id="6" texid="5"><m:tex2coord u="0" v="0"/></m:texture2dgroup>'
+    for name in ("3D/a \u00fc.png", "3D/a%20%c3%bc.png"):
+        found, said, _ = corners_of(texture, 'pid="6" p1="0"', {name: red})
+        assert not said and found["surfaces"][1][-1].texture is not None
+
+
+def test_colours_of_3mf_that_no_group_has_are_told():
+    assert "colours by numbers that it does not have" in corners_of("", 'pid="9" p1="0"')[1][0]
+
+
 def rezipped(data, change):
     """An archive whose models are changed."""
     memory = io.BytesIO()
