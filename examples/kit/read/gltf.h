@@ -521,7 +521,7 @@ static inline int gltf_nearest(gltf *g, uint32_t sampler, int *nearest)
 {
     static const char name[] = "magFilter NEAREST";
     const int wanted = json_number_of(&g->j, sampler, "magFilter", 9729) == 9728;
-    *nearest = wanted && g->m->polish_wanted;
+    *nearest = wanted && g->m->squares_wanted;
     return wanted && !*nearest ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1) : 0;
 }
 

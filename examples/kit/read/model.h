@@ -82,6 +82,7 @@ typedef struct model {
     double origin[3];          /* of the positions, in the coordinates of the file */
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
     int polish_wanted;         /* said to the reader: pictures of metal and roughness count */
+    int squares_wanted;        /* said to the reader: texels can be drawn as squares */
     const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
     model_load_beside *beside;
     zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */
