@@ -182,7 +182,7 @@ break.obj"
     bad_model "an unknown format is named" words.xyzw "\.xyzw"
     bad_model "a line break in its name" "line
 break.obj" "is no OBJ"
-    check "numbers as large as they get" draw large.obj a.ppm $flat
+    check "numbers as large as they get" draw large.obj a.ppm --no-shadow
     check "a triangle as large" test ! -s "$T/err"
     bad_model "a point shows nothing" point.obj "point.obj: no triangle of it has an area"
     check "too many triangles" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.obj" \

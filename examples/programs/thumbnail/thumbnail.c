@@ -85,7 +85,7 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     canvas c;
     shade_target picture;
     shade_result result;
-    int failed;
+    int failed, blank;
     report_next(p, "finding shadows");
     result = portrait_light(&light, m, &o->picture, &o->how, report, p);
     report_next(p, "drawing");
@@ -97,8 +97,9 @@ static int draw_and_save(const options *o, const model *m, progress *p)
         failed = complain("%s", portrait_says(result));
     } else {
         picture = canvas_finish(&c);
-        if (!o->how.quiet && is_blank(&picture)) complain("%s: nothing of it can be seen", m->path);
+        blank = is_blank(&picture); /* to be saved it becomes bytes */
         failed = save_picture(&picture, o);
+        if (!failed && blank && !o->how.quiet) complain("%s: nothing of it can be seen", m->path);
     }
     studio_close(&light);
     free(c.target.color);
