@@ -15,8 +15,8 @@ static inline void picture_fill(model_picture *p, void *pixels, int width, int h
     p->map.srgb = p->what == PICTURE_COLORS;
 }
 
-/* Points each texture to its levels, once the array of pictures no longer moves.  Texels that are to
-   be seen as squares stay so; in pictures of more than 512 they are smaller than pixels. */
+/* Points each texture to its levels, once the array of pictures no longer moves.  Texels that are
+   to be seen as squares stay so; in pictures of more than 512 they are smaller than pixels. */
 static void picture_mipmaps(model_picture *p)
 {
     const int squares = p->map.filter == SHADE_FILTER_NEAREST;

@@ -44,7 +44,7 @@ static inline int mtl_color(mesh_reader *r, float white, shade_vec3 *out)
     return 0;
 }
 
-/* What white is in a file: 1, or 255 where a surface reflects more than twice the light there is. */
+/* What white is in a file: 1, or 255 where a surface would reflect more than twice the light. */
 static inline float mtl_white(mesh_reader r)
 {
     float number, most = 0;
