@@ -97,7 +97,7 @@ function numbers(name, value) {
     if (!isArray(value) || value instanceof BigInt64Array || value instanceof BigUint64Array) {
         throw new ShadeError(`${name} must be an array of numbers, not ${shown(value)}`);
     }
-    if (Array.isArray(value) && !value.every((x) => typeof x === "number")) {
+    if (Array.isArray(value) && (!value.every((x) => typeof x === "number") || value.includes(undefined))) {
         throw new ShadeError(`${name} must hold numbers alone`);
     }
     return value;
@@ -125,6 +125,15 @@ export function doubles(name, value, width) {
 export function matrix(name, value) {
     vector(name, value, 16);
     return Float64Array.from(value);
+}
+
+/** The same for a pose, whose last row is 0 0 0 1. */
+export function pose(name, value) {
+    const got = matrix(name, value);
+    if (got[3] || got[7] || got[11] || got[15] !== 1) {
+        throw new ShadeError(`${name} must have 0, 0, 0, 1 in the last row: it goes by columns, and a translation stands in the last one`);
+    }
+    return got;
 }
 
 /** Floats that are finite. */
@@ -206,6 +215,7 @@ export function texture(name, value) {
         throw new ShadeError(`${name}.data must hold 3 or 4 bytes a pixel, not ${data.length} in all`);
     }
     const bytes = Uint8ClampedArray.from(data);
+    if (!bytes.every((x, i) => x === data[i])) throw new ShadeError(`${name}.data must hold bytes, 0 to 255`);
     if (channels === 4) return { data: bytes, width, height, wrap };
     const rgba = new Uint8ClampedArray(4 * width * height).fill(255);
     for (let i = 0; i < width * height; i++) rgba.set(bytes.subarray(3 * i, 3 * i + 3), 4 * i);

@@ -152,7 +152,7 @@ export class Mesh {
         this.used = used(this);
         this.reach = Math.max(...boxOf(this.positions, this.used).flat().map(Math.abs)) * Math.sqrt(3);
         warn(this);
-        this.pose = got.pose === undefined ? IDENTITY : check.matrix("pose", got.pose);
+        this.pose = got.pose === undefined ? IDENTITY : check.pose("pose", got.pose);
         this.edges = check.flag("edges", edges);
         this.twoSided = check.flag("twoSided", twoSided);
         this.opacity = check.number("opacity", got.opacity ?? 1, 0, 1);

@@ -855,3 +855,23 @@ test("reliefs and what shines that are wrong are refused", () => {
     });
     assert.deepEqual(dressed, plain);
 });
+
+test("holes of arrays, texels that are no bytes and poses by rows are refused", () => {
+    const { positions, indices } = box(), holed = positions.slice(), rows = [1, 0, 0, 5, 0, 1, 0, 5, 0, 0, 1, 5, 0, 0, 0, 1];
+    delete holed[3];
+    refused(/^positions must hold numbers alone/, { positions: holed, indices });
+    refused(/^pose must have 0, 0, 0, 1 in the last row/, { positions, indices, pose: rows });
+    const uv = new Array(16).fill(0);
+    for (const data of [new Float32Array(3).fill(0.5), [0, 0, 256], [0, NaN, 0]]) {
+        refused(/^texture.data must hold bytes, 0 to 255/, { positions, indices, uv, texture: { data, width: 1, height: 1 } });
+    }
+    render({ positions, indices, uv, texture: { data: new Float32Array([0, 7, 255]), width: 1, height: 1 } }, small);
+});
+
+test("normals without a direction are made anew", () => {
+    const made = { ...box(), normals: "smooth" }, smooth = render(made, small).data;
+    const given = (value) => render({ ...box(), normals: new Array(24).fill(value) }, small).data;
+    for (const value of [0, NaN, Infinity]) assert.deepEqual(given(value), smooth);
+    assert.deepEqual(given(1e30), given(1e-30));
+    assert.notDeepEqual(given(1e30), smooth);
+});

@@ -293,12 +293,28 @@ class Mesh:
                 native = ctypes.byref(self.native())
                 check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
-            self.normals = arguments.floats("normals", normals, self.local.shape)
+            self.normals = self._directed(arguments.floats("normals", normals, self.local.shape))
         flat = own is None and self.normals is None
         if flat:
             own = self._flat()
         if own is not None or by_face:
             self._take_corners(own, by_face, not flat)
+
+    def _directed(self, given: Floats) -> Floats:
+        """Normals that are given; those without a direction, zero or NaN, are made anew, and those
+        that floats cannot square get a length of 1."""
+        length = np.abs(given.astype(np.float64)).sum(1)
+        bare = ~((length > 0) & np.isfinite(length))
+        odd = ~bare & ((length < 1e-6) | (length > 1e6))
+        if not (bare | odd).any():
+            return given
+        out = given.copy()
+        out[odd] /= length[odd, None]
+        if bare.any():
+            made = np.empty_like(out)
+            check(library.shade_mesh_normals(ctypes.byref(self.native()), pointer(made)), "normals")
+            out[bare] = made[bare]
+        return out
 
     def _flat(self) -> Floats:
         """The normal of each corner's face."""
@@ -368,6 +384,16 @@ class Mesh:
         used[self.faces.reshape(-1)] = True
         out: Array = rows if used.all() else rows[used]
         return out
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what points into this mesh."""
+        pieces = [(k.surface, k.first, k.count, k.texture) for k in self.pieces]
+        return {**self.__dict__, "pieces": pieces, "_edges": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Makes the pieces for the library again."""
+        self.__dict__.update(state)
+        self.pieces = [Piece(self, *piece) for piece in state["pieces"]]
 
     def native(self, piece: Piece | None = None) -> Any:
         """The struct of the library, which points into this mesh: all of it, or a piece."""
@@ -448,8 +474,10 @@ def points(vertices: object) -> object:
 
 def _listed(value: object) -> object:
     """An array of no rows has no columns to check."""
-    if isinstance(value, np.ndarray) or isinstance(value, (str, bytes)):
+    if isinstance(value, (np.ndarray, str, bytes)):
         return value
+    if isinstance(value, memoryview):
+        return np.asarray(value)
     rows: object = list(value) if isinstance(value, Iterable) else value
     return np.empty((0, 3), np.float32) if isinstance(rows, list) and not rows else rows
 

@@ -72,6 +72,10 @@ class Part:
             items.append(item)
         return items
 
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what points into the mesh."""
+        return {k: v for k, v in self.__dict__.items() if k != "native"}
+
 
 class Scene:
     """Meshes in their places, and the lamps that light them.

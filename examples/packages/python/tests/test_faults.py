@@ -1,6 +1,8 @@
 """What would lose data, hang, race or lose digits: each a test of its own."""
+import copy
 import io
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -410,3 +412,40 @@ def test_arrays_and_words_of_objects():
     scene.add((VERTICES, FACES), name="lid")
     assert repr(scene) == "<shade_h.Scene of 1 parts: lid>"
     assert "Camera(view=" in repr(scene.fit())
+
+
+def test_meshes_scenes_and_pictures_can_be_pickled_and_copied():
+    vertices, faces = box(1, 2, 3)
+    texture = np.arange(4 * 4 * 3, dtype=np.uint8).reshape(4, 4, 3)
+    mesh = shade.Mesh(vertices + 1e7, faces, uv=vertices[:, :2], texture=texture, normals="flat")
+    scene = shade.Scene()
+    scene.add(mesh, edges=True)
+    scene.add_label((1e7, 1e7, 1e7), "a")
+    wanted = scene.render("iso", 48)
+    for again in (lambda made: pickle.loads(pickle.dumps(made)), copy.deepcopy, copy.copy):
+        got = again(wanted)
+        assert got == wanted and got.report() == wanted.report()
+        assert again(scene).render("iso", 48) == wanted
+        assert shade.render(again(mesh), size=48) == shade.render(mesh, size=48)
+
+
+def test_normals_without_a_direction_are_made_anew():
+    vertices, faces = box(1, 2, 3)
+    smooth = shade.render(vertices, faces, size=48, normals="smooth")
+    made = shade.Mesh(vertices, faces, normals="smooth").normals
+    for wrong in (0, np.nan, np.inf):
+        given = made.copy()
+        given[::3] = wrong
+        assert shade.render(vertices, faces, size=48, normals=given) == smooth
+    for length in (1e30, 1e-30):
+        got = shade.render(vertices, faces, size=48, normals=made * np.float32(length))
+        assert got.difference(smooth).max() <= 1
+
+
+def test_masked_values_are_refused_and_views_of_memory_taken():
+    vertices, faces = box(1, 2, 3)
+    wanted = shade.render(vertices, faces, size=16)
+    assert shade.render(memoryview(vertices), memoryview(faces), size=16) == wanted
+    assert shade.render(np.ma.masked_array(vertices, False), faces, size=16) == wanted
+    with pytest.raises(shade.Error, match="vertices has masked values"):
+        shade.render(np.ma.masked_array(vertices, vertices > 1.5), faces)
