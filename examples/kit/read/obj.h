@@ -231,9 +231,9 @@ static inline void obj_light(mesh_reader *r, obj_data *o, model *out)
     for (size_t i = 0; i < o->color.count; i += 3) {
         float *c = o->color.v + i;
         const shade_vec3 seen = shade_v3(c[0] / white, c[1] / white, c[2] / white);
-        const shade_vec3 light = shade_linear_from_srgb(seen);
-        for (int k = 0; k < 3 && !(c[0] <= FLT_MAX); k++) c[k] = 1;
-        if (seen.x <= FLT_MAX) memcpy(c, &light, sizeof light);
+        const int none = !(c[0] <= FLT_MAX);
+        const shade_vec3 light = none ? shade_v3(1, 1, 1) : shade_linear_from_srgb(seen);
+        memcpy(c, &light, sizeof light);
     }
 }
 
