@@ -29,7 +29,7 @@ def shown(value: object) -> str:
 
 def array(name: str, value: object, shape: tuple[int | None, ...]) -> Array:
     """An array of numbers with the shape; None stands for any length."""
-    if np.ma.is_masked(value):
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
         raise Error(f"{name} has masked values, which have no number")
     try:
         got = np.asarray(value)
