@@ -280,15 +280,16 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
                           shade_colors *SHADE_RESTRICT out)
 {
     const look *k = (const look *)uniforms;
+    const int mapped = k->map && (!k->unlit || k->alpha_cutoff > 0);
     float texel[4][SHADE_LANES];
-    if (k->map) {
+    if (mapped) {
         const float *uv = in->varying[look_uv(k)];
         shade_sample_lanes(k->map, uv, uv + SHADE_LANES, in->lod, texel[0]);
     }
     if (!k->unlit) look_color(k, in, k->map ? texel : NULL, out->color);
     SHADE_EACH_LANE(i)
     {
-        const float alpha = k->map && !k->map_is_opaque ? texel[3][i] : 1;
+        const float alpha = mapped && !k->map_is_opaque ? texel[3][i] : 1;
         out->color[3][i] = k->alpha * alpha;
         out->discard[i] = alpha < k->alpha_cutoff;
     }
