@@ -168,6 +168,7 @@ static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_
 /* The surface s, which may be NULL, is complete: decides whether the alpha of its map counts. */
 static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
 {
+    const float white = c->white;
     if (s && c->others && !s->map) memcpy(s->move, c->move, sizeof s->move);
     if (s && c->others && memcmp(c->move, s->move, sizeof s->move) != 0)
         model_warn(m, s->map, "its -o and -s are not those of the other pictures");
@@ -175,9 +176,8 @@ static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
     if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))
         model_warn(m, c->map, "map_d counts only where it is the picture of map_Kd");
     free(c->map);
-    c->has_d = c->mapped = c->others = 0;
-    c->map = NULL;
-    memcpy(c->move, mtl_fresh.move, sizeof c->move);
+    *c = mtl_fresh;
+    c->white = white;
 }
 
 /* Fills the surfaces of m that stand in the text; of two with one name the first counts.  A
