@@ -3945,9 +3945,9 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     shade__fetch_corners(s, plan->value_stride, &given);
     shade__areas(&given, area, inverse);
     shade__choose_turns(&given, area, &turns, s->turn);
-    shade__turn(shade__words(given.x), &turns, shade__words(c.x));
-    shade__turn(shade__words(given.y), &turns, shade__words(c.y));
-    shade__turn(shade__words(given.z), &turns, shade__words(c.z));
+    shade__turn(shade__words(&given.x), &turns, shade__words(&c.x));
+    shade__turn(shade__words(&given.y), &turns, shade__words(&c.y));
+    shade__turn(shade__words(&given.z), &turns, shade__words(&c.z));
     shade__box(c.x, plan->x0, plan->x1 - 1, s->x0, s->x1);
     shade__box(c.y, plan->y0, plan->y1 - 1, s->y0, s->y1);
     for (int k = 0; k < 3; k++) shade__edge(&c, k, s);
