@@ -121,6 +121,11 @@ formats() {
         check "$k, no threads" "$T/alone" "$T/$k.obj" "$T/many.ppm" --size 120x90 --samples 1
         check "$k, the same bits without threads" cmp "$T/one.ppm" "$T/many.ppm"
     done
+    for k in "128x128 4" "120x136 4" "129x128 2"; do
+        check "a picture at ${k% *}" "$THUMBNAIL" "$T/torus.obj" "$T/one.ppm" --size "${k% *}"
+        check "with samples" "$THUMBNAIL" "$T/torus.obj" "$T/many.ppm" --size "${k% *}" --samples "${k#* }"
+        check "has ${k#* } samples of itself" cmp "$T/one.ppm" "$T/many.ppm"
+    done
     cp "$T/torus.ply" "$T/torus"
     check "name without an end" draw torus b.ppm $flat
     "$THUMBNAIL" "$T/torus.obj" - --size 120x90 >"$T/b.ppm" 2>"$T/err"

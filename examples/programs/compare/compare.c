@@ -301,7 +301,7 @@ static int draw_model(picture *p, const portrait *as, const model_options *how)
     guard_doing = "drawing";
     if (!portrait_prepare(&m, as, how)) {
         wrong = portrait_light(&light, &m, as, how, NULL, NULL);
-        c = canvas_try(as->width, as->height, as->samples);
+        c = canvas_try(as->width, as->height, portrait_samples(as));
         if (!c.target.color) wrong = SHADE_ERROR_CAPACITY;
         if (!wrong) wrong = portrait_draw(&c, &m, &light, as, how, NULL, NULL);
         if (wrong) {

@@ -35,6 +35,7 @@ static int check_options(options *o)
     if (portrait_name(o->output, &o->png) || portrait_check(&o->picture, &o->how)) return 1;
     if (o->picture.background == PORTRAIT_NONE && !o->png)
         return complain("--background none needs PNG: PPM has no transparency");
+    o->picture.samples = portrait_samples(&o->picture);
     return 0;
 }
 
