@@ -534,6 +534,28 @@ void python_face_normals(const shade_mesh *mesh, float *normals)
     }
 }
 
+/* Directs normals that a caller gives, one for each vertex, as those of files are; those without a
+   direction, zero or NaN, are made anew. */
+SHADEDEF int python_direct_normals(const shade_mesh *mesh, float *normals);
+int python_direct_normals(const shade_mesh *mesh, float *normals)
+{
+    shade_result result = SHADE_OK;
+    shade_vec3 *made = NULL;
+    for (int i = 0; i < mesh->vertex_count && !result; i++) {
+        float *n = normals + 3 * (size_t)i;
+        const double given[3] = { (double)n[0], (double)n[1], (double)n[2] };
+        mesh_normal(given, n);
+        if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
+        if (!made) {
+            made = (shade_vec3 *)malloc((size_t)mesh->vertex_count * sizeof *made);
+            result = made ? shade_mesh_normals(mesh, made) : SHADE_ERROR_CAPACITY;
+        }
+        if (!result) memcpy(n, &made[i], sizeof *made);
+    }
+    free(made);
+    return (int)result;
+}
+
 /* Gives each corner the number of the first one with its vertex and its value, of width floats, and
    returns how many differ.  made has their corners.  Of a vertex with many values the last ones
    alone are compared.  first, of vertex_count, and next, of count, are scratch. */

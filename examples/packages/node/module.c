@@ -185,24 +185,6 @@ static const float *flat_normals(module_mesh *m)
     return normals;
 }
 
-/* Given normals without a direction, zero or NaN, are made anew. */
-static shade_result direct_normals(module_mesh *m, const asked_mesh *asked)
-{
-    shade_vec3 *made = NULL;
-    for (int i = 0; i < asked->vertices; i++) {
-        float *n = asked->normals + 3 * (size_t)i;
-        const double given[3] = { (double)n[0], (double)n[1], (double)n[2] };
-        mesh_normal(given, n);
-        if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
-        if (!made) {
-            made = (shade_vec3 *)room(m, (size_t)asked->vertices, sizeof *made);
-            if (!made || shade_mesh_normals(&m->source, made)) return SHADE_ERROR_CAPACITY;
-        }
-        memcpy(n, &made[i], sizeof *made);
-    }
-    return SHADE_OK;
-}
-
 static shade_result make_normals(module_mesh *m, const asked_mesh *asked)
 {
     const int by_face = asked->colors && asked->color_count != asked->vertices;
@@ -215,7 +197,8 @@ static shade_result make_normals(module_mesh *m, const asked_mesh *asked)
         if (normals) result = shade_mesh_normals(&m->mesh, normals);
         if (normals && !result) m->mesh.normals = &normals->x;
     }
-    if (asked->normals) result = direct_normals(m, asked);
+    if (asked->normals)
+        result = (shade_result)python_direct_normals(&m->source, asked->normals);
     flat = !result && !corner && !m->mesh.normals;
     if (flat) corner = flat_normals(m);
     if (!result && !m->no_room && (corner || by_face)) use_corners(m, corner, by_face, !flat);

@@ -177,6 +177,7 @@ def _open() -> Any:
             ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
             ("python_has_letter", c_int, [c_int]),
             ("python_face_normals", None, [c_void_p, c_void_p]),
+            ("python_direct_normals", c_int, [c_void_p, c_void_p]),
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_read", POINTER(OwnedMesh),

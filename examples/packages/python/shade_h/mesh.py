@@ -293,28 +293,14 @@ class Mesh:
                 native = ctypes.byref(self.native())
                 check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
-            self.normals = self._directed(arguments.floats("normals", normals, self.local.shape))
+            given = arguments.floats("normals", normals, self.local.shape).copy()
+            check(library.python_direct_normals(ctypes.byref(self.native()), pointer(given)), "normals")
+            self.normals = given
         flat = own is None and self.normals is None
         if flat:
             own = self._flat()
         if own is not None or by_face:
             self._take_corners(own, by_face, not flat)
-
-    def _directed(self, given: Floats) -> Floats:
-        """Normals that are given; those without a direction, zero or NaN, are made anew, and those
-        that floats cannot square get a length of 1."""
-        length = np.abs(given.astype(np.float64)).sum(1)
-        bare = ~((length > 0) & np.isfinite(length))
-        odd = ~bare & ((length < 1e-6) | (length > 1e6))
-        if not (bare | odd).any():
-            return given
-        out = given.copy()
-        out[odd] /= length[odd, None]
-        if bare.any():
-            made = np.empty_like(out)
-            check(library.shade_mesh_normals(ctypes.byref(self.native()), pointer(made)), "normals")
-            out[bare] = made[bare]
-        return out
 
     def _flat(self) -> Floats:
         """The normal of each corner's face."""
