@@ -663,6 +663,7 @@ int python_beside(const char *name) { return model_is_beside(name); }
 SHADEDEF void python_unload(model *m);
 void python_unload(model *m)
 {
+    for (int i = 0; m && i < m->picture_count; i++) m->picture[i].pixels = NULL; /* the caller's */
     if (m) model_free(m);
     free(m);
 }
@@ -732,18 +733,13 @@ void python_picture_of(const model *m, int i, python_picture *out)
                              p->what == PICTURE_COLORS };
 }
 
-/* Copies the pixels, RGBA, of a picture that was decoded.  Non-zero: out of memory */
+/* Sets the pixels, RGBA, of a picture that was decoded; they stay yours, until python_heed_pictures
+   has read them. */
 NATIVE(picture_set)
-int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
-int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height)
+void python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
+void python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height)
 {
-    const size_t bytes = 4 * (size_t)width * (size_t)height;
-    void *pixels = malloc(bytes + 1);
-    if (!pixels) return 1;
-    memcpy(pixels, rgba, bytes);
-    free(m->picture[i].pixels);
-    picture_fill(&m->picture[i], pixels, width, height);
-    return 0;
+    picture_fill(&m->picture[i], (void *)(uintptr_t)rgba, width, height);
 }
 
 NATIVE(heed_pictures) void python_heed_pictures(model *m);

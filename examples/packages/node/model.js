@@ -56,14 +56,6 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         return image ? { data: image.data, width: image.width, height: image.height } : null;
     }
 
-    /** Hands the pixels of a picture over to the model. */
-    function setPixels(model, number, image) {
-        const { data, width, height } = texture("picture", image);
-        const failed = withMemory((room) =>
-            library.picture_set(model, number, put(room(data.length), data), width, height));
-        if (failed) throw new RangeError("memory is not enough for the pictures of the model");
-    }
-
     /** The pictures that faces show, by their numbers.  What they say of their surfaces, such as metal and
      *  roughness, then stands in the parts. */
     function picturesOf(model, options, warn) {
@@ -83,11 +75,12 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 if (!known.has(name)) known.set(name, decoded(name, bytes, size, text(kind), options, warn));
                 const image = known.get(name);
                 if (!image) continue;
-                setPixels(model, number, image);
+                const { data, width, height } = texture("picture", image);
+                library.picture_set(model, number, put(room(data.length), data), width, height);
                 images.set(number, { ...image, wrap: [WRAPS[u], WRAPS[v]] });
             }
+            library.heed_pictures(model);
         });
-        library.heed_pictures(model);
         return images;
     }
 

@@ -191,7 +191,7 @@ def _open() -> Any:
             ("python_pictures", c_int, [POINTER(OwnedMesh), POINTER(c_int)]),
             ("python_picture_shown", c_int, [POINTER(OwnedMesh), c_int]),
             ("python_picture_of", None, [POINTER(OwnedMesh), c_int, c_void_p]),
-            ("python_picture_set", c_int, [POINTER(OwnedMesh), c_int, c_void_p, c_int, c_int]),
+            ("python_picture_set", None, [POINTER(OwnedMesh), c_int, c_void_p, c_int, c_int]),
             ("python_heed_pictures", None, [POINTER(OwnedMesh)]),
             ("python_heights", c_int, [c_void_p, c_int, c_int]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),

@@ -68,6 +68,11 @@ class Surface:
     glow: object = None
     glow_factor: Sequence[float] = (1.0, 1.0, 1.0)
 
+    @property
+    def mapped(self) -> bool:
+        """Whether it has a picture of any kind."""
+        return any(one is not None for one in (self.texture, self.relief, self.glow))
+
 
 class Piece:
     """A run of a mesh's triangles with one surface, as the library has it."""
@@ -195,8 +200,7 @@ class Mesh:
         for look, picture in zip(looks, maps):
             if surfaces is not None and picture is not None and not look.blend and not look.cutoff:
                 picture[:, :, 3] = 255
-        if self.uv is None and any(m is not None for look in looks
-                                   for m in (look.texture, look.relief, look.glow)):
+        if self.uv is None and any(look.mapped for look in looks):
             raise Error("uv is missing: a surface has a texture")
         self.texture = maps[0] if len(maps) == 1 else None
         self._take_normals(normals, by_face)
