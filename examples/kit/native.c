@@ -854,6 +854,9 @@ int python_scene_set(renderer_scene *scene, const renderer_object *records, int 
     return renderer_set_objects(scene, records, count);
 }
 
+SHADEDEF int python_is_rigid(const double *rows);
+int python_is_rigid(const double *rows) { return renderer_is_rigid(rows); }
+
 /* to is a copy of the scene's records, or NULL: those are moved. */
 NATIVE(scene_pose)
 int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,

@@ -203,6 +203,7 @@ def _open() -> Any:
             ("python_scene_remove", c_int, [c_void_p, c_int]),
             ("python_scene_find", c_void_p, [c_void_p, c_int, c_void_p]),
             ("python_scene_set", c_int, [c_void_p, c_void_p, c_int]),
+            ("python_is_rigid", c_int, [c_void_p]),
             ("python_scene_pose", c_int, 4 * [c_void_p] + [c_int]),
             ("python_renderer_open", c_void_p, []),
             ("python_renderer_close", None, [c_void_p]),

@@ -507,8 +507,7 @@ class Renderer:
         refused = library.python_scene_pose(self._scene.handle, pointer(to), pointer(numbers),
                                             pointer(rows), len(rows))
         if refused >= 0:
-            raise Error(f"{name}[{refused}] must be a rotation and a translation, without scale, with "
-                        "0, 0, 0, 1 in the last row")
+            raise Error(f"{name}[{refused}] {arguments.NOT_RIGID}")
 
     def show(self, number: int, visible: bool = True) -> None:
         """Hides an object, or shows it again."""
