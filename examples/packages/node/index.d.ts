@@ -218,8 +218,12 @@ export class Renderer {
     background(color: Color): void;
     sky(low?: Color, high?: Color): void;
     sky_texture(texture: number): void;
-    frame(wanted?: { color?: boolean; depth?: boolean; ids?: boolean; normals?: boolean }): Frame;
+    frame(wanted?: { color?: boolean; depth?: boolean; ids?: boolean; normals?: boolean; pictures?: number }): Frame;
     render(camera: Camera, out?: Frame, options?: { solid?: boolean; empty_depth?: number }): Frame;
+    /** A picture for each camera, one after the other in each array.  poses has for each picture a matrix of each
+        object, in the order of their numbers; the objects stay where they were, and one camera then serves all. */
+    render_batch(cameras: Camera | readonly Camera[], poses?: readonly (readonly Numbers[])[], out?: Frame,
+                 options?: { solid?: boolean; empty_depth?: number }): Frame;
     free(): void;
 }
 

@@ -633,6 +633,41 @@ test("objects, shapes and textures of a Renderer come, change and go", () => {
     [made, other, fresh].forEach((renderer) => renderer.free());
 });
 
+test("a batch is the pictures one by one", () => {
+    const camera = (x) => ({ view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, -3, 1],
+                             projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] });
+    const made = new Renderer(6, 8), cameras = [0, 0.3, -0.5].map(camera), all = { normals: true, pictures: 3 };
+    made.add("sphere", 0.5, { color: "red" });
+    made.remove(made.add("sphere", 1));
+    made.add("box", [0.2, 0.3, 0.4], { at: [0, 0.5, 0] });
+    const at = (x, y) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1];
+    const poses = [0, 0.2, 0.6].map((x) => [at(x, 0), at(0, x)]), home = [at(0, 0), at(0, 0.5)];
+    const same = (batch, pictures) => Object.entries(batch).forEach(([name, array]) => {
+        const size = array.length / pictures.length;
+        pictures.forEach((one, i) => assert.deepEqual(array.slice(i * size, (i + 1) * size), one[name]));
+    });
+    const one = (seen, options) => made.render(seen, made.frame({ normals: true }), options);
+    same(made.render_batch(cameras, undefined, made.frame(all)), cameras.map((seen) => one(seen)));
+    const options = { empty_depth: -1, solid: true }, out = made.frame(all);
+    assert.equal(made.render_batch(cameras[1], poses, out, options), out);
+    assert.deepEqual(made.render_batch(cameras[0], [home]), made.render(cameras[0]));
+    same(out, poses.map((row) => (made.poses(row), one(cameras[1], options))));
+    made.poses(home);
+    assert.equal(made.render_batch([]).color.length, 0);
+    const bent = [...poses[0].slice(0, 1), [...home[1].slice(0, 10), 2, ...home[1].slice(11)]];
+    for (const [words, ...call] of [
+        [/^cameras\[1\].projection must be an array/, [cameras[0], { view: home[0] }]],
+        [/^cameras\[0\].view must be an array/, null], [/^poses must have a row for each of 3 cameras, not 2/, cameras, [home, home]],
+        [/^poses\[0\] must hold 2 matrices/, cameras[0], [[home[0]]]],
+        [/^poses\[1\]\[1\] must be a rotation/, cameras[0], [home, bent]],
+        [/^out.color must hold 432 numbers, not 288/, cameras, undefined, made.frame({ pictures: 2 })],
+        [/^options.near is no option/, cameras, undefined, undefined, { near: 1 }]]) {
+        assert.throws(() => made.render_batch(...call), (error) => error instanceof ShadeError && words.test(error.message), `${words}`);
+    }
+    assert.deepEqual(made.render_batch(cameras[0], [home]), made.render(cameras[0]));
+    made.free();
+});
+
 test("the highlight and the emission of an MTL are drawn", async () => {
     const line = (text) => new TextEncoder().encode(text);
     const beside = () => line("newmtl m\nKd 0.2 0.1 0\nKs 0.3 0.3 0.3\nNs 20\nKe 0 0 0.2\n");

@@ -276,8 +276,10 @@ def sight():
     spot = shade.Light((1, -2, 4, 1), (0.5,) * 3, (0.5,) * 3, spot_direction=(-0.2, 0.4, -1), spot_exponent=2.0,
                        spot_cos_cutoff=0.8)
     sim.light([shade.Light.directional((-0.5, 1, -1.5), (0.5, 0.5, 0.5)), spot], (0.3, 0.3, 0.3), (0, 1))
-    later = sim.render(camera, normals=True)
-    assert len(np.unique(later.ids[..., 0])) >= 8 and (later.color != frame.color).any(-1).mean() > 0.2
+    beside = np.eye(4)
+    beside[0, 3] = 0.5
+    later = sim.render_batch([camera, shade.Camera(beside @ camera.view, camera.projection)], normals=True)
+    assert len(np.unique(later.ids[0, ..., 0])) >= 8 and (later.color != frame.color).any(-1).mean() > 0.2
     (OUT / "sight.bytes").write_bytes(b"".join(array.tobytes() for array in (*frame, *later)))
     told = {"view": camera.view.T.ravel().tolist(), "projection": camera.projection.T.ravel().tolist(),
             "box": points.ravel().tolist(), "faces": faces.ravel().tolist(), "uv": uv.ravel().tolist(),

@@ -30,7 +30,8 @@ export function sight(Renderer, Mesh, { view, projection, box, faces, uv, torus 
     sim.light([{ position: [0.5, -1, 1.5, 0], color: half },
                { position: [1, -2, 4, 1], color: half, spotDirection: [-0.2, 0.4, -1], spotExponent: 2, spotCosCutoff: 0.8 }],
               [0.3, 0.3, 0.3], [0, 1]);
-    const later = sim.render({ view, projection }, sim.frame({ normals: true }));
+    const later = sim.render_batch([{ view, projection }, { view: view.map((x, i) => (i === 12 ? x + 0.5 : x)), projection }],
+                                   undefined, sim.frame({ normals: true, pictures: 2 }));
     sim.free();
     const arrays = [frame, later].flatMap(Object.values).map((a) => new Uint8Array(a.buffer)), all = new Uint8Array(arrays.reduce((n, a) => n + a.length, 0));
     arrays.reduce((at, a) => (all.set(a, at), at + a.length), 0);
