@@ -697,7 +697,8 @@ typedef struct python_picture {
     const void *bytes; /* a picture inside the file, not decoded; NULL: it is beside the file */
     size_t size;
     int wrap[2];
-    int colors; /* 0: a relief, or metal and roughness */
+    int squares; /* texels are to be seen as such */
+    int colors;  /* 0: a relief, or metal and roughness */
 } python_picture;
 
 /* Lists the pictures, and returns their number; from *beside on they are beside the file. */
@@ -730,6 +731,7 @@ void python_picture_of(const model *m, int i, python_picture *out)
                              p->bytes,
                              p->size,
                              { (int)p->map.wrap_u, (int)p->map.wrap_v },
+                             p->map.filter == SHADE_FILTER_NEAREST,
                              p->what == PICTURE_COLORS };
 }
 
@@ -747,6 +749,14 @@ void python_heed_pictures(model *m)
 {
     heed_pictures(m);
     relief_prepare(m, 1);
+}
+
+SHADEDEF int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory,
+                                   size_t bytes, int squares);
+int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory, size_t bytes,
+                          int squares)
+{
+    return (int)texture_levels(map, levels, memory, bytes, squares);
 }
 
 /* 1: the picture of a relief holds heights, and no normals. */

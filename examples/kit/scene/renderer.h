@@ -20,7 +20,7 @@
 #include <string.h>
 #include "shade.h"
 #include "../../shared/bands.h"
-#include "../../shared/lane.h"
+#include "relief.h"
 
 typedef enum renderer_kind {
     RENDERER_MESH = 0,  /* size multiplies its coordinates */
@@ -503,6 +503,7 @@ typedef struct renderer_image {
     int width, height;
     int faces; /* 1, or 6 one below the other, for a cube, which needs no wrap */
     int srgb, wrap_u, wrap_v;
+    int squares; /* its texels are to be seen as such */
 } renderer_image;
 
 /* Copies a picture with its mipmaps.  0: out of memory */
@@ -520,10 +521,9 @@ static inline int renderer_texture_of(renderer_texture *t, const renderer_image 
         memcpy(at, from->rgba + (size_t)i * bytes, bytes);
         t->face[i] = (shade_texture){ .pixels = at, .width = width, .height = height };
         t->face[i].srgb = from->srgb;
-        t->face[i].filter = SHADE_FILTER_TRILINEAR;
         t->face[i].wrap_u = faces > 1 ? SHADE_WRAP_CLAMP : (shade_wrap)from->wrap_u;
         t->face[i].wrap_v = faces > 1 ? SHADE_WRAP_CLAMP : (shade_wrap)from->wrap_v;
-        if (levels) shade_build_mipmaps(&t->face[i], t->levels + i * levels, at + bytes, below);
+        texture_levels(&t->face[i], t->levels + i * levels, at + bytes, below, from->squares);
     }
     if (t->memory && t->levels) return 1;
     renderer_texture_free(t);

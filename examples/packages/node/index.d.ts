@@ -22,8 +22,9 @@ export interface Material {
 /** How a texture goes on beyond its edges; default "repeat". */
 export type Wrap = "repeat" | "clamp" | "mirror";
 
-/** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top. */
-export interface Texture { data: Numbers; width: number; height: number; wrap?: [Wrap, Wrap]; }
+/** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top.  With squares texels are
+    seen as such, in pictures of at most 512 x 512. */
+export interface Texture { data: Numbers; width: number; height: number; wrap?: [Wrap, Wrap]; squares?: boolean; }
 
 /** What a mesh is made of.  Arrays are copied. */
 export interface MeshSource {

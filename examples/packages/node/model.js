@@ -3,7 +3,7 @@
 import { ShadeError, WRAPS, choice, encoded, record, texture } from "./arguments.js";
 
 // module_model, python_part and python_picture of module.c, in words of four bytes
-const MODEL = 16, PART = 30, PICTURE = 7;
+const MODEL = 16, PART = 30, PICTURE = 8;
 
 /** Alpha that does not count becomes 255. */
 function opaque(image) {
@@ -66,7 +66,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
             for (let number = 0; number < count; number++) {
                 if (!library.picture_shown(model, number)) continue;
                 library.picture_of(model, number, at);
-                const [named, kind, bytes, size, u, v] = words(at, PICTURE), name = text(named);
+                const [named, kind, bytes, size, u, v, squares] = words(at, PICTURE), name = text(named);
                 if (!bytes && number < besideFrom) continue;    // that it cannot be read has been told
                 if (!options.picture) {
                     warn("it has pictures, which the option picture decodes; its faces are drawn without them");
@@ -77,7 +77,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 if (!image) continue;
                 const { data, width, height } = texture("picture", image);
                 library.picture_set(model, number, put(room(data.length), data), width, height);
-                images.set(number, { ...image, wrap: [WRAPS[u], WRAPS[v]] });
+                images.set(number, { ...image, wrap: [WRAPS[u], WRAPS[v]], squares: squares !== 0 });
             }
             library.heed_pictures(model);
         });

@@ -20,7 +20,7 @@ enum { NORMALS_GIVEN, NORMALS_AUTO, NORMALS_SMOOTH };
 
 typedef struct asked_map {
     uint8_t *texels;                             /* RGBA; NULL: there is none */
-    int width, height, wrap_u, wrap_v;           /* shade_wrap */
+    int width, height, wrap_u, wrap_v, squares;  /* shade_wrap; squares: texels are seen as such */
 } asked_map;
 
 typedef struct asked_mesh {
@@ -232,10 +232,9 @@ static shade_result make_map(module_mesh *m, const asked_map *asked, module_map 
     map->texture.width = w;
     map->texture.height = h;
     map->texture.srgb = colors;
-    map->texture.filter = SHADE_FILTER_TRILINEAR;
     map->texture.wrap_u = (shade_wrap)asked->wrap_u;
     map->texture.wrap_v = (shade_wrap)asked->wrap_v;
-    return shade_build_mipmaps(&map->texture, map->levels, memory, bytes);
+    return texture_levels(&map->texture, map->levels, memory, bytes, asked->squares);
 }
 
 static shade_result make_maps(module_mesh *m, const asked_mesh *asked)

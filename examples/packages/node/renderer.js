@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 39, SHOT = 67, LIGHT = 21, IMAGE = 7;
+const OBJECT = 39, SHOT = 67, LIGHT = 21, IMAGE = 8;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];
@@ -137,7 +137,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #dress(shape, { map, tint, opacity, blend, cutoff, own, material }) {
             const { floats, ints } = shape.record, shown = (rgb) => (this.srgb ? rgb : rgb.map(check.encoded));
             if (map) {
-                ints[AT.texture] = this.#texture(map.data, map.width, map.height, 1, map.wrap, free(this.#textures));
+                ints[AT.texture] = this.#texture(map, free(this.#textures), map.wrap);
                 shape.textures.push(ints[AT.texture]);
                 this.#textures.get(ints[AT.texture]).owned = true;
             }
@@ -214,18 +214,17 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
-         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Texture. */
-        texture({ data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
-            return this.#texture(data, width, height, faces, check.wraps("wrap", wrap), free(this.#textures));
-        }
+         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
+         *  Texture. */
+        texture(picture) { return this.#texture(picture, free(this.#textures)); }
 
         /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
-        update_texture(number, { data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
+        update_texture(number, picture) {
             const { cube, owned } = this.#textureOf("number", number);
-            if (cube !== (faces === 6)) {
+            if (cube !== (picture?.faces === 6)) {
                 throw new ShadeError(`picture: texture ${number} is ${cube ? "" : "no "}cube, and the picture is not`);
             }
-            this.#texture(data, width, height, faces, check.wraps("wrap", wrap), number);
+            this.#texture(picture, number);
             this.#textures.get(number).owned = owned;
         }
 
@@ -235,7 +234,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return this.#textures.get(number);
         }
 
-        #texture(data, width, height, faces, wrap, number) {
+        #texture(picture, number, wrap = check.wraps("", picture)) {
+            const { data, width, height, faces = 1 } = picture;
             check.integer("width", width, 1, 16384);
             check.integer("height", height, 1, 16384);
             if (faces !== 1 && (faces !== 6 || height !== 6 * width)) {

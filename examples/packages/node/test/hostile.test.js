@@ -577,6 +577,24 @@ test("a Renderer draws the colour and the texture of a Mesh", () => {
     }
 });
 
+test("texels that are wanted as squares are", () => {
+    const quad = { positions: [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], indices: [0, 1, 2, 0, 2, 3], uv: [0, 0, 1, 0, 1, 1, 0, 1] };
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [2.8, 0, 0, 0, 0, 2.8, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const drawn = (times, squares) => {
+        const data = Array.from({ length: 4 * times * times }, (_, i) =>
+            ((i % (2 * times) < times) === (i < 2 * times * times) ? [250, 0, 0] : [0, 0, 250])).flat();
+        const made = new Renderer(20, 20), texture = { data, width: 2 * times, height: 2 * times, wrap: ["clamp", "clamp"], squares };
+        made.add(made.mesh(new Mesh({ ...quad, texture })));
+        const picture = render({ ...quad, texture }, { view: camera, size: 20, samples: 1 }), { color } = made.render(camera);
+        made.free();
+        return [picture.data, color];
+    };
+    assert.deepEqual(drawn(1, true), drawn(50, true));
+    drawn(1, false).forEach((smooth, i) => assert.notDeepEqual(smooth, drawn(1, true)[i]));
+    refused(/^texture.squares must be true or false/, { ...quad, texture: { ...texel(1, 2, 3), squares: 1 } });
+});
+
 test("objects, shapes and textures of a Renderer come, change and go", () => {
     const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
                      projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };

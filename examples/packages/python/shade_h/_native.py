@@ -125,7 +125,7 @@ SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
 class Image(Structure):
     """renderer_image"""
     _fields_ = [("rgba", c_void_p), ("width", c_int), ("height", c_int), ("faces", c_int),
-                ("srgb", c_int), ("wrap_u", c_int), ("wrap_v", c_int)]
+                ("srgb", c_int), ("wrap_u", c_int), ("wrap_v", c_int), ("squares", c_int)]
 
 
 class Chunk(Structure):
@@ -145,7 +145,7 @@ class Run(Structure):
 class FilePicture(Structure):
     """python_picture"""
     _fields_ = [("name", c_char_p), ("kind", c_char_p), ("bytes", c_void_p), ("size", c_size_t),
-                ("wrap", c_int * 2), ("colors", c_int)]
+                ("wrap", c_int * 2), ("squares", c_int), ("colors", c_int)]
 
 
 class Edge(Structure):
@@ -193,6 +193,7 @@ def _open() -> Any:
             ("python_picture_of", None, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_picture_set", None, [POINTER(OwnedMesh), c_int, c_void_p, c_int, c_int]),
             ("python_heed_pictures", None, [POINTER(OwnedMesh)]),
+            ("python_texture_levels", c_int, 3 * [c_void_p] + [c_size_t, c_int]),
             ("python_heights", c_int, [c_void_p, c_int, c_int]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
@@ -219,7 +220,6 @@ def _open() -> Any:
             ("shade_mesh_edges", c_int, [c_void_p, c_void_p, c_int, c_void_p]),
             ("shade_mipmap_count", c_int, [c_int, c_int]),
             ("shade_mipmap_bytes", c_size_t, [c_int, c_int, c_int]),
-            ("shade_build_mipmaps", c_int, [c_void_p, c_void_p, c_void_p, c_size_t]),
             ("shade_preset_material", Material, [c_int]),
             ("shade_preset_name", c_char_p, [c_int]),
             ("shade_linear_material", Material, [Material])):

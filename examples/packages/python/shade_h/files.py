@@ -114,8 +114,8 @@ def _look(owned: Any, run: Any, images: list[Any]) -> Surface:
     holes = "texture" in shown and not run.opaque
     return Surface(material=material, blend=bool(run.blended) or run.transparency > 0,
                    opacity=1 - run.transparency, cutoff=run.alpha_cutoff if holes else 0.0,
-                   wrap=(WRAPS[wrap.wrap[0]], WRAPS[wrap.wrap[1]]), metal=run.metal,
-                   roughness=run.rough, strength=run.relief_strength,
+                   wrap=(WRAPS[wrap.wrap[0]], WRAPS[wrap.wrap[1]]), squares=bool(wrap.squares),
+                   metal=run.metal, roughness=run.rough, strength=run.relief_strength,
                    glow_factor=tuple(run.glow_factor[:]),
                    **{name: images[number] for name, number in shown.items()})
 

@@ -46,7 +46,8 @@ class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
     4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
     cutoff texels of less alpha are holes; else alpha is ignored.  wrap, "repeat", "clamp" or
-    "mirror" for u and v, says how the pictures go on beyond their edges.  metal, 0 to 1, is how much
+    "mirror" for u and v, says how the pictures go on beyond their edges; with squares texels are seen
+    as such, in pictures of at most 512 x 512.  metal, 0 to 1, is how much
     of what the studio's light shows in it has its colour, and roughness how blurred that is, 0 by
     the exponent of the material.
 
@@ -61,6 +62,7 @@ class Surface:
     opacity: float = 1.0
     cutoff: float = 0.0
     wrap: tuple[str, str] = ("repeat", "repeat")
+    squares: bool = False
     metal: float = 0.0
     roughness: float = 0.0
     relief: object = None
@@ -120,13 +122,13 @@ class Piece:
         if texture is None:
             return None
         h, w = texture.shape[:2]
-        out = Texture(pixels=pointer(texture), width=w, height=h, srgb=srgb, filter=2)
+        out = Texture(pixels=pointer(texture), width=w, height=h, srgb=srgb)
         out.wrap_u, out.wrap_v = (WRAPS.index(arguments.choice("wrap", how, WRAPS))
                                   for how in self.surface.wrap)
         mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
         levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
-        check(library.shade_build_mipmaps(ctypes.byref(out), levels, pointer(mipmaps),
-                                          mipmaps.size), "texture")
+        check(library.python_texture_levels(ctypes.byref(out), levels, pointer(mipmaps), mipmaps.size,
+                                            arguments.flag("squares", self.surface.squares)), "texture")
         self._kept += [texture, mipmaps, levels]
         return out
 

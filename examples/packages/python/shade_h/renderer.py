@@ -222,9 +222,9 @@ class Renderer:
         surface, material = piece.surface, piece.surface.material
         record["first"], record["count"] = piece.first, piece.count
         if piece.texture is not None:
-            key = piece.texture.shape, piece.texture.tobytes(), surface.wrap
+            key = piece.texture.shape, piece.texture.tobytes(), surface.wrap, surface.squares
             if key not in known:
-                known[key] = self.texture(piece.texture, surface.wrap)
+                known[key] = self.texture(piece.texture, surface.wrap, surface.squares)
             record["texture"] = known[key]
         def shown(rgb: Any) -> Any:
             return rgb if self.srgb else display(rgb)
@@ -303,12 +303,15 @@ class Renderer:
         self._set_records(np.concatenate(kept))
         self._drop(gone)
 
-    def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat")) -> int:
+    def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat"),
+                squares: bool = False) -> int:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
-        -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Surface."""
-        return self._make_texture(picture, wrap, None)
+        -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
+        Surface."""
+        return self._make_texture(picture, wrap, squares, None)
 
-    def _make_texture(self, picture: object, wrap: tuple[str, str], number: int | None) -> int:
+    def _make_texture(self, picture: object, wrap: tuple[str, str], squares: bool,
+                      number: int | None) -> int:
         given = np.asarray(picture)
         faces = 6 if given.ndim == 4 else 1
         if faces == 6:
@@ -317,28 +320,28 @@ class Renderer:
             given = given.reshape(-1, *given.shape[2:])
         rgba = arguments.texture("picture", given)
         u, v = (WRAPS.index(arguments.choice("wrap", how, WRAPS)) for how in wrap)
-        return self._keep_texture(number, rgba, faces, u, v)
+        return self._keep_texture(number, rgba, faces, u, v, arguments.flag("squares", squares))
 
     def _keep_texture(self, number: int | None, rgba: Bytes, faces: int, u: int = 0,
-                      v: int = 0) -> int:
+                      v: int = 0, squares: bool = False) -> int:
         height, width = rgba.shape[:2]
-        image = Image(pointer(rgba), width, height // faces, faces, int(self.srgb), u, v)
+        image = Image(pointer(rgba), width, height // faces, faces, int(self.srgb), u, v, squares)
         if number is None:
             number = _free(self._textures)
         if not library.python_scene_texture(self._scene.handle, number, ctypes.byref(image)):
             raise MemoryError("memory is not enough for the texture")
-        self._textures[number] = rgba, faces, u, v
+        self._textures[number] = rgba, faces, u, v, squares
         return number
 
     def update_texture(self, number: int, picture: object,
-                       wrap: tuple[str, str] = ("repeat", "repeat")) -> None:
+                       wrap: tuple[str, str] = ("repeat", "repeat"), squares: bool = False) -> None:
         """Puts another picture in the place of a texture, as texture() takes it; objects and a sky that
         have the texture show it."""
         self._texture_number("number", number)
         if (np.asarray(picture).ndim == 4) != (self._textures[number][1] == 6):
             raise Error(f"picture: texture {number} is {'' if self._textures[number][1] == 6 else 'no '}"
                         "cube, and the picture is not")
-        self._make_texture(picture, wrap, number)
+        self._make_texture(picture, wrap, squares, number)
 
     def _texture_number(self, name: str, number: object) -> int:
         got = arguments.integer(name, number, 0, 2 ** 31 - 1)

@@ -1,6 +1,7 @@
 """Normal, bump and emissive maps, and what a picture of metal and roughness says, against squares
 whose normals, light and factors are given outright."""
 import io
+import pickle
 import warnings
 
 import numpy as np
@@ -106,15 +107,15 @@ def test_what_glows_needs_no_lamp_and_takes_no_colour_of_the_map():
     assert np.abs(inner(seen(shines)) - wanted).max() <= 1
 
 
-def file_of(change, **pictures):
+def file_of(change, sampler=None, **pictures):
     """A GLB of a square whose material has pictures of one colour each."""
     made = Glb()
     material = colored(0.8, 0.5, 0.3, doubleSided=True)
-    made.json["textures"], made.json["images"] = [], []
+    made.json["textures"], made.json["images"], made.json["samplers"] = [], [], [sampler or {}]
     for name, texel in pictures.items():
         png = shade.Picture(np.full((8, 8, 4), (*texel, 255), np.uint8)).png()
         made.json["images"].append({"bufferView": made.view(png), "mimeType": "image/png"})
-        made.json["textures"].append({"source": len(made.json["images"]) - 1})
+        made.json["textures"].append({"source": len(made.json["images"]) - 1, "sampler": 0})
         place = material["pbrMetallicRoughness"] if name in ("metallicRoughnessTexture",
                                                               "baseColorTexture") else material
         place[name] = {"index": len(made.json["textures"]) - 1}
@@ -227,3 +228,47 @@ def test_a_picture_that_cannot_be_read_is_told_once(tmp_path):
         warnings.simplefilter("always")
         shade.load(tmp_path / "a.obj")
     assert len([one for one in told if "missing.png" in str(one.message)]) == 1
+
+
+@pytest.mark.parametrize("drawn", ["scene", "renderer", "texture"])
+def test_texels_that_a_file_wants_as_squares_are(drawn):
+    red, blue = (255, 0, 0), (0, 0, 255)
+    rows = np.array([[red, blue], [blue, red]], np.uint8)
+    camera = shade.Camera.look_at((0.5, 0.5, 4), (0.5, 0.5, 0), up=(0, 1, 0), fov=14)
+
+    def colors(squares, times):
+        picture = rows.repeat(times, 0).repeat(times, 1)
+        mesh = square(texture=picture, squares=squares, wrap=("clamp", "clamp"),
+                      material=shade.Material((0, 0, 0), (1, 1, 1), (1, 1, 1)))
+        if drawn == "scene":
+            scene = shade.Scene([], (1, 1, 1))
+            scene.add(mesh)
+            return scene.render(camera, (40, 40), samples=1).rgba[..., :3]
+        renderer = shade.Renderer(40, 40)
+        if drawn == "texture":
+            mesh = renderer.mesh(CORNERS, FACES, uv=UV)
+            renderer.add(mesh, texture=renderer.texture(picture, ("clamp", "clamp"), squares))
+        else:
+            renderer.add(renderer.mesh(mesh))
+        renderer.light([], (1, 1, 1))
+        return pickle.loads(pickle.dumps(renderer)).render(camera).color
+
+    got = colors(True, 1)
+    there = np.argwhere((got != 255).any(-1))
+    half, middle = len(np.unique(there[:, 0])) / 2, there.mean(0)
+    assert half > 15
+    for y, x in there:    # the upper left is red
+        assert tuple(got[y, x]) == (red if (y < middle[0]) == (x < middle[1]) else blue)
+    assert (colors(False, 1) != got).any(-1).sum() > 400
+    # beyond 512 texels a side they are smaller than pixels
+    assert np.array_equal(colors(True, 300), colors(False, 300))
+    with pytest.raises(shade.Error, match="squares must be True or False"):
+        colors("no", 1)
+
+
+@pytest.mark.parametrize("sampler, squares", [({"magFilter": 9728}, True), ({"magFilter": 9729}, False), ({}, False)])
+def test_the_sampler_of_a_gltf_tells_which_texels_are_squares(sampler, squares):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        surface = file_of(lambda m: None, sampler, baseColorTexture=(9, 8, 7)).pieces[-1].surface
+    assert surface.squares is squares
