@@ -188,8 +188,8 @@ export class Renderer {
     constructor(height: number, width: number, options?: { samples?: number; srgb?: boolean; tolerance?: number });
     readonly height: number;
     readonly width: number;
-    /** A Mesh with its colour, texture, transparency, holes and material, but without its relief and glow; or
-        fields as of MeshSource without these, of which uv needs a texture in add(). */
+    /** A Mesh with its colour, pictures, transparency, holes and material; or fields as of MeshSource without
+        these, of which uv needs a texture in add(). */
     mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
                           uv?: Numbers; colors?: Numbers }): Shape;
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;

@@ -193,7 +193,7 @@ export class Mesh {
         const shown = colors === undefined ? null : check.displayed("colors", colors, 3);
         const maps = PICTURES.map((name) =>
             (rest[name] === undefined ? null : check.texture(name, rest[name])));
-        this.map = maps[0];
+        this.maps = maps;
         const arrays = [this.positions, given && rows("normals", normals, 3, vertices),
                         shown && rows("colors", shown, 3, vertices, faces),
                         uv && rows("uv", uv, 2, vertices), this.indices, ...maps.map((map) => map?.data)];

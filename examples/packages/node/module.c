@@ -495,6 +495,10 @@ int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, f
     return made;
 }
 
+/* 1: the relief of a mesh holds heights, and no normals. */
+EXPORT(mesh_heights) int module_mesh_heights(const module_mesh *m);
+int module_mesh_heights(const module_mesh *m) { return m->relief_heights; }
+
 EXPORT(renderer_draw)
 int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p);
 int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p)

@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 39, SHOT = 67, LIGHT = 21, IMAGE = 8;
+const OBJECT = 45, SHOT = 67, LIGHT = 21, IMAGE = 8;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];
@@ -14,11 +14,11 @@ const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box:
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
                 cylinder: [0, 0, 1], box: [0, 1, 2] };
 export const HIDDEN = 1;
-const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, LAMPS = 8;
+const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, LAMPS = 8;
 // Where the fields of renderer_object begin, in words
 export const AT = { kind: 0, mesh: 1, texture: 2, flags: 3, id: 4, first: 5, count: 6, size: 7, turn: 10, place: 19,
                     rgba: 22, specular: 26, shininess: 29, emission: 30, glow: 31, repeat: 34, metal: 36, tint: 37,
-                    cutoff: 38 };
+                    cutoff: 38, relief: 39, glow_map: 40, strength: 41, glow_factor: 42 };
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
 
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
@@ -111,7 +111,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- what is drawn
 
-        /** A mesh for add(): a Mesh with its colour, texture, transparency, holes and material, or positions,
+        /** A mesh for add(): a Mesh with its colour, pictures, transparency, holes and material, or positions,
          *  indices, normals, uv and colors. */
         mesh(source) { return this.#taken(source, free(this.#meshes)); }
 
@@ -134,13 +134,18 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** What a Mesh looks like. */
-        #dress(shape, { map, tint, opacity, blend, cutoff, own, material }) {
+        #dress(shape, { maps, tint, opacity, blend, cutoff, own, material, strength, glowFactor, address }) {
             const { floats, ints } = shape.record, shown = (rgb) => (this.srgb ? rgb : rgb.map(check.encoded));
-            if (map) {
-                ints[AT.texture] = this.#texture(map, free(this.#textures), map.wrap);
-                shape.textures.push(ints[AT.texture]);
-                this.#textures.get(ints[AT.texture]).owned = true;
-            }
+            ["texture", "relief", "glow_map"].forEach((name, i) => {
+                if (!maps[i]) return;
+                const number = this.#texture(maps[i], free(this.#textures), maps[i].wrap, name !== "relief");
+                ints[AT[name]] = number + (i ? 1 : 0);
+                shape.textures.push(number);
+                this.#textures.get(number).owned = true;
+            });
+            floats[AT.strength] = strength;
+            floats.set(shown(glowFactor), AT.glow_factor);
+            if (library.mesh_heights(address)) ints[AT.flags] |= HEIGHTS;
             if (tint) floats.set(shown(tint), AT.rgba);
             if (own) {
                 floats.set(shown(material.slice(9, 12)), AT.specular);
@@ -149,7 +154,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             if (blend) {
                 floats[AT.rgba + 3] = opacity;
-                if (map) ints[AT.flags] |= BLENDED;
+                if (maps[0]) ints[AT.flags] |= BLENDED;
             }
             floats[AT.cutoff] = cutoff;
         }
@@ -234,7 +239,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return this.#textures.get(number);
         }
 
-        #texture(picture, number, wrap = check.wraps("", picture)) {
+        #texture(picture, number, wrap = check.wraps("", picture), colors = true) {
             const { data, width, height, faces = 1 } = picture;
             check.integer("width", width, 1, 16384);
             check.integer("height", height, 1, 16384);
@@ -246,7 +251,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             const made = withMemory((room) => {
                 const bytes = put(room(data.length), Uint8Array.from(data));
-                const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb ? 1 : 0, ...wrap);
+                const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb && colors ? 1 : 0, ...wrap);
                 return library.scene_texture(this.#scene, number, put(room(4 * IMAGE), image));
             });
             if (!made) throw new RangeError("memory is not enough for the texture");

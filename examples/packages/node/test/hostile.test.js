@@ -894,19 +894,27 @@ test("reliefs and what shines that are wrong are refused", () => {
     // a picture folded into one point has no directions: its relief is flat
     const flat = { ...box(), uv, texture: texel(255, 255, 255) };
     assert.deepEqual(render({ ...flat, relief: texel(191, 128, 238) }, small).data, render(flat, small).data);
-    // cameras of a Renderer leave both out
-    const view = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
-                   projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
-    const { positions, indices, ...mapped } = square([1, 0], [0, 1]);
-    const more = { ...mapped, relief: texel(191, 128, 238), glow: texel(255, 0, 0) };
-    const [plain, dressed] = [{}, more].map((own) => {
-        const made = new Renderer(16, 16);
-        made.add(made.mesh(new Mesh({ positions, indices, ...own })));
-        const { color } = made.render(view);
-        made.free();
+});
+
+test("cameras of a Renderer draw what render draws of reliefs and glow", () => {
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const lights = [{ position: [0.4, 0.3, 1, 0] }], { positions, indices, uv } = square([1, 0], [0, 1]);
+    const ramp = { data: Array.from({ length: 256 }, (_, i) => [i, i, i]).flat(), width: 256, height: 1, wrap: ["clamp", "clamp"] };
+    const material = { diffuse: [0.5, 0.5, 0.5], specular: [0.3, 0.3, 0.3], shininess: 20 };
+    const made = [{}, { relief: texel(191, 128, 238), strength: 2 }, { relief: ramp, strength: 0.3 },
+                  { glow: texel(90, 60, 30), glowFactor: [1, 2, 0.5] }].map((maps) => {
+        const mesh = new Mesh({ positions, indices, material, ...(Object.keys(maps).length ? { uv, ...maps } : {}) });
+        const { data } = render(mesh, { view: camera, size: 16, samples: 1, light: { lights, ambient: [0.1, 0.1, 0.1] } });
+        const one = new Renderer(16, 16);
+        one.add(one.mesh(mesh));
+        one.light(lights, [0.1, 0.1, 0.1]);
+        const { color } = one.render(camera);
+        one.free();
+        color.forEach((x, i) => assert.ok(Math.abs(x - data[4 * Math.floor(i / 3) + i % 3]) <= 1, Object.keys(maps).join()));
         return color;
     });
-    assert.deepEqual(dressed, plain);
+    made.slice(1).forEach((color) => assert.notDeepEqual(color, made[0]));
 });
 
 test("holes of arrays, texels that are no bytes and poses by rows are refused", () => {

@@ -272,6 +272,11 @@ def sight():
     leaf = shade.Mesh(points, faces, uv=uv, surfaces=(np.zeros(len(faces), int), [shade.Surface(
         shade.Material((0, 0.1, 0), (1, 1, 1), (0.8, 0.7, 0.6), (0.5, 0.4, 0.3), 20.0), LEAF, cutoff=0.5)]))
     assert sim.add(sim.mesh(leaf), at=(0.3, -1.6, 0.3), two_sided=True) == 5
+    plain, bent = shade.Material((0, 0, 0), (0.6, 0.7, 0.8), (0.6, 0.7, 0.8), (0.2, 0.2, 0.2), 12.0), (190, 128, 230)
+    for x, own in ((-0.5, {"relief": LEAF, "strength": 0.25, "glow": LEAF, "glow_factor": (0.2, 0.5, 0.125), "squares": True}),
+                   (-1.5, {"relief": np.full((1, 1, 3), bent, np.uint8), "strength": 1.5, "texture": LEAF[..., :3]})):
+        dressed = shade.Mesh(points, faces, uv=uv, surfaces=(np.zeros(len(faces), int), [shade.Surface(plain, **own)]))
+        sim.add(sim.mesh(dressed), (1, 0.5, 1.5), at=(x, -1.6, 0.3), repeat=(1, 2))
     sim.pose(4, [[0, -1, 0, -2], [1, 0, 0, 0.2], [0, 0, 1, 0.9], [0, 0, 0, 1]])
     spot = shade.Light((1, -2, 4, 1), (0.5,) * 3, (0.5,) * 3, spot_direction=(-0.2, 0.4, -1), spot_exponent=2.0,
                        spot_cos_cutoff=0.8)

@@ -119,7 +119,8 @@ SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
                   ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32, 3),
                   ("shininess", np.float32), ("emission", np.float32), ("glow", np.float32, 3),
                   ("repeat", np.float32, 2), ("metal", np.float32), ("tint", np.float32),
-                  ("cutoff", np.float32)])
+                  ("cutoff", np.float32), ("relief", np.int32), ("glow_map", np.int32),
+                  ("strength", np.float32), ("glow_factor", np.float32, 3)])
 
 
 class Image(Structure):

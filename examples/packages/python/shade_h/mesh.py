@@ -83,12 +83,15 @@ class Piece:
                  texture: Bytes | None) -> None:
         """Triangles first to first + count."""
         self.surface, self.first, self.count, self.texture = surface, first, count, texture
+        self.strength = arguments.number("strength", surface.strength, -1e9, 1e9)
+        self.glow_factor = arguments.floats("glow_factor", surface.glow_factor, (3,), True)
         self.mesh = mesh.native(self)
         self._kept: list[object] = []
         relief, glow = (None if one is None else arguments.texture(name, one)
                         for name, one in (("relief", surface.relief), ("glow", surface.glow)))
-        self.map, self.relief, self.glow = (
-            self._make_map(one, srgb) for one, srgb in ((texture, 1), (relief, 0), (glow, 1)))
+        #: What the fields of a renderer_object hold: a picture, whose colours are a display's or not.
+        self.pictures = {"texture": (texture, True), "relief": (relief, False), "glow_map": (glow, True)}
+        self.map, self.relief, self.glow = (self._make_map(*one) for one in self.pictures.values())
         self.heights = 0 if relief is None else library.python_heights(
             pointer(relief), relief.shape[1], relief.shape[0])
         self._make_chunks()
@@ -103,10 +106,10 @@ class Piece:
             item.state.diffuse_map = ctypes.pointer(self.map)
         if self.relief is not None:
             item.relief, item.relief_heights = ctypes.pointer(self.relief), self.heights
-            item.relief_strength = arguments.number("strength", look.strength, -1e9, 1e9)
+            item.relief_strength = self.strength
         if self.glow is not None:
             item.glow_map = ctypes.pointer(self.glow)
-            item.glow = tuple(arguments.floats("glow_factor", look.glow_factor, (3,), True).tolist())
+            item.glow = tuple(self.glow_factor.tolist())
 
     def _make_chunks(self) -> None:
         count = library.shade_chunk_count(3 * self.count, 0)
@@ -117,7 +120,7 @@ class Piece:
               "faces")
         self.mesh.chunks, self.mesh.chunk_count = ctypes.addressof(self.chunks), count
 
-    def _make_map(self, texture: Bytes | None, srgb: int) -> Any:
+    def _make_map(self, texture: Bytes | None, srgb: bool) -> Any:
         """A texture with its mipmaps."""
         if texture is None:
             return None
