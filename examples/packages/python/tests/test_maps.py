@@ -281,6 +281,22 @@ def test_a_renderer_adds_what_glows_to_the_light(texture):
     assert np.abs(plain.color[there] - np.minimum(texel * np.minimum(shown, 1) + 255 * ambient, 255)).max() <= 1
 
 
+@pytest.mark.parametrize("texture", [None, np.full((16, 16, 3), 255, np.uint8)])
+@pytest.mark.parametrize("name", ["glow", "relief"])
+def test_a_renderer_takes_the_level_of_detail_that_a_scene_takes(name, texture):
+    noise = np.random.default_rng(3).integers(0, 256, (256, 256, 3)).astype(np.uint8)
+    noise[..., 2] = 255 if name == "relief" else noise[..., 2]
+    dark = shade.Material((0, 0, 0), (0.2,) * 3, (0.2,) * 3)
+    mesh = square(material=dark if name == "glow" else MATTE,
+                  **{name: noise, "texture": texture, "glow_factor": (0.5, 0.5, 0.5)})
+    got, there = camera_picture(mesh, size=0.6)
+    scene = shade.Scene(LAMPS, (0.1, 0.1, 0.1))
+    scene.add(mesh, turned(0.6 * np.eye(3)))
+    wanted = scene.render(EYE, (48, 48), samples=1, light="scene").rgba[..., :3]
+    assert np.abs(got.color[there].astype(int) - wanted[there]).max() <= 1
+    assert there.sum() > 200 and got.color[there].std(0).max() > 1
+
+
 def test_objects_with_pictures_share_a_picture_and_are_copied():
     relief = np.full((4, 4, 3), (190, 128, 230), np.uint8)
     made = shade.Renderer(24, 24)
