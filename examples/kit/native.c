@@ -534,6 +534,28 @@ void python_face_normals(const shade_mesh *mesh, float *normals)
     }
 }
 
+/* Directs normals that a caller gives, one for each vertex, as those of files are; those without a
+   direction, zero or NaN, are made anew. */
+SHADEDEF int python_direct_normals(const shade_mesh *mesh, float *normals);
+int python_direct_normals(const shade_mesh *mesh, float *normals)
+{
+    shade_result result = SHADE_OK;
+    shade_vec3 *made = NULL;
+    for (int i = 0; i < mesh->vertex_count && !result; i++) {
+        float *n = normals + 3 * (size_t)i;
+        const double given[3] = { (double)n[0], (double)n[1], (double)n[2] };
+        mesh_normal(given, n);
+        if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
+        if (!made) {
+            made = (shade_vec3 *)malloc((size_t)mesh->vertex_count * sizeof *made);
+            result = made ? shade_mesh_normals(mesh, made) : SHADE_ERROR_CAPACITY;
+        }
+        if (!result) memcpy(n, &made[i], sizeof *made);
+    }
+    free(made);
+    return (int)result;
+}
+
 /* Gives each corner the number of the first one with its vertex and its value, of width floats, and
    returns how many differ.  made has their corners.  Of a vertex with many values the last ones
    alone are compared.  first, of vertex_count, and next, of count, are scratch. */
@@ -641,6 +663,7 @@ int python_beside(const char *name) { return model_is_beside(name); }
 SHADEDEF void python_unload(model *m);
 void python_unload(model *m)
 {
+    for (int i = 0; m && i < m->picture_count; i++) m->picture[i].pixels = NULL; /* the caller's */
     if (m) model_free(m);
     free(m);
 }
@@ -674,7 +697,8 @@ typedef struct python_picture {
     const void *bytes; /* a picture inside the file, not decoded; NULL: it is beside the file */
     size_t size;
     int wrap[2];
-    int colors; /* 0: a relief, or metal and roughness */
+    int squares; /* texels are to be seen as such */
+    int colors;  /* 0: a relief, or metal and roughness */
 } python_picture;
 
 /* Lists the pictures, and returns their number; from *beside on they are beside the file. */
@@ -707,21 +731,17 @@ void python_picture_of(const model *m, int i, python_picture *out)
                              p->bytes,
                              p->size,
                              { (int)p->map.wrap_u, (int)p->map.wrap_v },
+                             p->map.filter == SHADE_FILTER_NEAREST,
                              p->what == PICTURE_COLORS };
 }
 
-/* Copies the pixels, RGBA, of a picture that was decoded.  Non-zero: out of memory */
+/* Sets the pixels, RGBA, of a picture that was decoded; they stay yours, until python_heed_pictures
+   has read them. */
 NATIVE(picture_set)
-int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
-int python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height)
+void python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height);
+void python_picture_set(model *m, int i, const uint8_t *rgba, int width, int height)
 {
-    const size_t bytes = 4 * (size_t)width * (size_t)height;
-    void *pixels = malloc(bytes + 1);
-    if (!pixels) return 1;
-    memcpy(pixels, rgba, bytes);
-    free(m->picture[i].pixels);
-    picture_fill(&m->picture[i], pixels, width, height);
-    return 0;
+    picture_fill(&m->picture[i], (void *)(uintptr_t)rgba, width, height);
 }
 
 NATIVE(heed_pictures) void python_heed_pictures(model *m);
@@ -729,6 +749,14 @@ void python_heed_pictures(model *m)
 {
     heed_pictures(m);
     relief_prepare(m, 1);
+}
+
+SHADEDEF int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory,
+                                   size_t bytes, int squares);
+int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory, size_t bytes,
+                          int squares)
+{
+    return (int)texture_levels(map, levels, memory, bytes, squares);
 }
 
 /* 1: the picture of a relief holds heights, and no normals. */
@@ -835,6 +863,9 @@ int python_scene_set(renderer_scene *scene, const renderer_object *records, int 
 {
     return renderer_set_objects(scene, records, count);
 }
+
+SHADEDEF int python_is_rigid(const double *rows);
+int python_is_rigid(const double *rows) { return renderer_is_rigid(rows); }
 
 /* to is a copy of the scene's records, or NULL: those are moved. */
 NATIVE(scene_pose)

@@ -15,16 +15,15 @@ static inline void picture_fill(model_picture *p, void *pixels, int width, int h
     p->map.srgb = p->what == PICTURE_COLORS;
 }
 
-/* Points each texture to its levels, once the array of pictures no longer moves.  Texels that are
-   to be seen as squares stay so; in pictures of more than 512 they are smaller than pixels. */
+/* Points each texture to its levels, once the array of pictures no longer moves. */
 static void picture_mipmaps(model_picture *p)
 {
     const int squares = p->map.filter == SHADE_FILTER_NEAREST;
     size_t bytes = shade_mipmap_bytes(p->map.width, p->map.height, SHADE_FORMAT_RGBA8);
-    if (!p->pixels || !bytes || (squares && p->map.width <= 512 && p->map.height <= 512)) return;
+    if (!p->pixels || !bytes) return;
     p->mipmaps = malloc(bytes);
-    if (!p->mipmaps || shade_build_mipmaps(&p->map, p->level, p->mipmaps, bytes)) return;
-    p->map.filter = SHADE_FILTER_TRILINEAR;
+    if (!p->mipmaps || texture_levels(&p->map, p->level, p->mipmaps, bytes, squares))
+        p->map.filter = squares ? SHADE_FILTER_NEAREST : SHADE_FILTER_BILINEAR;
 }
 
 /* The mean square of the slopes of a bump map */

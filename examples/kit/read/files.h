@@ -182,8 +182,7 @@ static inline int model_middle(const model *m, double middle[3])
 /* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
    with model_free; else m is empty and error, if error_size > 0, holds one line.
 
-   said has what the reader is told, and nothing else: path, beside, points_wanted, polish_wanted,
-   squares_wanted.
+   said has what the reader is told, and nothing else: path, beside, points_wanted, polish_wanted.
 
    Text and doubles have more digits than floats.  Where the first position is far from all that the
    faces have, the file is read again about their middle. */
@@ -229,7 +228,7 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     static const model empty;
     model said = empty;
     said.inflate = model_inflate;
-    said.polish_wanted = said.squares_wanted = 1;
+    said.polish_wanted = 1;
     return model_read_with(bytes, size, name, m, q, &said);
 }
 
@@ -374,7 +373,7 @@ static inline int model_read_file(const char *path, model *m, const model_reques
     said.path = path;
     said.beside = model_load_file;
     said.inflate = model_inflate;
-    said.polish_wanted = said.squares_wanted = 1;
+    said.polish_wanted = 1;
     if (!failed) failed = model_read_with(bytes, size, path, m, q, &said);
     free(bytes);
     if (!failed) model_read_libraries(path, m);

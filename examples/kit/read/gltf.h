@@ -516,15 +516,6 @@ static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
     free(kind);
 }
 
-/* 1: texels are to be seen as squares.  Where pictures are drawn by others, that is told. */
-static inline int gltf_nearest(gltf *g, uint32_t sampler, int *nearest)
-{
-    static const char name[] = "magFilter NEAREST";
-    const int wanted = json_number_of(&g->j, sampler, "magFilter", 9729) == 9728;
-    *nearest = wanted && g->m->squares_wanted;
-    return wanted && !*nearest ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1) : 0;
-}
-
 /* The picture of an image, with how it goes on beyond its edges and between its texels.  *number is
    -1 where it cannot be read, which is a warning. */
 static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what, int *number)
@@ -536,8 +527,8 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
     gltf_bytes bytes = { NULL, 0, NULL };
     char name[64], error[300] = "out of memory", *path = NULL;
     double stride;
-    int failed, nearest;
-    if (gltf_nearest(g, sampler, &nearest)) return 1;
+    const int nearest = json_number_of(&g->j, sampler, "magFilter", 9729) == 9728;
+    int failed;
     snprintf(name, sizeof name, "picture %lu, %d, %d%s", (unsigned long)image, wrap[0], wrap[1],
              nearest ? ", squares" : "");
     *number = picture_find(g->m, name, what);

@@ -25,6 +25,17 @@ typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture level[15];
 } model_picture;
 
+/* Builds the mipmaps of a texture.  Texels that are to be seen as squares stay so; in pictures of
+   more than 512 they are smaller than pixels. */
+static inline shade_result texture_levels(shade_texture *map, shade_texture *levels, void *memory,
+                                          size_t bytes, int squares)
+{
+    map->filter = SHADE_FILTER_NEAREST;
+    if (squares && map->width <= 512 && map->height <= 512) return SHADE_OK;
+    map->filter = SHADE_FILTER_TRILINEAR;
+    return shade_build_mipmaps(map, levels, memory, bytes);
+}
+
 /* A bump map, whose brightness is height, or a normal map: its picture tells which. */
 typedef struct model_relief {
     char *map;      /* its name in the file; NULL: none */
@@ -82,7 +93,6 @@ typedef struct model {
     double origin[3];          /* of the positions, in the coordinates of the file */
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
     int polish_wanted;         /* said to the reader: pictures of metal and roughness count */
-    int squares_wanted;        /* said to the reader: texels can be drawn as squares */
     const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
     model_load_beside *beside;
     zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */

@@ -215,20 +215,6 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
     }
 }
 
-/* The light that fragments send by themselves */
-static void look_glow(const look *k, const shade_fragments *in, look_rows out)
-{
-    float texel[4][SHADE_LANES], lod[SHADE_LANES];
-    const float *uv = in->varying[look_uv(k)];
-    const int finer = texture_finer(k->glow_map, k->map ? k->map : k->relief.map);
-    SHADE_EACH_LANE(i) { lod[i] = in->lod[i] + (float)finer; }
-    shade_sample_lanes(k->glow_map, uv, uv + SHADE_LANES, lod, texel[0]);
-    for (int a = 0; a < 3; a++) {
-        const float factor = component(k->glow, a);
-        SHADE_EACH_LANE(i) { out[a][i] = factor * texel[a][i]; }
-    }
-}
-
 /* Fragments as the light sees them.  Back faces are lit as front faces are; front faces keep their
    normals, which lean away from the viewer on the outline of a coarse mesh. */
 static void look_surface(const look *k, const shade_fragments *in, look_rows P, look_rows N)
@@ -258,7 +244,10 @@ static void look_color(const look *k, const shade_fragments *in, look_rows texel
         {
             albedo[a][i] = own[a][i] * texel[a][i];
         }
-    if (k->glow_map) look_glow(k, in, glow);
+    if (k->glow_map)
+        glow_light(k->glow_map, k->glow,
+                   texture_finer(k->glow_map, k->map ? k->map : k->relief.map), in, look_uv(k),
+                   glow);
     if (k->per_vertex) {
         for (int a = 0; a < 3; a++) SHADE_EACH_LANE(i)
             {

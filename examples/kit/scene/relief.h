@@ -1,4 +1,5 @@
-/* relief.h - bump and normal maps: turns the normals of fragments as the picture of a relief says.
+/* relief.h - bump and normal maps: turns the normals of fragments as the picture of a relief says;
+   and pictures of what glows.
 
    A normal map holds normals in the frame of a triangle: right and up in the picture, and out of
    the surface.  A bump map holds heights, whose slope along the surface tilts the normal [Blinn78].
@@ -17,6 +18,7 @@ typedef struct relief {
     float strength;           /* of slopes, or the height of white above black */
     int finer;                /* levels from the texture whose lod is known to this one */
     int heights;
+    const float *repeat; /* factors by which u and v have been multiplied; NULL: 1 */
 } relief;
 
 /* How u and v, which points down in the picture, grow along a triangle: to the side by one unit of
@@ -25,7 +27,7 @@ typedef struct relief_frame {
     shade_vec3 u, v;
 } relief_frame;
 
-static relief_frame relief_frame_of(const shade_mesh *m, const uint32_t *corner)
+static relief_frame relief_frame_of(const shade_mesh *m, const relief *r, const uint32_t *corner)
 {
     relief_frame f = { { 0, 0, 0 }, { 0, 0, 0 } };
     const float *a = m->texcoords + 2 * (size_t)corner[0];
@@ -43,6 +45,8 @@ static relief_frame relief_frame_of(const shade_mesh *m, const uint32_t *corner)
     toward[1] = shade_scale(shade_cross(N, along), 1 / square);
     f.u = shade_madd(shade_scale(toward[0], b[0] - a[0]), c[0] - a[0], toward[1]);
     f.v = shade_madd(shade_scale(toward[0], b[1] - a[1]), c[1] - a[1], toward[1]);
+    if (r->repeat) f.u = shade_scale(f.u, r->repeat[0]);
+    if (r->repeat) f.v = shade_scale(f.v, r->repeat[1]);
     return f;
 }
 
@@ -116,7 +120,7 @@ static void relief_bend(const relief *r, const shade_mesh *m, const shade_fragme
         const shade_vec3 flat = shade_normalize(lane(N[0], i));
         shade_vec3 bent;
         if (!i || in->primitive[i] != in->primitive[i - 1])
-            f = relief_frame_of(m, r->indices + 3 * (size_t)in->primitive[i]);
+            f = relief_frame_of(m, r, r->indices + 3 * (size_t)in->primitive[i]);
         if (r->heights) {
             bent = relief_slope(f, flat, r->strength * texel[0][i], r->strength * texel[1][i]);
         } else {
@@ -136,10 +140,25 @@ static int texture_finer(const shade_texture *map, const shade_texture *known)
     return finer;
 }
 
+/* The light that fragments send by themselves: texels of a map times a factor.  It has so many
+   levels more than the texture whose lod is known; u and v are rows uv and uv + 1. */
+static void glow_light(const shade_texture *map, shade_vec3 factor, int finer,
+                       const shade_fragments *in, int uv, float out[3][SHADE_LANES])
+{
+    const float factors[3] = { factor.x, factor.y, factor.z };
+    float texel[4][SHADE_LANES], lod[SHADE_LANES];
+    SHADE_EACH_LANE(i) { lod[i] = in->lod[i] + (float)finer; }
+    shade_sample_lanes(map, in->varying[uv], in->varying[uv + 1], lod, texel[0]);
+    for (int a = 0; a < 3; a++) SHADE_EACH_LANE(i)
+        {
+            out[a][i] = factors[a] * texel[a][i];
+        }
+}
+
 /* The relief of a surface, where the level of detail is that of the texture known */
 static relief relief_of(const model *m, const model_surface *s, const shade_texture *known)
 {
-    relief r = { NULL, NULL, s->relief.strength, 0, 0 };
+    relief r = { NULL, NULL, s->relief.strength, 0, 0, NULL };
     if (s->relief.picture < 0 || !m->mesh.texcoords) return r;
     r.map = &m->picture[s->relief.picture].map;
     r.heights = m->picture[s->relief.picture].heights;

@@ -20,7 +20,7 @@
 #include <string.h>
 #include "shade.h"
 #include "../../shared/bands.h"
-#include "../../shared/lane.h"
+#include "relief.h"
 
 typedef enum renderer_kind {
     RENDERER_MESH = 0,  /* size multiplies its coordinates */
@@ -37,7 +37,8 @@ enum { /* renderer_object.flags */
        RENDERER_HIDDEN = 1,
        RENDERER_TWO_SIDED = 2,
        RENDERER_CASTS_NO_SHADOW = 4,
-       RENDERER_BLENDED = 8 /* by the alpha of its texture too */
+       RENDERER_BLENDED = 8, /* by the alpha of its texture too */
+       RENDERER_HEIGHTS = 16 /* its relief holds heights, and no normals */
 };
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
@@ -55,6 +56,9 @@ typedef struct renderer_object {
     float repeat[2];   /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
     float metal, tint; /* k_d is 1 - metal times the colour, k_s specular + tint times the colour */
     float cutoff;      /* where texture and colour have less alpha are holes; 0: nowhere */
+    int32_t relief, glow_map; /* of a mesh with texcoords: 1 + numbers of textures; 0: none */
+    float strength;           /* of the relief, as in a model_relief */
+    float glow_factor[3];     /* of the light that glow_map has */
 } renderer_object;
 
 enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 11 };
@@ -503,6 +507,7 @@ typedef struct renderer_image {
     int width, height;
     int faces; /* 1, or 6 one below the other, for a cube, which needs no wrap */
     int srgb, wrap_u, wrap_v;
+    int squares; /* its texels are to be seen as such */
 } renderer_image;
 
 /* Copies a picture with its mipmaps.  0: out of memory */
@@ -520,10 +525,9 @@ static inline int renderer_texture_of(renderer_texture *t, const renderer_image 
         memcpy(at, from->rgba + (size_t)i * bytes, bytes);
         t->face[i] = (shade_texture){ .pixels = at, .width = width, .height = height };
         t->face[i].srgb = from->srgb;
-        t->face[i].filter = SHADE_FILTER_TRILINEAR;
         t->face[i].wrap_u = faces > 1 ? SHADE_WRAP_CLAMP : (shade_wrap)from->wrap_u;
         t->face[i].wrap_v = faces > 1 ? SHADE_WRAP_CLAMP : (shade_wrap)from->wrap_v;
-        if (levels) shade_build_mipmaps(&t->face[i], t->levels + i * levels, at + bytes, below);
+        texture_levels(&t->face[i], t->levels + i * levels, at + bytes, below, from->squares);
     }
     if (t->memory && t->levels) return 1;
     renderer_texture_free(t);
@@ -961,8 +965,13 @@ typedef struct renderer_batch {
     int several;                    /* more than one object */
     int uv, colors;                 /* the varyings that they are; 0: there are none */
     int notes, blended, two_sided, holes;
-    int meshes;                /* whether any of its objects is one */
-    int glossy, glows, metals; /* whether any of its objects is so */
+    int meshes;                    /* whether any of its objects is one */
+    int glossy, glows, metals;     /* whether any of its objects is so */
+    int maps;                      /* the varyings that u, v of relief and glow_map are */
+    relief relief;                 /* of its one object */
+    const shade_texture *glow_map; /* NULL: none */
+    int glow_finer;                /* levels from the texture whose lod is known */
+    shade_mesh mesh;               /* that the relief lies on */
 } renderer_batch;
 
 /* How u and v follow from coordinates or texcoords */
@@ -1034,6 +1043,10 @@ static inline void renderer_vertex_of(const renderer_batch *b, const renderer_en
         }
     }
     if (b->colors) memcpy(out + 9, s->colors + at, 3 * sizeof(float));
+    if (b->maps) {
+        const shade_vec2 uv = renderer_uv(s, o, (size_t)k, world);
+        memcpy(out + 12, &uv, sizeof uv);
+    }
 }
 
 /* Vertices are made as they are asked for: those of faces that look away mostly are not. */
@@ -1043,8 +1056,9 @@ static inline void renderer_shade_vertices(const void *uniforms,
 {
     const renderer_batch *b = (const renderer_batch *)uniforms;
     const shade_mat4 clip = b->v->clip;
-    const int count = b->v->shadows && !b->holes ? 3 : b->colors ? 12 : b->uv ? 9 : 6;
-    float rows[12][SHADE_LANES], one[12] = { 0 };
+    const int few = b->v->shadows && !b->holes;
+    const int count = few ? 3 : b->maps ? 14 : b->colors ? 12 : b->uv ? 9 : 6;
+    float rows[14][SHADE_LANES], one[14] = { 0 };
     for (int i = 0; i < SHADE_LANES; i++) {
         if (i < in->count) {
             const uint32_t at = in->index[i];
@@ -1062,6 +1076,7 @@ static inline void renderer_shade_vertices(const void *uniforms,
     memcpy(out->varying[0], rows[0], 6 * sizeof rows[0]);
     if (b->uv) memcpy(out->varying[b->uv], rows[6], 3 * sizeof rows[0]);
     if (b->colors) memcpy(out->varying[b->colors], rows[9], 3 * sizeof rows[0]);
+    if (b->maps) memcpy(out->varying[b->maps], rows[12], 2 * sizeof rows[0]);
 }
 
 /* ---- what a pixel shows ---------------------------------------------------------------------- */
@@ -1387,25 +1402,51 @@ static inline void renderer_see_lamps(const renderer_batch *b, const shade_fragm
     }
 }
 
+/* Bends normals of the world by the relief, which lies in the space of the mesh. */
+static inline void renderer_bend(const renderer_batch *b, const shade_fragments *in,
+                                 float (*N)[SHADE_LANES])
+{
+    const shade_mat3 back = shade_mat3_transpose(shade_mat3_from_mat4(b->entry->world));
+    const shade_mat3 normal = b->entry->normal;
+    SHADE_EACH_LANE(i) { lane_put(N[0], i, shade_mat3_transform(back, lane(N[0], i))); }
+    relief_bend(&b->relief, &b->mesh, in, b->maps, N);
+    SHADE_EACH_LANE(i)
+    {
+        lane_put(N[0], i, shade_normalize(shade_mat3_transform(normal, lane(N[0], i))));
+    }
+}
+
+/* Normals that look to the side from which a fragment is seen */
+static inline void renderer_toward(const shade_fragments *in, const float (*N)[SHADE_LANES],
+                                   float (*out)[SHADE_LANES])
+{
+    for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
+        {
+            out[k][i] = in->front[i] ? N[k][i] : -N[k][i];
+        }
+}
+
 static inline void renderer_shade(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                   shade_colors *SHADE_RESTRICT out)
 {
     const renderer_batch *b = (const renderer_batch *)uniforms;
-    float turned[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
+    float turned[3][SHADE_LANES], bent[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
     const float(*P)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[0];
     const float(*N)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[3];
     renderer_surface s;
     uint32_t owner[SHADE_LANES];
     int one;
     shade_rows rows = { .position = P[0] };
+    if (b->relief.map) {
+        memcpy(bent, N, sizeof bent);
+        renderer_bend(b, in, bent);
+        if (b->two_sided) renderer_toward(in, (const float(*)[SHADE_LANES])bent, bent);
+    }
     if (b->two_sided) {
-        for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
-            {
-                turned[k][i] = in->front[i] ? N[k][i] : -N[k][i];
-            }
+        renderer_toward(in, N, turned);
         N = (const float(*)[SHADE_LANES])turned;
     }
-    rows.normal = N[0];
+    rows.normal = b->relief.map ? bent[0] : N[0];
     one = renderer_find_owners(b, in, owner);
     if (b->holes) renderer_cut(b, in, owner, one, out->discard);
     if (b->notes) renderer_note(b, in, N, out->discard);
@@ -1434,6 +1475,15 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
         {
             out->color[k][i] += s.emission[i] * s.albedo[k][i] + s.glow[k][i];
         }
+    if (b->glow_map) {
+        const float *f = b->v->p->objects[b->entry->object].glow_factor;
+        float glow[3][SHADE_LANES];
+        glow_light(b->glow_map, renderer_get(f), b->glow_finer, in, b->maps, glow);
+        for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
+            {
+                out->color[k][i] += glow[k][i];
+            }
+    }
     if (b->blended) memcpy(out->color[3], s.alpha, sizeof s.alpha);
 }
 
@@ -1552,6 +1602,39 @@ static inline int renderer_join(renderer *r, const renderer_batch *b, renderer_e
     return 3 * triangles;
 }
 
+static inline int renderer_has_maps(const renderer_view *v, const renderer_entry *e)
+{
+    const renderer_object *o = &v->p->objects[e->object];
+    return o->kind == RENDERER_MESH && e->shape->texcoords && (o->relief || o->glow_map);
+}
+
+/* A texture by 1 + its number; NULL: there is none, or it was taken away */
+static inline const shade_texture *renderer_map_of(const renderer_scene *s, int number)
+{
+    return number && s->textures[number - 1].memory ? s->textures[number - 1].face : NULL;
+}
+
+/* Finds relief and glow of a draw, and the texture whose lod counts. */
+static inline const shade_texture *renderer_find_maps(renderer_batch *b, const renderer_entry *e)
+{
+    const renderer_object *o = &b->v->p->objects[e->object];
+    const shade_texture *known = b->texture && !b->texture->cube ? b->texture->face : NULL;
+    b->relief = (relief){ .strength = o->strength, .repeat = o->repeat };
+    b->glow_map = NULL;
+    b->maps = 0;
+    if (!b->lighting || !renderer_has_maps(b->v, e)) return known;
+    b->relief.map = renderer_map_of(b->v->scene, o->relief);
+    b->relief.indices = b->r->indices;
+    b->relief.heights = o->flags & RENDERER_HEIGHTS;
+    if (b->relief.map) b->relief.finer = texture_finer(b->relief.map, known);
+    known = known ? known : b->relief.map;
+    b->glow_map = renderer_map_of(b->v->scene, o->glow_map);
+    if (b->glow_map) b->glow_finer = texture_finer(b->glow_map, known);
+    b->mesh = (shade_mesh){ .positions = e->shape->positions, .texcoords = e->shape->texcoords };
+    b->maps = 6 + (b->texture ? 3 : 0) + (b->colors ? 3 : 0);
+    return known ? known : b->glow_map;
+}
+
 /* Draws entries of one key: several small ones, or a large one. */
 static inline shade_result renderer_draw_batch(renderer *r, const shade_target *target,
                                                renderer_batch *b, renderer_entry *e, int count)
@@ -1578,10 +1661,9 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     }
     index_count = renderer_join(r, b, e, count, &vertex_count);
     pipeline.varyings += (b->texture ? 3 : 0) + (b->colors ? 3 : 0);
-    if (b->texture && !b->texture->cube) {
-        pipeline.lod_texture = b->texture->face;
-        pipeline.lod_varying = b->uv;
-    }
+    pipeline.lod_texture = renderer_find_maps(b, e);
+    if (b->maps) pipeline.varyings += 2;
+    if (pipeline.lod_texture) pipeline.lod_varying = b->maps ? b->maps : b->uv;
     if (!b->holes && !b->lighting && !b->notes) pipeline.fragment = NULL;
     if (!pipeline.fragment) pipeline.varyings = 0;
     pipeline.may_discard = b->holes;
@@ -1607,7 +1689,7 @@ static inline shade_result renderer_draw_entries(renderer *r, const shade_target
         renderer_entry *e = r->entries + i;
         for (n = 0; i + n < count; n++) {
             if (e[n].key != e->key) break;
-            if (e[n].shape->vertex_count >= RENDERER_ALONE) break;
+            if (e[n].shape->vertex_count >= RENDERER_ALONE || renderer_has_maps(b->v, e + n)) break;
         }
         if (!n) n = 1;
         result = renderer_draw_batch(r, target, b, e, n);

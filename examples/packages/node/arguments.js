@@ -198,16 +198,16 @@ export function color(label, value) {
 /** Of shade_wrap, by number */
 export const WRAPS = ["repeat", "clamp", "mirror"];
 
-/** How a texture goes on beyond its edges along u and v, as numbers */
-export function wraps(name, value) {
-    if (!Array.isArray(value) || value.length !== 2) throw new ShadeError(`${name} must be two names, for u and v`);
-    return value.map((how) => WRAPS.indexOf(choice(name, how, WRAPS)));
+/** How a texture goes on beyond its edges along u and v, and whether its texels are seen as squares, as numbers */
+export function wraps(name, { wrap = ["repeat", "repeat"], squares = false }) {
+    if (!Array.isArray(wrap) || wrap.length !== 2) throw new ShadeError(`${name}wrap must be two names, for u and v`);
+    return [...wrap.map((how) => WRAPS.indexOf(choice(`${name}wrap`, how, WRAPS))), flag(`${name}squares`, squares) ? 1 : 0];
 }
 
-/** A picture of RGB or RGBA bytes, as RGBA; wrap becomes numbers. */
+/** A picture of RGB or RGBA bytes, as RGBA; wrap and squares become numbers. */
 export function texture(name, value) {
-    const got = record(name, value, ["data", "width", "height", "wrap"]), { data, width, height } = got;
-    const wrap = wraps(`${name}.wrap`, got.wrap ?? ["repeat", "repeat"]);
+    const got = record(name, value, ["data", "width", "height", "wrap", "squares"]), { data, width, height } = got;
+    const wrap = wraps(`${name}.`, got);
     integer(`${name}.width`, width, 1, 16384);
     integer(`${name}.height`, height, 1, 16384);
     const channels = numbers(`${name}.data`, data).length / (width * height);

@@ -22,8 +22,9 @@ export interface Material {
 /** How a texture goes on beyond its edges; default "repeat". */
 export type Wrap = "repeat" | "clamp" | "mirror";
 
-/** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top. */
-export interface Texture { data: Numbers; width: number; height: number; wrap?: [Wrap, Wrap]; }
+/** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top.  With squares texels are
+    seen as such, in pictures of at most 512 x 512. */
+export interface Texture { data: Numbers; width: number; height: number; wrap?: [Wrap, Wrap]; squares?: boolean; }
 
 /** What a mesh is made of.  Arrays are copied. */
 export interface MeshSource {
@@ -187,8 +188,8 @@ export class Renderer {
     constructor(height: number, width: number, options?: { samples?: number; srgb?: boolean; tolerance?: number });
     readonly height: number;
     readonly width: number;
-    /** A Mesh with its colour, texture, transparency, holes and material, but without its relief and glow; or
-        fields as of MeshSource without these, of which uv needs a texture in add(). */
+    /** A Mesh with its colour, pictures, transparency, holes and material; or fields as of MeshSource without
+        these, of which uv needs a texture in add(). */
     mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
                           uv?: Numbers; colors?: Numbers }): Shape;
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;
@@ -218,8 +219,12 @@ export class Renderer {
     background(color: Color): void;
     sky(low?: Color, high?: Color): void;
     sky_texture(texture: number): void;
-    frame(wanted?: { color?: boolean; depth?: boolean; ids?: boolean; normals?: boolean }): Frame;
+    frame(wanted?: { color?: boolean; depth?: boolean; ids?: boolean; normals?: boolean; pictures?: number }): Frame;
     render(camera: Camera, out?: Frame, options?: { solid?: boolean; empty_depth?: number }): Frame;
+    /** A picture for each camera, one after the other in each array.  poses has for each picture a matrix of each
+        object, in the order of their numbers; the objects stay where they were, and one camera then serves all. */
+    render_batch(cameras: Camera | readonly Camera[], poses?: readonly (readonly Numbers[])[], out?: Frame,
+                 options?: { solid?: boolean; empty_depth?: number }): Frame;
     free(): void;
 }
 

@@ -24,7 +24,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 24, ITEM = 48, VIEW = 67, LIGHT = 21;
+const MESH = 27, ITEM = 48, VIEW = 67, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -193,12 +193,12 @@ export class Mesh {
         const shown = colors === undefined ? null : check.displayed("colors", colors, 3);
         const maps = PICTURES.map((name) =>
             (rest[name] === undefined ? null : check.texture(name, rest[name])));
-        this.map = maps[0];
+        this.maps = maps;
         const arrays = [this.positions, given && rows("normals", normals, 3, vertices),
                         shown && rows("colors", shown, 3, vertices, faces),
                         uv && rows("uv", uv, 2, vertices), this.indices, ...maps.map((map) => map?.data)];
         ask.set([vertices, this.indices.length, shown ? shown.length / 3 : 0, given ? 0 : kinds[normals]], 5);
-        maps.forEach((map, i) => map && ask.set([map.width, map.height, ...map.wrap], 10 + 5 * i));
+        maps.forEach((map, i) => map && ask.set([map.width, map.height, ...map.wrap], 10 + 6 * i));
         return withMemory((room) => {
             const at = room(4 * MESH), result = room(4), held = [];
             try {
@@ -209,7 +209,7 @@ export class Mesh {
             }
             arrays.forEach((array, i) => array && put(held[i], array));
             ask.set(held.slice(0, 5));
-            maps.forEach((_, i) => { ask[9 + 5 * i] = held[5 + i]; });
+            maps.forEach((_, i) => { ask[9 + 6 * i] = held[5 + i]; });
             const mesh = library.mesh_make(put(at, ask), result);
             succeed("mesh", words(result, 1)[0]);
             return mesh;

@@ -3,7 +3,7 @@
 import { ShadeError, WRAPS, choice, encoded, record, texture } from "./arguments.js";
 
 // module_model, python_part and python_picture of module.c, in words of four bytes
-const MODEL = 16, PART = 30, PICTURE = 7;
+const MODEL = 16, PART = 30, PICTURE = 8;
 
 /** Alpha that does not count becomes 255. */
 function opaque(image) {
@@ -56,14 +56,6 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         return image ? { data: image.data, width: image.width, height: image.height } : null;
     }
 
-    /** Hands the pixels of a picture over to the model. */
-    function setPixels(model, number, image) {
-        const { data, width, height } = texture("picture", image);
-        const failed = withMemory((room) =>
-            library.picture_set(model, number, put(room(data.length), data), width, height));
-        if (failed) throw new RangeError("memory is not enough for the pictures of the model");
-    }
-
     /** The pictures that faces show, by their numbers.  What they say of their surfaces, such as metal and
      *  roughness, then stands in the parts. */
     function picturesOf(model, options, warn) {
@@ -74,7 +66,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
             for (let number = 0; number < count; number++) {
                 if (!library.picture_shown(model, number)) continue;
                 library.picture_of(model, number, at);
-                const [named, kind, bytes, size, u, v] = words(at, PICTURE), name = text(named);
+                const [named, kind, bytes, size, u, v, squares] = words(at, PICTURE), name = text(named);
                 if (!bytes && number < besideFrom) continue;    // that it cannot be read has been told
                 if (!options.picture) {
                     warn("it has pictures, which the option picture decodes; its faces are drawn without them");
@@ -83,11 +75,12 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 if (!known.has(name)) known.set(name, decoded(name, bytes, size, text(kind), options, warn));
                 const image = known.get(name);
                 if (!image) continue;
-                setPixels(model, number, image);
-                images.set(number, { ...image, wrap: [WRAPS[u], WRAPS[v]] });
+                const { data, width, height } = texture("picture", image);
+                library.picture_set(model, number, put(room(data.length), data), width, height);
+                images.set(number, { ...image, wrap: [WRAPS[u], WRAPS[v]], squares: squares !== 0 });
             }
+            library.heed_pictures(model);
         });
-        library.heed_pictures(model);
         return images;
     }
 

@@ -20,7 +20,7 @@ enum { NORMALS_GIVEN, NORMALS_AUTO, NORMALS_SMOOTH };
 
 typedef struct asked_map {
     uint8_t *texels;                             /* RGBA; NULL: there is none */
-    int width, height, wrap_u, wrap_v;           /* shade_wrap */
+    int width, height, wrap_u, wrap_v, squares;  /* shade_wrap; squares: texels are seen as such */
 } asked_map;
 
 typedef struct asked_mesh {
@@ -185,24 +185,6 @@ static const float *flat_normals(module_mesh *m)
     return normals;
 }
 
-/* Given normals without a direction, zero or NaN, are made anew. */
-static shade_result direct_normals(module_mesh *m, const asked_mesh *asked)
-{
-    shade_vec3 *made = NULL;
-    for (int i = 0; i < asked->vertices; i++) {
-        float *n = asked->normals + 3 * (size_t)i;
-        const double given[3] = { (double)n[0], (double)n[1], (double)n[2] };
-        mesh_normal(given, n);
-        if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
-        if (!made) {
-            made = (shade_vec3 *)room(m, (size_t)asked->vertices, sizeof *made);
-            if (!made || shade_mesh_normals(&m->source, made)) return SHADE_ERROR_CAPACITY;
-        }
-        memcpy(n, &made[i], sizeof *made);
-    }
-    return SHADE_OK;
-}
-
 static shade_result make_normals(module_mesh *m, const asked_mesh *asked)
 {
     const int by_face = asked->colors && asked->color_count != asked->vertices;
@@ -215,7 +197,8 @@ static shade_result make_normals(module_mesh *m, const asked_mesh *asked)
         if (normals) result = shade_mesh_normals(&m->mesh, normals);
         if (normals && !result) m->mesh.normals = &normals->x;
     }
-    if (asked->normals) result = direct_normals(m, asked);
+    if (asked->normals)
+        result = (shade_result)python_direct_normals(&m->source, asked->normals);
     flat = !result && !corner && !m->mesh.normals;
     if (flat) corner = flat_normals(m);
     if (!result && !m->no_room && (corner || by_face)) use_corners(m, corner, by_face, !flat);
@@ -249,10 +232,9 @@ static shade_result make_map(module_mesh *m, const asked_map *asked, module_map 
     map->texture.width = w;
     map->texture.height = h;
     map->texture.srgb = colors;
-    map->texture.filter = SHADE_FILTER_TRILINEAR;
     map->texture.wrap_u = (shade_wrap)asked->wrap_u;
     map->texture.wrap_v = (shade_wrap)asked->wrap_v;
-    return shade_build_mipmaps(&map->texture, map->levels, memory, bytes);
+    return texture_levels(&map->texture, map->levels, memory, bytes, asked->squares);
 }
 
 static shade_result make_maps(module_mesh *m, const asked_mesh *asked)
@@ -512,6 +494,10 @@ int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, f
     free(positions);
     return made;
 }
+
+/* 1: the relief of a mesh holds heights, and no normals. */
+EXPORT(mesh_heights) int module_mesh_heights(const module_mesh *m);
+int module_mesh_heights(const module_mesh *m) { return m->relief_heights; }
 
 EXPORT(renderer_draw)
 int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p);

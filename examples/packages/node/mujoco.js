@@ -184,7 +184,8 @@ class Stage {
         const count = this.#records[0]?.length ?? 0, words = new Int32Array(count * this.#records.length);
         this.#records.forEach((record, i) => words.set(record, count * i));
         if (solid) this.#unnumbered.forEach((i) => { words[count * i + AT.flags] |= HIDDEN; });
-        return this.#renderer._draw(out, this.view, this.projection, this.range, solid, this.range.far, words);
+        const shot = { view: this.view, projection: this.projection, ...this.range, records: words };
+        return this.#renderer._draw(out, [shot], { solid, empty_depth: this.range.far });
     }
 
     free() { this.#renderer.free(); }

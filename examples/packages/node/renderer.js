@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 39, SHOT = 67, LIGHT = 21, IMAGE = 7;
+const OBJECT = 45, SHOT = 67, LIGHT = 21, IMAGE = 8;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];
@@ -14,11 +14,11 @@ const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box:
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
                 cylinder: [0, 0, 1], box: [0, 1, 2] };
 export const HIDDEN = 1;
-const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, LAMPS = 8;
+const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, LAMPS = 8;
 // Where the fields of renderer_object begin, in words
 export const AT = { kind: 0, mesh: 1, texture: 2, flags: 3, id: 4, first: 5, count: 6, size: 7, turn: 10, place: 19,
                     rgba: 22, specular: 26, shininess: 29, emission: 30, glow: 31, repeat: 34, metal: 36, tint: 37,
-                    cutoff: 38 };
+                    cutoff: 38, relief: 39, glow_map: 40, strength: 41, glow_factor: 42 };
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
 
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
@@ -111,7 +111,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- what is drawn
 
-        /** A mesh for add(): a Mesh with its colour, texture, transparency, holes and material, or positions,
+        /** A mesh for add(): a Mesh with its colour, pictures, transparency, holes and material, or positions,
          *  indices, normals, uv and colors. */
         mesh(source) { return this.#taken(source, free(this.#meshes)); }
 
@@ -134,13 +134,18 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** What a Mesh looks like. */
-        #dress(shape, { map, tint, opacity, blend, cutoff, own, material }) {
+        #dress(shape, { maps, tint, opacity, blend, cutoff, own, material, strength, glowFactor, address }) {
             const { floats, ints } = shape.record, shown = (rgb) => (this.srgb ? rgb : rgb.map(check.encoded));
-            if (map) {
-                ints[AT.texture] = this.#texture(map.data, map.width, map.height, 1, map.wrap, free(this.#textures));
-                shape.textures.push(ints[AT.texture]);
-                this.#textures.get(ints[AT.texture]).owned = true;
-            }
+            ["texture", "relief", "glow_map"].forEach((name, i) => {
+                if (!maps[i]) return;
+                const number = this.#texture(maps[i], free(this.#textures), maps[i].wrap, name !== "relief");
+                ints[AT[name]] = number + (i ? 1 : 0);
+                shape.textures.push(number);
+                this.#textures.get(number).owned = true;
+            });
+            floats[AT.strength] = strength;
+            floats.set(shown(glowFactor), AT.glow_factor);
+            if (library.mesh_heights(address)) ints[AT.flags] |= HEIGHTS;
             if (tint) floats.set(shown(tint), AT.rgba);
             if (own) {
                 floats.set(shown(material.slice(9, 12)), AT.specular);
@@ -149,7 +154,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             if (blend) {
                 floats[AT.rgba + 3] = opacity;
-                if (map) ints[AT.flags] |= BLENDED;
+                if (maps[0]) ints[AT.flags] |= BLENDED;
             }
             floats[AT.cutoff] = cutoff;
         }
@@ -214,18 +219,17 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
-         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Texture. */
-        texture({ data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
-            return this.#texture(data, width, height, faces, check.wraps("wrap", wrap), free(this.#textures));
-        }
+         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
+         *  Texture. */
+        texture(picture) { return this.#texture(picture, free(this.#textures)); }
 
         /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
-        update_texture(number, { data, width, height, faces = 1, wrap = ["repeat", "repeat"] }) {
+        update_texture(number, picture) {
             const { cube, owned } = this.#textureOf("number", number);
-            if (cube !== (faces === 6)) {
+            if (cube !== (picture?.faces === 6)) {
                 throw new ShadeError(`picture: texture ${number} is ${cube ? "" : "no "}cube, and the picture is not`);
             }
-            this.#texture(data, width, height, faces, check.wraps("wrap", wrap), number);
+            this.#texture(picture, number);
             this.#textures.get(number).owned = owned;
         }
 
@@ -235,7 +239,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return this.#textures.get(number);
         }
 
-        #texture(data, width, height, faces, wrap, number) {
+        #texture(picture, number, wrap = check.wraps("", picture), colors = true) {
+            const { data, width, height, faces = 1 } = picture;
             check.integer("width", width, 1, 16384);
             check.integer("height", height, 1, 16384);
             if (faces !== 1 && (faces !== 6 || height !== 6 * width)) {
@@ -246,7 +251,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             const made = withMemory((room) => {
                 const bytes = put(room(data.length), Uint8Array.from(data));
-                const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb ? 1 : 0, ...wrap);
+                const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb && colors ? 1 : 0, ...wrap);
                 return library.scene_texture(this.#scene, number, put(room(4 * IMAGE), image));
             });
             if (!made) throw new RangeError("memory is not enough for the texture");
@@ -281,7 +286,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#shown.set(number, { shape, options: looks });
             if (pose !== undefined) {
                 try {
-                    this.#move("pose", [number], [pose]);
+                    this.#move(() => "pose", [number], [pose]);
                 } catch (error) {
                     this.remove(number);
                     throw error;
@@ -366,22 +371,24 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Moves an object: 4 x 4 by columns, a rotation and a translation. */
         pose(number, pose) {
             this.#object(number);
-            this.#move(`pose of object ${number}`, [number], [pose]);
+            this.#move(() => `pose of object ${number}`, [number], [pose]);
         }
 
         /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
          *  where one is refused. */
         poses(poses, numbers = this.objects) {
-            if (poses?.length !== numbers.length) throw new ShadeError(`poses must hold ${numbers.length} matrices`);
             numbers.forEach((number) => this.#object(number));
-            this.#move("poses", numbers, poses);
+            this.#move((i) => `poses[${i}]`, numbers, poses);
         }
 
-        #move(name, numbers, poses) {
-            const named = (i) => (name === "poses" ? `poses[${i}]` : name);
+        /** to: where a copy of all objects is, which moves in their place */
+        #move(named, numbers, poses, to = 0) {
+            if (poses?.length !== numbers.length) {
+                throw new ShadeError(`${named("").replace("[]", "")} must hold ${numbers.length} matrices`);
+            }
             const matrices = Float64Array.from(Array.from(poses, (pose, i) => rows(named(i), pose)).flat());
             const refused = withMemory((room) => library.scene_pose(
-                this.#scene, 0, put(room(4 * numbers.length + 4), Int32Array.from(numbers)),
+                this.#scene, to, put(room(4 * numbers.length + 4), Int32Array.from(numbers)),
                 put(room(matrices.byteLength + 8), matrices), numbers.length));
             if (refused >= 0) {
                 throw new ShadeError(`${named(refused)} must be a rotation and a translation, without scale, by columns`);
@@ -480,50 +487,80 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- pictures
 
-        /** New arrays for render(). */
-        frame({ color = true, depth = true, ids = true, normals = false } = {}) {
-            const pixels = this.height * this.width;
+        /** New arrays for render(), or for so many pictures of render_batch(). */
+        frame({ color = true, depth = true, ids = true, normals = false, pictures = 1 } = {}) {
+            const pixels = pictures * this.height * this.width;
             return { color: color ? new Uint8Array(3 * pixels) : null, depth: depth ? new Float32Array(pixels) : null,
                      ids: ids ? new Int32Array(2 * pixels) : null, normals: normals ? new Float32Array(3 * pixels) : null };
         }
 
         /** Draws what a camera { view, projection }, matrices of WebGL, sees, into the arrays of out or new ones. */
         render(camera, out = this.frame(), options = undefined) {
-            const got = check.record("options", options, ["solid", "empty_depth"]);
-            const view = check.vector("camera.view", camera?.view, 16);
-            const projection = check.vector("camera.projection", camera?.projection, 16);
-            return this._draw(out, view, projection, rangeOf(projection), got.solid ?? false,
-                              got.empty_depth ?? Infinity);
+            return this._draw(out, [this.#seen("camera", camera)], options);
         }
 
-        /** records are objects, one after the other, in place of those that were added. */
-        _draw(out, view, projection, { near, far, parallel }, solid, emptyDepth, records = null) {
-            const pixels = this.height * this.width, s = this.#state, scene = this.#scene;
-            const channels = out.color?.length === 4 * pixels ? 4 : 3;
-            for (const [name, width] of [["color", channels], ["depth", 1], ["ids", 2], ["normals", 3]]) {
-                if (out[name] && out[name].length !== width * pixels) {
-                    throw new ShadeError(`out.${name} must hold ${width * pixels} numbers, not ${out[name].length}`);
+        /** A picture for each camera, as render() draws it, one after the other in the arrays of out or new ones.
+         *  poses has for each picture matrices of all objects in the order of their numbers, which stay where they
+         *  were; one camera then serves all. */
+        render_batch(cameras, poses = undefined, out = undefined, options = undefined) {
+            const seen = check.isArray(cameras) ? Array.from(cameras) : Array(poses?.length ?? 1).fill(cameras);
+            if (poses && poses.length !== seen.length) {
+                throw new ShadeError(`poses must have a row for each of ${seen.length} cameras, not ${poses.length}`);
+            }
+            const shots = seen.map((camera, i) => this.#seen(`cameras[${i}]`, camera));
+            shots.forEach((shot, i) => { if (poses) shot.records = this.#moved(`poses[${i}]`, poses[i]); });
+            return this._draw(out ?? this.frame({ pictures: seen.length }), shots, options);
+        }
+
+        #seen(name, camera) {
+            const view = check.vector(`${name}.view`, camera?.view, 16);
+            const projection = check.vector(`${name}.projection`, camera?.projection, 16);
+            return { view, projection, ...rangeOf(projection) };
+        }
+
+        /** A copy of all objects, moved */
+        #moved(name, poses) {
+            return withMemory((room) => {
+                const words = () => new Int32Array(library.memory.buffer, from, OBJECT * this.objects.length);
+                const from = library.scene_find(this.#scene, -1, room(4)), at = put(room(words().byteLength + 4), words());
+                this.#move((i) => `${name}[${i}]`, this.objects, poses, at);
+                return new Int32Array(library.memory.buffer, at, words().length).slice();
+            });
+        }
+
+        /** A picture for each of shots, whose records are objects, one after the other, in place of those that were
+         *  added. */
+        _draw(out, shots, options) {
+            const got = check.record("options", options, ["solid", "empty_depth"]);
+            const pixels = this.height * this.width, s = this.#state, scene = this.#scene, at = {};
+            const channels = out.color?.length === 4 * shots.length * pixels ? 4 : 3;
+            const arrays = [["color", channels, 1], ["depth", 1, 4], ["ids", 2, 4], ["normals", 3, 4]];
+            for (const [name, width, bytes] of arrays) {
+                const wanted = shots.length * width * pixels;
+                if (out[name] && out[name].length !== wanted) {
+                    throw new ShadeError(`out.${name} must hold ${wanted} numbers, not ${out[name].length}`);
                 }
+                at[name] = out[name] ? kept(name, bytes * width * pixels) : 0;
             }
-            const at = {}, sizes = { color: channels, depth: 4, ids: 8, normals: 12 };
-            for (const name of Object.keys(sizes)) at[name] = out[name] ? kept(name, sizes[name] * pixels) : 0;
-            at.objects = records ? kept("objects", records.byteLength + 4) : 0;
             at.lights = kept("lights", 4 * LIGHT * LAMPS);
-            const shot = kept("shot", 4 * SHOT);
-            if (records) put(at.objects, records);
             put(at.lights, s.lamps);
-            const ints = new Int32Array(library.memory.buffer, shot, SHOT);
-            const floats = new Float32Array(library.memory.buffer, shot, SHOT);
-            ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, solid ? 1 : 0, parallel,
-                      records ? records.length / OBJECT : 0, s.count, s.shadows, s.sky, s.skyTexture]);
-            floats.set([near, far, emptyDepth, this.tolerance, ...view, ...projection, ...s.background, ...s.low,
-                        ...s.high, ...s.ambient], 12);
-            ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);
-            succeed("camera", library.renderer_draw(scratch, scene, shot));
-            for (const [name, Kind, width] of [["color", Uint8Array, channels], ["depth", Float32Array, 1],
-                                               ["ids", Int32Array, 2], ["normals", Float32Array, 3]]) {
-                if (out[name]) out[name].set(new Kind(library.memory.buffer, at[name], width * pixels));
-            }
+            shots.forEach(({ view, projection, near, far, parallel, records }, i) => {
+                at.objects = records ? put(kept("objects", records.byteLength + 4), records) : 0;
+                const shot = kept("shot", 4 * SHOT);
+                const ints = new Int32Array(library.memory.buffer, shot, SHOT);
+                const floats = new Float32Array(library.memory.buffer, shot, SHOT);
+                ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, got.solid ? 1 : 0, parallel,
+                          records ? records.length / OBJECT : 0, s.count, s.shadows, s.sky, s.skyTexture]);
+                floats.set([near, far, got.empty_depth ?? Infinity, this.tolerance, ...view, ...projection,
+                            ...s.background, ...s.low, ...s.high, ...s.ambient], 12);
+                ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);
+                succeed("camera", library.renderer_draw(scratch, scene, shot));
+                for (const [name, width, bytes] of arrays) {
+                    const Kind = bytes === 1 ? Uint8Array : name === "ids" ? Int32Array : Float32Array;
+                    const size = width * pixels;
+                    if (out[name]) out[name].set(new Kind(library.memory.buffer, at[name], size), i * size);
+                }
+            });
             return out;
         }
 

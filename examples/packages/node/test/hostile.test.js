@@ -577,6 +577,24 @@ test("a Renderer draws the colour and the texture of a Mesh", () => {
     }
 });
 
+test("texels that are wanted as squares are", () => {
+    const quad = { positions: [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], indices: [0, 1, 2, 0, 2, 3], uv: [0, 0, 1, 0, 1, 1, 0, 1] };
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [2.8, 0, 0, 0, 0, 2.8, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const drawn = (times, squares) => {
+        const data = Array.from({ length: 4 * times * times }, (_, i) =>
+            ((i % (2 * times) < times) === (i < 2 * times * times) ? [250, 0, 0] : [0, 0, 250])).flat();
+        const made = new Renderer(20, 20), texture = { data, width: 2 * times, height: 2 * times, wrap: ["clamp", "clamp"], squares };
+        made.add(made.mesh(new Mesh({ ...quad, texture })));
+        const picture = render({ ...quad, texture }, { view: camera, size: 20, samples: 1 }), { color } = made.render(camera);
+        made.free();
+        return [picture.data, color];
+    };
+    assert.deepEqual(drawn(1, true), drawn(50, true));
+    drawn(1, false).forEach((smooth, i) => assert.notDeepEqual(smooth, drawn(1, true)[i]));
+    refused(/^texture.squares must be true or false/, { ...quad, texture: { ...texel(1, 2, 3), squares: 1 } });
+});
+
 test("objects, shapes and textures of a Renderer come, change and go", () => {
     const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
                      projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
@@ -631,6 +649,41 @@ test("objects, shapes and textures of a Renderer come, change and go", () => {
     }
     assert.ok(sizes[299] - sizes[50] < 40e6, `${sizes[299] - sizes[50]} bytes`);
     [made, other, fresh].forEach((renderer) => renderer.free());
+});
+
+test("a batch is the pictures one by one", () => {
+    const camera = (x) => ({ view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, -3, 1],
+                             projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] });
+    const made = new Renderer(6, 8), cameras = [0, 0.3, -0.5].map(camera), all = { normals: true, pictures: 3 };
+    made.add("sphere", 0.5, { color: "red" });
+    made.remove(made.add("sphere", 1));
+    made.add("box", [0.2, 0.3, 0.4], { at: [0, 0.5, 0] });
+    const at = (x, y) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1];
+    const poses = [0, 0.2, 0.6].map((x) => [at(x, 0), at(0, x)]), home = [at(0, 0), at(0, 0.5)];
+    const same = (batch, pictures) => Object.entries(batch).forEach(([name, array]) => {
+        const size = array.length / pictures.length;
+        pictures.forEach((one, i) => assert.deepEqual(array.slice(i * size, (i + 1) * size), one[name]));
+    });
+    const one = (seen, options) => made.render(seen, made.frame({ normals: true }), options);
+    same(made.render_batch(cameras, undefined, made.frame(all)), cameras.map((seen) => one(seen)));
+    const options = { empty_depth: -1, solid: true }, out = made.frame(all);
+    assert.equal(made.render_batch(cameras[1], poses, out, options), out);
+    assert.deepEqual(made.render_batch(cameras[0], [home]), made.render(cameras[0]));
+    same(out, poses.map((row) => (made.poses(row), one(cameras[1], options))));
+    made.poses(home);
+    assert.equal(made.render_batch([]).color.length, 0);
+    const bent = [...poses[0].slice(0, 1), [...home[1].slice(0, 10), 2, ...home[1].slice(11)]];
+    for (const [words, ...call] of [
+        [/^cameras\[1\].projection must be an array/, [cameras[0], { view: home[0] }]],
+        [/^cameras\[0\].view must be an array/, null], [/^poses must have a row for each of 3 cameras, not 2/, cameras, [home, home]],
+        [/^poses\[0\] must hold 2 matrices/, cameras[0], [[home[0]]]],
+        [/^poses\[1\]\[1\] must be a rotation/, cameras[0], [home, bent]],
+        [/^out.color must hold 432 numbers, not 288/, cameras, undefined, made.frame({ pictures: 2 })],
+        [/^options.near is no option/, cameras, undefined, undefined, { near: 1 }]]) {
+        assert.throws(() => made.render_batch(...call), (error) => error instanceof ShadeError && words.test(error.message), `${words}`);
+    }
+    assert.deepEqual(made.render_batch(cameras[0], [home]), made.render(cameras[0]));
+    made.free();
 });
 
 test("the highlight and the emission of an MTL are drawn", async () => {
@@ -841,19 +894,27 @@ test("reliefs and what shines that are wrong are refused", () => {
     // a picture folded into one point has no directions: its relief is flat
     const flat = { ...box(), uv, texture: texel(255, 255, 255) };
     assert.deepEqual(render({ ...flat, relief: texel(191, 128, 238) }, small).data, render(flat, small).data);
-    // cameras of a Renderer leave both out
-    const view = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
-                   projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
-    const { positions, indices, ...mapped } = square([1, 0], [0, 1]);
-    const more = { ...mapped, relief: texel(191, 128, 238), glow: texel(255, 0, 0) };
-    const [plain, dressed] = [{}, more].map((own) => {
-        const made = new Renderer(16, 16);
-        made.add(made.mesh(new Mesh({ positions, indices, ...own })));
-        const { color } = made.render(view);
-        made.free();
+});
+
+test("cameras of a Renderer draw what render draws of reliefs and glow", () => {
+    const camera = { view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1],
+                     projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] };
+    const lights = [{ position: [0.4, 0.3, 1, 0] }], { positions, indices, uv } = square([1, 0], [0, 1]);
+    const ramp = { data: Array.from({ length: 256 }, (_, i) => [i, i, i]).flat(), width: 256, height: 1, wrap: ["clamp", "clamp"] };
+    const material = { diffuse: [0.5, 0.5, 0.5], specular: [0.3, 0.3, 0.3], shininess: 20 };
+    const made = [{}, { relief: texel(191, 128, 238), strength: 2 }, { relief: ramp, strength: 0.3 },
+                  { glow: texel(90, 60, 30), glowFactor: [1, 2, 0.5] }].map((maps) => {
+        const mesh = new Mesh({ positions, indices, material, ...(Object.keys(maps).length ? { uv, ...maps } : {}) });
+        const { data } = render(mesh, { view: camera, size: 16, samples: 1, light: { lights, ambient: [0.1, 0.1, 0.1] } });
+        const one = new Renderer(16, 16);
+        one.add(one.mesh(mesh));
+        one.light(lights, [0.1, 0.1, 0.1]);
+        const { color } = one.render(camera);
+        one.free();
+        color.forEach((x, i) => assert.ok(Math.abs(x - data[4 * Math.floor(i / 3) + i % 3]) <= 1, Object.keys(maps).join()));
         return color;
     });
-    assert.deepEqual(dressed, plain);
+    made.slice(1).forEach((color) => assert.notDeepEqual(color, made[0]));
 });
 
 test("holes of arrays, texels that are no bytes and poses by rows are refused", () => {

@@ -272,12 +272,19 @@ def sight():
     leaf = shade.Mesh(points, faces, uv=uv, surfaces=(np.zeros(len(faces), int), [shade.Surface(
         shade.Material((0, 0.1, 0), (1, 1, 1), (0.8, 0.7, 0.6), (0.5, 0.4, 0.3), 20.0), LEAF, cutoff=0.5)]))
     assert sim.add(sim.mesh(leaf), at=(0.3, -1.6, 0.3), two_sided=True) == 5
+    plain, bent = shade.Material((0, 0, 0), (0.6, 0.7, 0.8), (0.6, 0.7, 0.8), (0.2, 0.2, 0.2), 12.0), (190, 128, 230)
+    for x, own in ((-0.5, {"relief": LEAF, "strength": 0.25, "glow": LEAF, "glow_factor": (0.2, 0.5, 0.125), "squares": True}),
+                   (-1.5, {"relief": np.full((1, 1, 3), bent, np.uint8), "strength": 1.5, "texture": LEAF[..., :3]})):
+        dressed = shade.Mesh(points, faces, uv=uv, surfaces=(np.zeros(len(faces), int), [shade.Surface(plain, **own)]))
+        sim.add(sim.mesh(dressed), (1, 0.5, 1.5), at=(x, -1.6, 0.3), repeat=(1, 2))
     sim.pose(4, [[0, -1, 0, -2], [1, 0, 0, 0.2], [0, 0, 1, 0.9], [0, 0, 0, 1]])
     spot = shade.Light((1, -2, 4, 1), (0.5,) * 3, (0.5,) * 3, spot_direction=(-0.2, 0.4, -1), spot_exponent=2.0,
                        spot_cos_cutoff=0.8)
     sim.light([shade.Light.directional((-0.5, 1, -1.5), (0.5, 0.5, 0.5)), spot], (0.3, 0.3, 0.3), (0, 1))
-    later = sim.render(camera, normals=True)
-    assert len(np.unique(later.ids[..., 0])) >= 8 and (later.color != frame.color).any(-1).mean() > 0.2
+    beside = np.eye(4)
+    beside[0, 3] = 0.5
+    later = sim.render_batch([camera, shade.Camera(beside @ camera.view, camera.projection)], normals=True)
+    assert len(np.unique(later.ids[0, ..., 0])) >= 8 and (later.color != frame.color).any(-1).mean() > 0.2
     (OUT / "sight.bytes").write_bytes(b"".join(array.tobytes() for array in (*frame, *later)))
     told = {"view": camera.view.T.ravel().tolist(), "projection": camera.projection.T.ravel().tolist(),
             "box": points.ravel().tolist(), "faces": faces.ravel().tolist(), "uv": uv.ravel().tolist(),

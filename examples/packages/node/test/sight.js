@@ -25,12 +25,20 @@ export function sight(Renderer, Mesh, { view, projection, box, faces, uv, torus 
     sim.add(sim.mesh(new Mesh({ positions: box, indices: faces, uv, texture: { data, width: 8, height: 8 }, cutoff: 0.5,
         material: { emission: [0, 0.1, 0], diffuse: [0.8, 0.7, 0.6], specular: [0.5, 0.4, 0.3], shininess: 20 } })),
         undefined, { at: [0.3, -1.6, 0.3], two_sided: true });
+    const plain = { diffuse: [0.6, 0.7, 0.8], specular: [0.2, 0.2, 0.2], shininess: 12 }, leaf = { data, width: 8, height: 8 };
+    const opaque = { ...leaf, data: data.map((x, i) => (i % 4 < 3 ? x : 255)) }, bent = { data: [190, 128, 230], width: 1, height: 1 };
+    for (const [x, own] of [[-0.5, { relief: { ...leaf, squares: true }, strength: 0.25, glow: { ...leaf, squares: true }, glowFactor: [0.2, 0.5, 0.125] }],
+                            [-1.5, { relief: bent, strength: 1.5, texture: opaque }]]) {
+        const dressed = new Mesh({ positions: box, indices: faces, uv, material: plain, ...own });
+        sim.add(sim.mesh(dressed), [1, 0.5, 1.5], { at: [x, -1.6, 0.3], repeat: [1, 2] });
+    }
     sim.pose(4, [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, -2, 0.2, 0.9, 1]);
     const half = [0.5, 0.5, 0.5];
     sim.light([{ position: [0.5, -1, 1.5, 0], color: half },
                { position: [1, -2, 4, 1], color: half, spotDirection: [-0.2, 0.4, -1], spotExponent: 2, spotCosCutoff: 0.8 }],
               [0.3, 0.3, 0.3], [0, 1]);
-    const later = sim.render({ view, projection }, sim.frame({ normals: true }));
+    const later = sim.render_batch([{ view, projection }, { view: view.map((x, i) => (i === 12 ? x + 0.5 : x)), projection }],
+                                   undefined, sim.frame({ normals: true, pictures: 2 }));
     sim.free();
     const arrays = [frame, later].flatMap(Object.values).map((a) => new Uint8Array(a.buffer)), all = new Uint8Array(arrays.reduce((n, a) => n + a.length, 0));
     arrays.reduce((at, a) => (all.set(a, at), at + a.length), 0);

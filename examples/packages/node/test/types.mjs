@@ -7,7 +7,7 @@ import { join } from "node:path";
 const [folder, modules] = process.argv.slice(2);
 const right = `
 import { Mesh, PRESETS, Picture, Renderer, ShadeError, mujoco, read3mf, readModel, render } from "shade-h";
-import type { Camera, Color, Light, Lighting, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
+import type { Camera, Color, Frame, Light, Lighting, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
 const positions: Numbers = new Float64Array(9), texture: Texture = { data: [1, 2, 3], width: 1, height: 1 };
 const material: Material = { diffuse: [1, 0, 0], shininess: 3 }, color: Color = "steel";
 const source: MeshSource = { positions, indices: [0, 1, 2], normals: "flat", color, material, edges: true,
@@ -27,10 +27,11 @@ mesh.free();
 const sim = new Renderer(8, 8, { samples: 2 }), ball: number = sim.add("sphere", 1, { color: "red" });
 sim.light([lamp], [0, 0, 0], 0);
 const pairs: Int32Array | null = sim.render(camera, sim.frame({ normals: true })).ids;
+const batch: Frame = sim.render_batch([camera], [[new Float32Array(16)]], sim.frame({ pictures: 1 }), { solid: true });
 const robot = new mujoco.Renderer({}, {}, 8, 8), rgb: Uint8Array = robot.render();
 const parts: Promise<MeshSource[]> = read3mf(new Uint8Array(9), { picture: () => null });
 const read: Promise<MeshSource[]> = readModel(new Uint8Array(9), { format: "obj", beside: (name) => (name ? null : new Uint8Array(1)) });
-void [ball, pairs, parts, read, rgb];
+void [ball, batch, pairs, parts, read, rgb];
 export { bytes, depth, file, ids, names, wrong };
 `;
 const mistakes = ['render({})', 'render({ positions: "0" })', 'render({ positions: [], edges: 1 })',

@@ -17,6 +17,7 @@ NAMES = {"white": 0xFFFFFF, "black": 0, "gray": 0x808080, "grey": 0x808080, "red
          "steel": 0x8FA3B5, "clay": 0xBFB2A4}
 MATERIALS = [library.shade_preset_name(i).decode().replace(" ", "_") for i in range(24)]
 MOST = 2**31 - 1
+NOT_RIGID = "must be a rotation and a translation, without scale, with 0, 0, 0, 1 in the last row"
 
 
 def shown(value: object) -> str:
@@ -180,11 +181,8 @@ def color(name: str, value: object) -> tuple[float, float, float]:
 def rigid(name: str, value: object) -> Doubles:
     """A matrix of 4 x 4, a rotation and a translation, whose last row is 0, 0, 0, 1."""
     got = doubles(name, value, (4, 4), finite=True)
-    turn = got[:3, :3]
-    if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-3 or np.linalg.det(turn) < 0 or \
-            np.abs(got[3] - (0, 0, 0, 1)).max() > 1e-3:
-        raise Error(f"{name} must be a rotation and a translation, without scale, with 0, 0, 0, 1 in "
-                    "the last row")
+    if not library.python_is_rigid(pointer(got)):
+        raise Error(f"{name} {NOT_RIGID}")
     return got
 
 

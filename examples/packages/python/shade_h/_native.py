@@ -119,13 +119,14 @@ SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
                   ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32, 3),
                   ("shininess", np.float32), ("emission", np.float32), ("glow", np.float32, 3),
                   ("repeat", np.float32, 2), ("metal", np.float32), ("tint", np.float32),
-                  ("cutoff", np.float32)])
+                  ("cutoff", np.float32), ("relief", np.int32), ("glow_map", np.int32),
+                  ("strength", np.float32), ("glow_factor", np.float32, 3)])
 
 
 class Image(Structure):
     """renderer_image"""
     _fields_ = [("rgba", c_void_p), ("width", c_int), ("height", c_int), ("faces", c_int),
-                ("srgb", c_int), ("wrap_u", c_int), ("wrap_v", c_int)]
+                ("srgb", c_int), ("wrap_u", c_int), ("wrap_v", c_int), ("squares", c_int)]
 
 
 class Chunk(Structure):
@@ -145,7 +146,7 @@ class Run(Structure):
 class FilePicture(Structure):
     """python_picture"""
     _fields_ = [("name", c_char_p), ("kind", c_char_p), ("bytes", c_void_p), ("size", c_size_t),
-                ("wrap", c_int * 2), ("colors", c_int)]
+                ("wrap", c_int * 2), ("squares", c_int), ("colors", c_int)]
 
 
 class Edge(Structure):
@@ -177,6 +178,7 @@ def _open() -> Any:
             ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
             ("python_has_letter", c_int, [c_int]),
             ("python_face_normals", None, [c_void_p, c_void_p]),
+            ("python_direct_normals", c_int, [c_void_p, c_void_p]),
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_read", POINTER(OwnedMesh),
@@ -190,8 +192,9 @@ def _open() -> Any:
             ("python_pictures", c_int, [POINTER(OwnedMesh), POINTER(c_int)]),
             ("python_picture_shown", c_int, [POINTER(OwnedMesh), c_int]),
             ("python_picture_of", None, [POINTER(OwnedMesh), c_int, c_void_p]),
-            ("python_picture_set", c_int, [POINTER(OwnedMesh), c_int, c_void_p, c_int, c_int]),
+            ("python_picture_set", None, [POINTER(OwnedMesh), c_int, c_void_p, c_int, c_int]),
             ("python_heed_pictures", None, [POINTER(OwnedMesh)]),
+            ("python_texture_levels", c_int, 3 * [c_void_p] + [c_size_t, c_int]),
             ("python_heights", c_int, [c_void_p, c_int, c_int]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
@@ -202,6 +205,7 @@ def _open() -> Any:
             ("python_scene_remove", c_int, [c_void_p, c_int]),
             ("python_scene_find", c_void_p, [c_void_p, c_int, c_void_p]),
             ("python_scene_set", c_int, [c_void_p, c_void_p, c_int]),
+            ("python_is_rigid", c_int, [c_void_p]),
             ("python_scene_pose", c_int, 4 * [c_void_p] + [c_int]),
             ("python_renderer_open", c_void_p, []),
             ("python_renderer_close", None, [c_void_p]),
@@ -217,7 +221,6 @@ def _open() -> Any:
             ("shade_mesh_edges", c_int, [c_void_p, c_void_p, c_int, c_void_p]),
             ("shade_mipmap_count", c_int, [c_int, c_int]),
             ("shade_mipmap_bytes", c_size_t, [c_int, c_int, c_int]),
-            ("shade_build_mipmaps", c_int, [c_void_p, c_void_p, c_void_p, c_size_t]),
             ("shade_preset_material", Material, [c_int]),
             ("shade_preset_name", c_char_p, [c_int]),
             ("shade_linear_material", Material, [Material])):

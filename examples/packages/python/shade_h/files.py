@@ -93,9 +93,8 @@ def _pictures(owned: Any, model: str, outside: bool) -> list[Any]:
                 _warn(f"{model}: {why}; its faces are drawn without it")
     for i, image in enumerate(images):
         if image is not None:
-            rgba = np.ascontiguousarray(image)
-            if library.python_picture_set(owned, i, pointer(rgba), rgba.shape[1], rgba.shape[0]):
-                raise Error("out of memory")
+            images[i] = rgba = np.ascontiguousarray(image)
+            library.python_picture_set(owned, i, pointer(rgba), rgba.shape[1], rgba.shape[0])
     library.python_heed_pictures(owned)
     return images
 
@@ -115,8 +114,8 @@ def _look(owned: Any, run: Any, images: list[Any]) -> Surface:
     holes = "texture" in shown and not run.opaque
     return Surface(material=material, blend=bool(run.blended) or run.transparency > 0,
                    opacity=1 - run.transparency, cutoff=run.alpha_cutoff if holes else 0.0,
-                   wrap=(WRAPS[wrap.wrap[0]], WRAPS[wrap.wrap[1]]), metal=run.metal,
-                   roughness=run.rough, strength=run.relief_strength,
+                   wrap=(WRAPS[wrap.wrap[0]], WRAPS[wrap.wrap[1]]), squares=bool(wrap.squares),
+                   metal=run.metal, roughness=run.rough, strength=run.relief_strength,
                    glow_factor=tuple(run.glow_factor[:]),
                    **{name: images[number] for name, number in shown.items()})
 
@@ -129,17 +128,15 @@ def _surfaces(owned: Any, model: str, faces: int, uv: Any, outside: bool) -> dic
     for i in range(library.python_part_of(owned, -1, None)):
         run = Run()
         library.python_part_of(owned, i, ctypes.byref(run))
-        look = _look(owned, run, images)
-        mapped = any(m is not None for m in (look.texture, look.relief, look.glow))
-        if not run.set and not mapped and not run.transparency:
-            continue
         if run.surface not in known:
-            known[run.surface] = len(looks)
-            looks.append(look)
+            look = _look(owned, run, images)
+            told = run.set or look.mapped or run.transparency
+            known[run.surface] = len(looks) if told else 0
+            looks += [look] if told else []
         number[run.first // 3:(run.first + run.count) // 3] = known[run.surface]
     if len(looks) == 1:
         return {}
-    mapped = any(m is not None for look in looks for m in (look.texture, look.relief, look.glow))
+    mapped = any(look.mapped for look in looks)
     return {"surfaces": (number, looks), **({"uv": np.stack([uv[:, 0], 1 - uv[:, 1]], 1)} if mapped else {})}
 
 

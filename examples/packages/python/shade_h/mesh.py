@@ -46,7 +46,8 @@ class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
     4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
     cutoff texels of less alpha are holes; else alpha is ignored.  wrap, "repeat", "clamp" or
-    "mirror" for u and v, says how the pictures go on beyond their edges.  metal, 0 to 1, is how much
+    "mirror" for u and v, says how the pictures go on beyond their edges; with squares texels are seen
+    as such, in pictures of at most 512 x 512.  metal, 0 to 1, is how much
     of what the studio's light shows in it has its colour, and roughness how blurred that is, 0 by
     the exponent of the material.
 
@@ -61,12 +62,18 @@ class Surface:
     opacity: float = 1.0
     cutoff: float = 0.0
     wrap: tuple[str, str] = ("repeat", "repeat")
+    squares: bool = False
     metal: float = 0.0
     roughness: float = 0.0
     relief: object = None
     strength: float = 1.0
     glow: object = None
     glow_factor: Sequence[float] = (1.0, 1.0, 1.0)
+
+    @property
+    def mapped(self) -> bool:
+        """Whether it has a picture of any kind."""
+        return any(one is not None for one in (self.texture, self.relief, self.glow))
 
 
 class Piece:
@@ -76,12 +83,15 @@ class Piece:
                  texture: Bytes | None) -> None:
         """Triangles first to first + count."""
         self.surface, self.first, self.count, self.texture = surface, first, count, texture
+        self.strength = arguments.number("strength", surface.strength, -1e9, 1e9)
+        self.glow_factor = arguments.floats("glow_factor", surface.glow_factor, (3,), True)
         self.mesh = mesh.native(self)
         self._kept: list[object] = []
         relief, glow = (None if one is None else arguments.texture(name, one)
                         for name, one in (("relief", surface.relief), ("glow", surface.glow)))
-        self.map, self.relief, self.glow = (
-            self._make_map(one, srgb) for one, srgb in ((texture, 1), (relief, 0), (glow, 1)))
+        #: What the fields of a renderer_object hold: a picture, whose colours are a display's or not.
+        self.pictures = {"texture": (texture, True), "relief": (relief, False), "glow_map": (glow, True)}
+        self.map, self.relief, self.glow = (self._make_map(*one) for one in self.pictures.values())
         self.heights = 0 if relief is None else library.python_heights(
             pointer(relief), relief.shape[1], relief.shape[0])
         self._make_chunks()
@@ -96,10 +106,10 @@ class Piece:
             item.state.diffuse_map = ctypes.pointer(self.map)
         if self.relief is not None:
             item.relief, item.relief_heights = ctypes.pointer(self.relief), self.heights
-            item.relief_strength = arguments.number("strength", look.strength, -1e9, 1e9)
+            item.relief_strength = self.strength
         if self.glow is not None:
             item.glow_map = ctypes.pointer(self.glow)
-            item.glow = tuple(arguments.floats("glow_factor", look.glow_factor, (3,), True).tolist())
+            item.glow = tuple(self.glow_factor.tolist())
 
     def _make_chunks(self) -> None:
         count = library.shade_chunk_count(3 * self.count, 0)
@@ -110,18 +120,18 @@ class Piece:
               "faces")
         self.mesh.chunks, self.mesh.chunk_count = ctypes.addressof(self.chunks), count
 
-    def _make_map(self, texture: Bytes | None, srgb: int) -> Any:
+    def _make_map(self, texture: Bytes | None, srgb: bool) -> Any:
         """A texture with its mipmaps."""
         if texture is None:
             return None
         h, w = texture.shape[:2]
-        out = Texture(pixels=pointer(texture), width=w, height=h, srgb=srgb, filter=2)
+        out = Texture(pixels=pointer(texture), width=w, height=h, srgb=srgb)
         out.wrap_u, out.wrap_v = (WRAPS.index(arguments.choice("wrap", how, WRAPS))
                                   for how in self.surface.wrap)
         mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
         levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
-        check(library.shade_build_mipmaps(ctypes.byref(out), levels, pointer(mipmaps),
-                                          mipmaps.size), "texture")
+        check(library.python_texture_levels(ctypes.byref(out), levels, pointer(mipmaps), mipmaps.size,
+                                            arguments.flag("squares", self.surface.squares)), "texture")
         self._kept += [texture, mipmaps, levels]
         return out
 
@@ -195,8 +205,7 @@ class Mesh:
         for look, picture in zip(looks, maps):
             if surfaces is not None and picture is not None and not look.blend and not look.cutoff:
                 picture[:, :, 3] = 255
-        if self.uv is None and any(m is not None for look in looks
-                                   for m in (look.texture, look.relief, look.glow)):
+        if self.uv is None and any(look.mapped for look in looks):
             raise Error("uv is missing: a surface has a texture")
         self.texture = maps[0] if len(maps) == 1 else None
         self._take_normals(normals, by_face)
@@ -293,28 +302,14 @@ class Mesh:
                 native = ctypes.byref(self.native())
                 check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
-            self.normals = self._directed(arguments.floats("normals", normals, self.local.shape))
+            given = arguments.floats("normals", normals, self.local.shape).copy()
+            check(library.python_direct_normals(ctypes.byref(self.native()), pointer(given)), "normals")
+            self.normals = given
         flat = own is None and self.normals is None
         if flat:
             own = self._flat()
         if own is not None or by_face:
             self._take_corners(own, by_face, not flat)
-
-    def _directed(self, given: Floats) -> Floats:
-        """Normals that are given; those without a direction, zero or NaN, are made anew, and those
-        that floats cannot square get a length of 1."""
-        length = np.abs(given.astype(np.float64)).sum(1)
-        bare = ~((length > 0) & np.isfinite(length))
-        odd = ~bare & ((length < 1e-6) | (length > 1e6))
-        if not (bare | odd).any():
-            return given
-        out = given.copy()
-        out[odd] /= length[odd, None]
-        if bare.any():
-            made = np.empty_like(out)
-            check(library.shade_mesh_normals(ctypes.byref(self.native()), pointer(made)), "normals")
-            out[bare] = made[bare]
-        return out
 
     def _flat(self) -> Floats:
         """The normal of each corner's face."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import warnings
 from typing import Any, NamedTuple, Sequence
 
 import numpy as np
@@ -21,7 +20,7 @@ from .picture import Picture
 #: The shapes that are made once for all scenes, and the numbers that their size is.
 SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, "box": 3}
 _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cylinder": 5, "box": 6}
-_HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED = 1, 2, 4, 8
+_HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED, _HEIGHTS = 1, 2, 4, 8, 16
 _LAMPS = 8
 _PLAIN = np.zeros(1, SOLID)    # white, without a texture
 _PLAIN["texture"], _PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = -1, 1, 32, np.eye(3)
@@ -183,8 +182,8 @@ class Renderer:
     def mesh(self, vertices: object, faces: object = None, *, normals: object = "auto",
              uv: object = None, colors: object = None) -> Shape:
         """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
-        Mesh, as load() gives it, with the materials, colours, textures, transparency and holes of its
-        surfaces.  Their reliefs and what glows by a picture are left out, with a warning."""
+        Mesh, as load() gives it, with the materials, colours, pictures, transparency and holes of its
+        surfaces."""
         made = self._made_of(vertices, faces, normals, uv, colors)
         return self._shape(made, (made is vertices, faces, normals, uv, colors), None)
 
@@ -206,8 +205,6 @@ class Renderer:
                                 np.ascontiguousarray(made.indices, np.uint32))
         shape.source = source
         pieces = [piece for piece in made.pieces if piece.count]
-        if any(piece.relief is not None or piece.glow is not None for piece in pieces):
-            warnings.warn("mesh: its normal, bump and emissive maps are left out", stacklevel=4)
         if source[0] and pieces:
             known: dict[Any, int] = {}
             shape.records = np.repeat(shape.records, len(pieces))
@@ -221,11 +218,13 @@ class Renderer:
         """What a piece of a Mesh looks like; known are the textures that its others have."""
         surface, material = piece.surface, piece.surface.material
         record["first"], record["count"] = piece.first, piece.count
-        if piece.texture is not None:
-            key = piece.texture.shape, piece.texture.tobytes(), surface.wrap
+        for name, (picture, colors) in piece.pictures.items():
+            if picture is None:
+                continue
+            key = picture.shape, picture.tobytes(), surface.wrap, surface.squares, colors
             if key not in known:
-                known[key] = self.texture(piece.texture, surface.wrap)
-            record["texture"] = known[key]
+                known[key] = self._make_texture(picture, surface.wrap, surface.squares, None, colors)
+            record[name] = known[key] + (name != "texture")
         def shown(rgb: Any) -> Any:
             return rgb if self.srgb else display(rgb)
 
@@ -239,6 +238,8 @@ class Renderer:
             record["rgba"][3] = surface.opacity
             record["flags"] |= _BLENDED if record["texture"] >= 0 else 0
         record["cutoff"] = surface.cutoff
+        record["strength"], record["glow_factor"] = piece.strength, shown(piece.glow_factor)
+        record["flags"] |= _HEIGHTS if piece.heights else 0
 
     def _keep_mesh(self, number: int | None, positions: Any, normals: Any, uv: Any, colors: Any,
                    indices: Any, smooth: bool = False) -> Shape:
@@ -303,12 +304,15 @@ class Renderer:
         self._set_records(np.concatenate(kept))
         self._drop(gone)
 
-    def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat")) -> int:
+    def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat"),
+                squares: bool = False) -> int:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
-        -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap is that of Surface."""
-        return self._make_texture(picture, wrap, None)
+        -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
+        Surface."""
+        return self._make_texture(picture, wrap, squares, None)
 
-    def _make_texture(self, picture: object, wrap: tuple[str, str], number: int | None) -> int:
+    def _make_texture(self, picture: object, wrap: tuple[str, str], squares: bool,
+                      number: int | None, colors: bool = True) -> int:
         given = np.asarray(picture)
         faces = 6 if given.ndim == 4 else 1
         if faces == 6:
@@ -317,28 +321,29 @@ class Renderer:
             given = given.reshape(-1, *given.shape[2:])
         rgba = arguments.texture("picture", given)
         u, v = (WRAPS.index(arguments.choice("wrap", how, WRAPS)) for how in wrap)
-        return self._keep_texture(number, rgba, faces, u, v)
+        return self._keep_texture(number, rgba, faces, u, v, arguments.flag("squares", squares), colors)
 
     def _keep_texture(self, number: int | None, rgba: Bytes, faces: int, u: int = 0,
-                      v: int = 0) -> int:
+                      v: int = 0, squares: bool = False, colors: bool = True) -> int:
         height, width = rgba.shape[:2]
-        image = Image(pointer(rgba), width, height // faces, faces, int(self.srgb), u, v)
+        image = Image(pointer(rgba), width, height // faces, faces, self.srgb and colors, u, v,
+                      squares)
         if number is None:
             number = _free(self._textures)
         if not library.python_scene_texture(self._scene.handle, number, ctypes.byref(image)):
             raise MemoryError("memory is not enough for the texture")
-        self._textures[number] = rgba, faces, u, v
+        self._textures[number] = rgba, faces, u, v, squares, colors
         return number
 
     def update_texture(self, number: int, picture: object,
-                       wrap: tuple[str, str] = ("repeat", "repeat")) -> None:
+                       wrap: tuple[str, str] = ("repeat", "repeat"), squares: bool = False) -> None:
         """Puts another picture in the place of a texture, as texture() takes it; objects and a sky that
         have the texture show it."""
         self._texture_number("number", number)
         if (np.asarray(picture).ndim == 4) != (self._textures[number][1] == 6):
             raise Error(f"picture: texture {number} is {'' if self._textures[number][1] == 6 else 'no '}"
                         "cube, and the picture is not")
-        self._make_texture(picture, wrap, number)
+        self._make_texture(picture, wrap, squares, number)
 
     def _texture_number(self, name: str, number: object) -> int:
         got = arguments.integer(name, number, 0, 2 ** 31 - 1)
@@ -507,8 +512,7 @@ class Renderer:
         refused = library.python_scene_pose(self._scene.handle, pointer(to), pointer(numbers),
                                             pointer(rows), len(rows))
         if refused >= 0:
-            raise Error(f"{name}[{refused}] must be a rotation and a translation, without scale, with "
-                        "0, 0, 0, 1 in the last row")
+            raise Error(f"{name}[{refused}] {arguments.NOT_RIGID}")
 
     def show(self, number: int, visible: bool = True) -> None:
         """Hides an object, or shows it again."""

@@ -1,6 +1,7 @@
 """Normal, bump and emissive maps, and what a picture of metal and roughness says, against squares
 whose normals, light and factors are given outright."""
 import io
+import pickle
 import warnings
 
 import numpy as np
@@ -16,10 +17,10 @@ MATTE = shade.Material((0, 0, 0), (0.6, 0.6, 0.6), (0.6, 0.6, 0.6), (0.3, 0.3, 0
 LAMPS = [shade.Light.directional((-0.4, -0.3, -1.0)), shade.Light.directional((0.7, 0.1, -0.3), (0.4, 0.5, 0.6))]
 
 
-def square(**surface):
+def square(colors=None, **surface):
     """A unit square, u to the right and v upward."""
     surface.setdefault("material", MATTE)
-    return shade.Mesh(CORNERS, FACES, uv=UV, normals="flat",
+    return shade.Mesh(CORNERS, FACES, uv=UV, normals="flat", color=colors,
                       surfaces=([0, 0], [shade.Surface(**surface)]))
 
 
@@ -106,15 +107,15 @@ def test_what_glows_needs_no_lamp_and_takes_no_colour_of_the_map():
     assert np.abs(inner(seen(shines)) - wanted).max() <= 1
 
 
-def file_of(change, **pictures):
+def file_of(change, sampler=None, **pictures):
     """A GLB of a square whose material has pictures of one colour each."""
     made = Glb()
     material = colored(0.8, 0.5, 0.3, doubleSided=True)
-    made.json["textures"], made.json["images"] = [], []
+    made.json["textures"], made.json["images"], made.json["samplers"] = [], [], [sampler or {}]
     for name, texel in pictures.items():
         png = shade.Picture(np.full((8, 8, 4), (*texel, 255), np.uint8)).png()
         made.json["images"].append({"bufferView": made.view(png), "mimeType": "image/png"})
-        made.json["textures"].append({"source": len(made.json["images"]) - 1})
+        made.json["textures"].append({"source": len(made.json["images"]) - 1, "sampler": 0})
         place = material["pbrMetallicRoughness"] if name in ("metallicRoughnessTexture",
                                                               "baseColorTexture") else material
         place[name] = {"index": len(made.json["textures"]) - 1}
@@ -197,10 +198,118 @@ def test_a_section_keeps_the_maps():
     assert all(piece.relief is not None and piece.glow is not None for piece in cut.pieces[:1])
 
 
-def test_a_renderer_tells_what_it_leaves_out():
-    renderer = shade.Renderer(32, 32)
-    with pytest.warns(UserWarning, match="its normal, bump and emissive maps are left out"):
-        renderer.mesh(square(glow=np.zeros((2, 2, 3), np.uint8)))
+def camera_picture(mesh, pose=None, srgb=True, lamps=LAMPS, shadow=None, cube=False, **options):
+    """A Renderer's picture of a square, and which pixels lie inside of it."""
+    renderer = shade.Renderer(48, 48, srgb=srgb)
+    if cube:
+        options["texture"] = renderer.texture(np.full((6, 2, 2, 3), 255, np.uint8))
+    renderer.add(renderer.mesh(mesh), pose=pose, **options)
+    renderer.light(lamps, (0.1, 0.1, 0.1), shadow)
+    got = renderer.render(EYE, normals=True)
+    there = got.ids[..., 0] >= 0
+    for axis in (0, 1):
+        there &= np.roll(there, 2, axis) & np.roll(there, -2, axis)
+    assert there.sum() > 100
+    return got, there
+
+
+EYE = shade.Camera.look_at((0.4, 0.3, 4), (0.4, 0.5, 0), fov=20)
+
+
+def lit(normal, there, pose=np.eye(4), glow=(0, 0, 0)):
+    """Bytes of the pixels of a square in the plane z = 0 of pose, in double: Blinn-Phong of the lamps, and glow."""
+    def unit(v):
+        return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+    rows, columns = np.nonzero(there)
+    back = np.linalg.inv(EYE.view)
+    sight = np.stack([(columns + 0.5) / 24 - 1, 1 - (rows + 0.5) / 24, -np.ones(len(rows))], 1)
+    sight[:, :2] *= np.tan(np.radians(10))
+    sight, N = sight @ back[:3, :3].T, unit(np.asarray(normal, float))
+    plane = np.linalg.inv(pose[:3, :3]).T[:, 2]
+    P = EYE.eye + sight * ((pose[:3, 3] - EYE.eye) @ plane / (sight @ plane))[:, None]
+    light = 0.1 * np.array(MATTE.diffuse) + np.asarray(glow, float) + 0 * P
+    for lamp in LAMPS:
+        L = unit(np.array(lamp.position[:3], float))
+        H = unit(unit(EYE.eye - P) + L)
+        light += (N @ L > 0) * (max(N @ L, 0) * np.array(MATTE.diffuse) * lamp.diffuse +
+                                (np.maximum(H @ N, 0) ** MATTE.shininess)[:, None] * MATTE.specular * lamp.specular)
+    return 255 * np.clip(np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055), 0, 1)
+
+
+@pytest.mark.parametrize("size", [(1, 1, 1), (0.7, 0.7, 0.7), (0.6, 1.2, 2), (-1, 1, 1)])
+@pytest.mark.parametrize("matrix", [np.eye(3), about(2, 90) @ about(0, -30), about(1, 25), about(0, 160)])
+@pytest.mark.parametrize("way", [(0.5, 0.0, 0.8), (0.0, 0.5, 0.8), (-0.4, 0.3, 0.8)])
+def test_a_renderer_lights_a_normal_map_as_the_equations_do(way, matrix, size):
+    texel = np.round((np.array(way) / np.linalg.norm(way) + 1) / 2 * 255)
+    pose, whole = turned(matrix), turned(matrix * size)
+    pose[:3, 3] = whole[:3, 3] = (0.4, 0.5, 0) - whole[:3, :3] @ (0.5, 0.5, 0)
+    side = 1 if matrix[2, 2] > 0 else -1    # the back is lit as the front is
+    bent, flat = (camera_picture(square(**own), pose, size=size, two_sided=side < 0)
+                  for own in (dict(relief=np.full((4, 4, 3), texel, np.uint8)), {}))
+    for (got, there), normal in ((bent, texel / 255 * 2 - 1), (flat, (0, 0, 1))):
+        wanted = lit(side * np.linalg.inv(whole[:3, :3]).T @ normal, there, whole)
+        assert np.abs(got.color[there] - wanted).max() <= 1
+    assert np.abs(bent[0].color.astype(int) - flat[0].color).max() > 5
+    # depth, numbers and normals are of the surface, not of its relief
+    assert all(np.array_equal(getattr(bent[0], k), getattr(flat[0], k)) for k in ("depth", "ids", "normals"))
+
+
+@pytest.mark.parametrize("repeat, cube, colors", [((1, 1), False, None), ((0.5, 1), True, None),
+                                                  ((2, 3), True, np.ones((4, 3))), ((2, 3), False, np.ones((4, 3)))])
+def test_a_renderer_lights_a_ramp_of_heights_as_the_equations_do(repeat, cube, colors):
+    ramp = np.tile(np.arange(256, dtype=np.uint8)[None, :, None], (8, 1, 3))
+    mesh = square(colors, relief=ramp, strength=0.2, wrap=("clamp", "clamp"))
+    got, there = camera_picture(mesh, repeat=repeat, cube=cube)
+    right = np.nonzero(there)[1].max()    # beyond the edge the clamped picture is flat
+    there[:, int(right - (right - 14) * (1 - 1 / max(repeat[0], 1))) - 4 * (repeat[0] > 1):] = False
+    wanted = lit((-0.2 * repeat[0] * 256 / 255, 0, 1), there)
+    assert there.sum() > 100 and np.abs(got.color[there] - wanted).max() <= 1
+
+
+@pytest.mark.parametrize("texture", [None, np.full((8, 8, 3), 255, np.uint8)])
+def test_a_renderer_adds_what_glows_to_the_light(texture):
+    texel, factor = np.array((200, 100, 50)), (0.5, 1, 2)
+    glow = ((texel / 255 + 0.055) / 1.055) ** 2.4 * factor
+    mesh = square(glow=np.full((4, 4, 3), texel, np.uint8), glow_factor=factor, texture=texture)
+    renderers = [camera_picture(mesh), camera_picture(mesh, shadow=0)]
+    for got, there in renderers:    # nothing hides the lamp
+        assert np.abs(got.color[there] - lit((0, 0, 1), there, glow=glow)).max() <= 1
+    plain, there = camera_picture(mesh, srgb=False, lamps=[shade.Light.directional((0, 0, 1))])
+    shown = 1.055 * np.array(factor) ** (1 / 2.4) - 0.055    # of a display; no lamp shines on it
+    ambient = 0.1 * (1.055 * 0.6 ** (1 / 2.4) - 0.055)
+    assert np.abs(plain.color[there] - np.minimum(texel * np.minimum(shown, 1) + 255 * ambient, 255)).max() <= 1
+
+
+@pytest.mark.parametrize("texture", [None, np.full((16, 16, 3), 255, np.uint8)])
+@pytest.mark.parametrize("name", ["glow", "relief"])
+def test_a_renderer_takes_the_level_of_detail_that_a_scene_takes(name, texture):
+    noise = np.random.default_rng(3).integers(0, 256, (256, 256, 3)).astype(np.uint8)
+    noise[..., 2] = 255 if name == "relief" else noise[..., 2]
+    dark = shade.Material((0, 0, 0), (0.2,) * 3, (0.2,) * 3)
+    mesh = square(material=dark if name == "glow" else MATTE,
+                  **{name: noise, "texture": texture, "glow_factor": (0.5, 0.5, 0.5)})
+    got, there = camera_picture(mesh, size=0.6)
+    scene = shade.Scene(LAMPS, (0.1, 0.1, 0.1))
+    scene.add(mesh, turned(0.6 * np.eye(3)))
+    wanted = scene.render(EYE, (48, 48), samples=1, light="scene").rgba[..., :3]
+    assert np.abs(got.color[there].astype(int) - wanted[there]).max() <= 1
+    assert there.sum() > 200 and got.color[there].std(0).max() > 1
+
+
+def test_objects_with_pictures_share_a_picture_and_are_copied():
+    relief = np.full((4, 4, 3), (190, 128, 230), np.uint8)
+    made = shade.Renderer(24, 24)
+    bent, plain = made.mesh(square(relief=relief, glow=np.full((2, 2, 3), 99, np.uint8))), made.mesh(square())
+    for x, shape in enumerate((bent, plain, bent)):
+        made.add(shape, 0.5, at=(0.6 * x - 0.6, 0, 0))
+    got = pickle.loads(pickle.dumps(made)).render(EYE, normals=True)
+    one = made.render(EYE, normals=True)
+    assert all(np.array_equal(a, b) for a, b in zip(got, one))
+    alone = [made.show(k, False) or made.render(EYE) for k in (1, 0)]
+    assert np.array_equal(alone[1].color[:, 17:], one.color[:, 17:])
+    made.update(bent, square())
+    assert len(made._textures) == 0 and (made.render(EYE).color != one.color).any()
 
 
 def test_the_map_of_mtl_multiplies_what_shines(tmp_path):
@@ -227,3 +336,47 @@ def test_a_picture_that_cannot_be_read_is_told_once(tmp_path):
         warnings.simplefilter("always")
         shade.load(tmp_path / "a.obj")
     assert len([one for one in told if "missing.png" in str(one.message)]) == 1
+
+
+@pytest.mark.parametrize("drawn", ["scene", "renderer", "texture"])
+def test_texels_that_a_file_wants_as_squares_are(drawn):
+    red, blue = (255, 0, 0), (0, 0, 255)
+    rows = np.array([[red, blue], [blue, red]], np.uint8)
+    camera = shade.Camera.look_at((0.5, 0.5, 4), (0.5, 0.5, 0), up=(0, 1, 0), fov=14)
+
+    def colors(squares, times):
+        picture = rows.repeat(times, 0).repeat(times, 1)
+        mesh = square(texture=picture, squares=squares, wrap=("clamp", "clamp"),
+                      material=shade.Material((0, 0, 0), (1, 1, 1), (1, 1, 1)))
+        if drawn == "scene":
+            scene = shade.Scene([], (1, 1, 1))
+            scene.add(mesh)
+            return scene.render(camera, (40, 40), samples=1).rgba[..., :3]
+        renderer = shade.Renderer(40, 40)
+        if drawn == "texture":
+            mesh = renderer.mesh(CORNERS, FACES, uv=UV)
+            renderer.add(mesh, texture=renderer.texture(picture, ("clamp", "clamp"), squares))
+        else:
+            renderer.add(renderer.mesh(mesh))
+        renderer.light([], (1, 1, 1))
+        return pickle.loads(pickle.dumps(renderer)).render(camera).color
+
+    got = colors(True, 1)
+    there = np.argwhere((got != 255).any(-1))
+    half, middle = len(np.unique(there[:, 0])) / 2, there.mean(0)
+    assert half > 15
+    for y, x in there:    # the upper left is red
+        assert tuple(got[y, x]) == (red if (y < middle[0]) == (x < middle[1]) else blue)
+    assert (colors(False, 1) != got).any(-1).sum() > 400
+    # beyond 512 texels a side they are smaller than pixels
+    assert np.array_equal(colors(True, 300), colors(False, 300))
+    with pytest.raises(shade.Error, match="squares must be True or False"):
+        colors("no", 1)
+
+
+@pytest.mark.parametrize("sampler, squares", [({"magFilter": 9728}, True), ({"magFilter": 9729}, False), ({}, False)])
+def test_the_sampler_of_a_gltf_tells_which_texels_are_squares(sampler, squares):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        surface = file_of(lambda m: None, sampler, baseColorTexture=(9, 8, 7)).pieces[-1].surface
+    assert surface.squares is squares
