@@ -334,14 +334,14 @@ def test_models_of_3mf_in_several_files():
     assert len(shade.load(io.BytesIO(data)).faces) == 12
 
 
-def corners_of(resources, mark, more=None, items='<item objectid="1"/>'):
+def corners_of(resources, mark, more=None, items='<item objectid="1"/>', later=""):
     """Colours of the corners of a triangle that has a mark, and what is said of it."""
     mesh = mesh_xml(np.eye(3), np.array([[0, 1, 2]]), [mark])
-    data = threemf(f'{resources}<object id="1">{mesh}</object>', items, more=more)
+    data = threemf(f'{resources}<object id="1">{mesh}</object>{later}', items, more=more)
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         (vertices, faces), found = files._read(data, "a.3mf", None)
-    assert np.array_equal(vertices[faces[0]], np.eye(3))
+    assert np.array_equal(vertices[faces], [np.eye(3)])
     return found, [str(w.message) for w in said], faces[0]
 
 
@@ -409,15 +409,40 @@ def test_what_3mf_has_beyond_is_told_or_refused_by_name():
             assert len(shade.load(io.BytesIO(data)).faces) == 12
 
 
+PARTS, EXTRUDERS = "it has negative parts or modifiers, which", "the colours of its extruders do not"
+
+
 @pytest.mark.parametrize("name, text, told", [
-    ("Slic3r_PE_model", '<metadata key="volume_type" value="NegativeVolume"/>', True),
-    ("Slic3r_PE_model", '<metadata key="volume_type" value="ModelPart"/>', False),
-    ("model_settings", '<part id="2" subtype="modifier_part"/>', True),
-    ("model_settings", '<part id="2" subtype="normal_part"/>', False)])
+    ("Slic3r_PE_model", '<metadata key="volume_type" value="NegativeVolume"/>', PARTS),
+    ("Slic3r_PE_model", '<metadata key="volume_type" value="ModelPart"/>', ""),
+    ("Slic3r_PE_model", '<metadata type="object" key="extruder" value="2"/>', EXTRUDERS),
+    ("model_settings", '<part id="2" subtype="modifier_part"/>', PARTS),
+    ("model_settings", '<metadata key="extruder" value="12"/>', EXTRUDERS),
+    ("model_settings", '<part id="2" subtype="normal_part"/><metadata key="extruder" value="1"/>', "")])
 def test_parts_of_slicers_that_are_no_plain_ones_are_told(name, text, told):
     more = {f"Metadata/{name}.config": f"<config>{text}</config>"}
     said = corners_of("", "", more)[1]
-    assert bool(said) == told and all("negative parts or modifiers" in line for line in said)
+    assert bool(said) == bool(told) and all(told in line for line in said)
+
+
+@pytest.mark.parametrize("more, told", [
+    ('type="support"', "it has type support, which is not read"),
+    ('type="solidsupport"', "it has type solidsupport, which is not read"),
+    ('type="other"', "it has type other, which is not read")])
+def test_supports_of_3mf_are_told_and_not_drawn(more, told):
+    """As an object, as a part of one, and alone."""
+    support = f'<object id="2" {more}>{mesh_xml(np.eye(3) + 9, np.array([[0, 1, 2]]))}</object>'
+    whole = '<object id="3"><components><component objectid="1"/><component objectid="2"/></components></object>'
+    for items in ('<item objectid="1"/><item objectid="2"/>', '<item objectid="3"/>'):
+        found, said, face = corners_of(support, "", items=items, later=whole)
+        assert len(said) == 1 and told in said[0]
+    with pytest.raises(shade.Error, match="no faces in it, but " + told[7:]):
+        shade.load(io.BytesIO(threemf(support, '<item objectid="2"/>')))
+
+
+def test_objects_of_3mf_that_are_not_printed_are_drawn_and_told():
+    assert not corners_of("", "", items='<item objectid="1" printable="1"/>')[1]
+    assert "not printed" in corners_of("", "", items='<item objectid="1" printable="0"/>')[1][0]
 
 
 def test_names_of_3mf_may_have_percent_signs():
