@@ -181,20 +181,6 @@ static inline int gltf_base64(gltf *g, const char *text, gltf_bytes *out)
     return 0;
 }
 
-/* Undoes %20 and its like, in place. */
-static inline void gltf_unescape(char *text)
-{
-    char *to = text;
-    for (const char *from = text; *from; from++) {
-        const unsigned char digits[4] = { '0', '0', (unsigned char)from[1],
-                                          from[1] ? (unsigned char)from[2] : (unsigned char)0 };
-        const int code = *from == '%' ? json_hex(digits, digits + 4) : -1;
-        *to++ = code > 0 ? (char)code : *from;
-        if (code > 0) from += 2;
-    }
-    *to = 0;
-}
-
 /* What a URI means.  *path is where a file was found, to be freed. */
 static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
 {
@@ -210,7 +196,7 @@ static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
         free(text);
         return failed;
     }
-    gltf_unescape(text);
+    mesh_unescape(text, text, strlen(text) + 1);
     if (!model_is_beside(text)) {
         failed = mesh_fail(g->r, "%s does not lie beside the model", text);
     } else if (!g->m->beside) {

@@ -249,13 +249,10 @@ static inline int threemf_color(threemf *t, xml *x, const char *name)
     shade_vec3 linear;
     if (value.at && (value.size != 7 && value.size != 9)) return xml_fail(x, name, "is no colour");
     if (value.at && *value.at != '#') return xml_fail(x, name, "is no colour");
-    for (size_t i = 1; i < value.size; i++) {
-        const int digit = value.at[i] | 32;
-        const int bits = digit >= '0' && digit <= '9'   ? digit - '0'
-                         : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10
-                                                        : -1;
+    for (size_t i = 1; i < value.size; i += 2) {
+        const long long bits = mesh_hex(value.at + i, value.at + value.size, 2);
         if (bits < 0) return xml_fail(x, name, "is no colour");
-        c[(i - 1) / 2] = i % 2 ? 16 * bits : (c[(i - 1) / 2] + bits) / 255;
+        c[i / 2] = (double)bits / 255;
     }
     linear = shade_linear_from_srgb(shade_v3((float)c[0], (float)c[1], (float)c[2]));
     c[0] = (double)linear.x;
