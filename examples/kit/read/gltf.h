@@ -730,6 +730,7 @@ static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
 /* What a primitive has at its vertices */
 typedef struct gltf_vertices {
     gltf_values position, normal, uv, color, joint[2], weight[2], index;
+    char uv_name[24];
     gather_matrix *bone;
     uint32_t bones;
 } gltf_vertices;
@@ -756,14 +757,16 @@ static inline int gltf_morph(gltf *g, uint32_t primitive, uint32_t mesh, uint32_
     at = weights + 1;
     for (uint32_t i = 0; i < g->j.value[targets].count && i < g->j.value[weights].count; i++) {
         const double weight = json_number_at(&g->j, at, 0);
-        static const char *const names[2] = { "POSITION", "NORMAL" };
-        gltf_values *const base[2] = { &v->position, &v->normal };
-        for (int k = 0; k < 2 && weight != 0; k++) {
+        const char *const names[4] = { "POSITION", "NORMAL", v->uv_name, "COLOR_0" };
+        gltf_values *const base[4] = { &v->position, &v->normal, &v->uv, &v->color };
+        for (int k = 0; k < 4 && weight != 0; k++) {
+            const int width = base[k]->width;
             gltf_values moved;
-            int failed = gltf_attribute(g, target, names[k], 3, 3, v->position.count, &moved);
-            if (!failed && base[k]->width && !base[k]->v) failed = gltf_copy(g, base[k]);
-            for (size_t c = 0; !failed && base[k]->v && c < 3 * moved.count; c++)
-                base[k]->v[c] += weight * gltf_value(&moved, c / 3, (int)(c % 3));
+            int failed = gltf_attribute(g, target, names[k], 2, 4, v->position.count, &moved);
+            if (!failed && width && !base[k]->v) failed = gltf_copy(g, base[k]);
+            for (size_t n = 0; !failed && n < moved.count; n++)
+                for (int c = 0; c < width && c < moved.width; c++)
+                    base[k]->v[n * (size_t)width + (size_t)c] += weight * gltf_value(&moved, n, c);
             free(moved.v);
             if (failed) return 1;
         }
@@ -803,13 +806,14 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
 {
     const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
     const uint32_t index = json_member(&g->j, primitive, "indices");
-    char uv[24];
+    char *const uv = v->uv_name;
     size_t n;
     if (gltf_tell(g, attributes)) return 1;
     if (gltf_read_values(g, json_member(&g->j, attributes, "POSITION"), 3, 3, 0, &v->position))
         return 1;
     n = v->position.count;
-    snprintf(uv, sizeof uv, "TEXCOORD_%d", surface == g->plain ? 0 : (int)g->place[surface].set);
+    snprintf(uv, sizeof v->uv_name, "TEXCOORD_%d",
+             surface == g->plain ? 0 : (int)g->place[surface].set);
     if (gltf_attribute(g, attributes, "NORMAL", 3, 3, n, &v->normal) ||
         gltf_attribute(g, attributes, uv, 2, 2, n, &v->uv) ||
         gltf_colors(g, attributes, surface, n, &v->color) ||

@@ -198,6 +198,18 @@ def test_skins_and_morph_targets_are_at_rest():
     made.json["meshes"][mesh]["weights"] = [0.25, 0.5]
     made.node(mesh=mesh)
     assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 1.5], atol=1e-6)
+    quad = made.json["meshes"][mesh]["primitives"][0]
+    quad["attributes"].update(COLOR_0=made.accessor(np.ones((4, 4), "<f4"), "VEC4"),
+                              TEXCOORD_0=made.accessor(np.zeros((4, 2), "<f4"), "VEC2"))
+    quad["targets"][1] = {"COLOR_0": made.accessor(np.array([[-1, 0, -2]] * 4, "<f4"), "VEC3"),
+                          "TEXCOORD_0": made.accessor(np.array([[1, 0.5]] * 4, "<f4"), "VEC2")}
+    quad["material"] = 0
+    made.json["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    made.json["textures"] = [{"source": 0}]
+    made.json["images"] = [{"bufferView": made.view(shade.Picture(np.full((1, 1, 4), 255, np.uint8)).png())}]
+    found = files._read(made.bytes(), "a.glb", None)[1]
+    assert np.allclose(np.asarray(found["color"]), [shown(0.5), 1, 0])
+    assert np.allclose(np.asarray(found["uv"]), [0.5, 0.75])
     made.json["nodes"][0]["weights"] = [1, 0]
     assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 2], atol=1e-6)
 
