@@ -38,6 +38,7 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_materials_emissive_strength", KNOWN_DRAWN },
                                          { "KHR_materials_pbrSpecularGlossiness", KNOWN_DRAWN },
                                          { "EXT_mesh_gpu_instancing", KNOWN_DRAWN },
+                                         { "KHR_node_visibility", KNOWN_DRAWN },
                                          { "KHR_materials_specular", KNOWN_SILENT },
                                          { "KHR_materials_ior", KNOWN_SILENT },
                                          { "KHR_materials_volume", KNOWN_SILENT },
@@ -1060,9 +1061,11 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gather_matrix *at)
 
 static inline int gltf_node(gltf *g, uint32_t node, const gather_matrix *above)
 {
+    const uint32_t seen = gltf_extended(g, node, "KHR_node_visibility");
     uint32_t children, lower, below;
     gather_matrix local, here;
     int failed = 0;
+    if (seen && json_of(&g->j, seen, "visible", JSON_FALSE)) return 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
         return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
                          GLTF_DEPTH);

@@ -214,6 +214,15 @@ def test_skins_and_morph_targets_are_at_rest():
     assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 2], atol=1e-6)
 
 
+def test_nodes_that_are_hidden_are_not_drawn():
+    made = Glb()
+    mesh = made.quad()
+    made.node(mesh=mesh, extensions={"KHR_node_visibility": {"visible": True}})
+    made.node(mesh=mesh, children=[0], extensions={"KHR_node_visibility": {"visible": False}})
+    made.json["extensionsUsed"] = ["KHR_node_visibility"]
+    assert np.allclose(corners(made.bytes()), QUAD)
+
+
 def test_instances_and_sparse_accessors():
     made = Glb()
     mesh = made.quad()
