@@ -356,6 +356,9 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     { printf "OFF\n4 4 0\n"; rows; faces_of 7; } >"$T/more.off"
     same "a number in a map of colours" wedge.obj more.off 0 "$plain"
     check "is told" said "numbers behind its vertices or faces that are no colours"
+    { cat "$T/wedge.off"; echo 3 0 1 2; } >"$T/more.off"
+    same "OFF with more faces than it counts" wedge.obj more.off 0 "$plain"
+    check "is told" said "more.off: lines behind the vertices and faces that it counts"
     stl_counts() {              # file, count, triangles behind those of the wedge
         stl_colors $1 "made by hand" '\000\000' '\000\000' '\000\000' '\000\000'
         { head -c 80 "$T/$1"; printf "$2\000\000\000"; tail -c +85 "$T/$1"
