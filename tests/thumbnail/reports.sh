@@ -391,6 +391,8 @@ property $2 green\nproperty $2 blue/"; rows "$3 0 0"; printf "$ply_faces"; } >"$
     sed 's/property list/property float what\n&/; s/^3/0 3/' "$T/more.ply" >"$T/both.ply"
     same "two things that are left out" four.obj both.ply 0 "$plain"
     check "are told both" said "both.ply: bytes behind the .*; it has what, which is not read"
+    sed 's/vertex_indices/vertices/' "$T/wide.ply" >"$T/named.ply"
+    bad_model "corners by another name" named.ply "no face of it has three corners, but vertices, which is not read"
     sed 's/"materials"/"extensionsUsed":["KHR_materials_transmission"],&/' "$T/bytes.gltf" \
         >"$T/glass.gltf"
     check "a material of glass" draw glass.gltf a.ppm

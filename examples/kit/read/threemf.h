@@ -1058,9 +1058,7 @@ static inline int threemf_make(threemf *t)
     if (failed || (!t->items.count && threemf_all(t))) return 1;
     threemf_tell_parts(t);
     if (threemf_pass(t, 1)) return 1;
-    if (t->triangles <= 0)
-        return mesh_fail(t->r, "no faces in it%s%s%s", *t->m->unread ? ", but " : "", t->m->unread,
-                         *t->m->unread ? ", which is not read" : "");
+    if (t->triangles <= 0) return known_nothing(t->r, t->m, "no faces in it");
     if (threemf_pass(t, 0)) return 1;
     for (int i = 0; i < t->m->surface_count; i++) t->m->surface[i].set = t->all.colored;
     return gather_finish(t->r, &t->all, t->m);
