@@ -326,6 +326,9 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     sed -i 's/usemtl r/usemtl R/' "$T/library.obj"
     check "a material that is in no library" draw library.obj a.ppm
     check "is told" said "no library has its material R"
+    printf "mtllib\nusemtl r\n$wedge$faces" >"$T/alone.obj"
+    same "materials without a library" wedge.obj alone.obj 0 "--up y"
+    check "are told" said "alone.obj: it names materials, and no library of them"
     for k in "-clamp on" "-mm 0.2 0.5"; do
         library library.mtl "map_Bump $k none.png"
         check "$k is drawn without" draw library.obj a.ppm

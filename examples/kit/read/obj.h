@@ -233,7 +233,7 @@ static inline int obj_object(mesh_reader *r, obj_data *o, model *m, int is_objec
 static inline int obj_library(mesh_reader *r, model *m)
 {
     const unsigned char *begin = mesh_take_line(r);
-    if (m->library_count >= 100) return 0;
+    if (m->library_count >= 100 || r->at == begin) return 0;
     return model_add_library(m, begin, (size_t)(r->at - begin)) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -341,6 +341,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
         missing |=
             m->normals[3 * i] == 0 && m->normals[3 * i + 1] == 0 && m->normals[3 * i + 2] == 0;
     }
+    if (out->surface_count && !out->library_count && out->surface[out->surface_count - 1].name[0])
+        model_warn(out, r->name, "it names materials, and no library of them");
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);
