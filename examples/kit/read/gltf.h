@@ -636,15 +636,32 @@ static inline shade_vec3 gltf_color(const double *v)
     return shade_clamp(c, shade_v3(0, 0, 0), shade_v3(1, 1, 1));
 }
 
+/* Tells of a member that is there. */
+static inline int gltf_told(gltf *g, uint32_t object, const char *name)
+{
+    return json_member(&g->j, object, name)
+               ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, strlen(name))
+               : 0;
+}
+
+/* Colours of specular and glossiness: what is black but for its highlight is a metal. */
+static inline int gltf_gloss(gltf *g, uint32_t gloss, double base[3], double *metal)
+{
+    double shine[3] = { 0, 0, 0 };
+    json_array(&g->j, gloss, "specularFactor", shine, 3);
+    *metal = !json_member(&g->j, gloss, "diffuseTexture") && base[0] + base[1] + base[2] < 0.1 &&
+             shine[0] + shine[1] + shine[2] > 0.5;
+    if (*metal > 0) memcpy(base, shine, sizeof shine);
+    return gltf_told(g, gloss, "specularGlossinessTexture");
+}
+
 /* The picture of metal and roughness */
 static inline int gltf_polish(gltf *g, gltf_place *place, uint32_t rough, model_surface *s)
 {
-    static const char name[] = "metallicRoughnessTexture";
+    const char *const name = "metallicRoughnessTexture";
     if (g->m->polish_wanted)
         return gltf_texture(g, place, rough, name, PICTURE_POLISH, NULL, &s->polish);
-    return json_member(&g->j, rough, name)
-               ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1)
-               : 0;
+    return gltf_told(g, rough, name);
 }
 
 static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gltf_place *place)
@@ -662,7 +679,8 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
         return 1;
     json_array(&g->j, from, gloss ? "diffuseFactor" : "baseColorFactor", base, 4);
     json_array(&g->j, material, "emissiveFactor", glow, 3);
-    metal = gloss ? 0 : json_number_of(&g->j, rough, "metallicFactor", 1);
+    metal = json_number_of(&g->j, rough, "metallicFactor", 1);
+    if (gloss && gltf_gloss(g, gloss, base, &metal)) return 1;
     roughness = gloss ? 1 - json_number_of(&g->j, gloss, "glossinessFactor", 1)
                       : json_number_of(&g->j, rough, "roughnessFactor", 1);
     strength = fmin(100, fmax(0, json_number_of(&g->j, shine, "emissiveStrength", 1)));

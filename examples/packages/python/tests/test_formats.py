@@ -272,6 +272,16 @@ def test_specular_glossiness_and_what_is_not_read():
         "diffuseFactor": [0, 0, 1, 1], "glossinessFactor": 0.1}}}))
     middle = drawn(made.bytes()).rgba[24, 32].astype(int)
     assert middle[2] > 100 > middle[0]
+    gold = [1, 0.7, 0.2]
+    made.json["materials"][0] = {"pbrMetallicRoughness": {"baseColorFactor": [*gold, 1], "roughnessFactor": 0.4}}
+    wanted = drawn(made.bytes()).rgba
+    made.json["materials"][0] = {"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0, 0, 0, 1], "specularFactor": gold, "glossinessFactor": 0.6}}}
+    assert np.array_equal(drawn(made.bytes()).rgba, wanted)
+    made.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"][
+        "specularGlossinessTexture"] = {"index": 0}
+    with pytest.warns(UserWarning, match="it has specularGlossinessTexture, which is not read"):
+        drawn(made.bytes())
     made.json["extensionsRequired"] = ["EXT_made_up"]
     with pytest.raises(shade.Error, match="it needs EXT_made_up, which is not read"):
         shade.load(io.BytesIO(made.bytes()))
