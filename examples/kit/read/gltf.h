@@ -224,7 +224,7 @@ static inline int gltf_buffer(gltf *g, uint32_t number, gltf_bytes *out)
         if (uri) failed = gltf_uri(g, uri, b, &path);
         free(path);
         if (failed) return 1;
-        if (!uri && !g->binary)
+        if (!uri && (!g->binary || number)) /* the first may stand in GLB */
             return mesh_fail(g->r, "buffers[%u] has no bytes", (unsigned)number);
         if (!uri) b->at = g->binary;
         if (!uri) b->size = g->binary_size;

@@ -368,6 +368,9 @@ static inline int threemf_read_texture(threemf *t, xml *x)
     if (kind.size < sizeof texture->kind)
         memcpy(texture->kind, kind.at ? kind.at : x->name.at, kind.size);
     texture->path = xml_copy(xml_value(x, XML_NO_SPACE, "path"));
+    if (xml_equals(xml_value(x, XML_NO_SPACE, "filter"), "nearest") &&
+        known_take(t->r, t->m, KNOWN_TOLD, 0, "filter nearest", 14))
+        return 1;
     return texture->path ? 0 : threemf_out(t);
 }
 

@@ -223,6 +223,15 @@ def test_nodes_that_are_hidden_are_not_drawn():
     assert np.allclose(corners(made.bytes()), QUAD)
 
 
+def test_the_bytes_of_glb_are_those_of_its_first_buffer():
+    made = Glb()
+    made.node(mesh=made.quad())
+    made.json["buffers"].append({"byteLength": 48})
+    made.json["bufferViews"][0]["buffer"] = 1
+    with pytest.raises(shade.Error, match=r"buffers\[1\] has no bytes"):
+        shade.load(io.BytesIO(made.bytes()))
+
+
 def test_instances_and_sparse_accessors():
     made = Glb()
     mesh = made.quad()
@@ -416,6 +425,9 @@ def test_a_texture_of_3mf_lies_with_v_upward():
     assert not said and np.array_equal(looks[numbers[0]].texture, red)
     assert looks[numbers[0]].wrap == ("clamp", "repeat")
     assert np.asarray(found["uv"])[face] == pytest.approx(np.array([[0.5, 0.75]] * 3))
+    near = texture.replace("path", 'filter="nearest" path')
+    said = corners_of(near, 'pid="6" p1="0"', {"3D/a.png": shade.Picture(red).png()})[1]
+    assert "it has filter nearest, which is not read" in said[0]
     found, said, face = corners_of(texture, 'pid="6" p1="0"')
     assert "3D/a.png: it is not in the archive" in said[0]
     assert all(look.texture is None for look in found["surfaces"][1])
