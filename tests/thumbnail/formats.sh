@@ -31,6 +31,10 @@ fi
     printf "$ply_faces" | sed 's|3 \(.\) \(.\) \(.\)|<triangle><v1>\1</v1><v2>\2</v2><v3>\3</v3></triangle>|'
     echo '</volume></mesh></object></amf>'; } >"$T/wedge.amf"
 same "AMF without a colour is not black" wedge.obj wedge.amf 0 "--up y"
+sed 's|</amf>|<constellation id="2"><instance objectid="1"><deltax>5</deltax></instance></constellation>&|' \
+    "$T/wedge.amf" >"$T/placed.amf"
+check "AMF with a constellation" draw placed.amf a.ppm
+check "is told" said "placed.amf: the places of its constellations"
 dxf() { printf '%s\n' 0 SECTION 2 ENTITIES "$@" 0 ENDSEC 0 EOF; }
 line="0 LINE 8 0 10 0 20 0 30 0 11 2 21 0 31 9"
 face="0 3DFACE 8 0 10 0 20 0 30 0 11 2 21 0 31 0 12 0 22 1.5 32 0 13 0 23 1.5 33 0"

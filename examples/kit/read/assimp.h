@@ -103,6 +103,8 @@ static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
     shade_mat4 at = shade_mat4_mul(above, tree_matrix(&node->mTransformation));
     int failed = 0, object;
     if (t->depth > 1000) return mesh_fail(t->reader, "nodes more than 1000 deep");
+    if (t->depth == 2 && t->model->z_up) /* assimp 5 leaves out where AMF's instances are */
+        model_warn(t->model, t->reader->name, "the places of its constellations");
     if (node->mNumMeshes) {
         object = model_add_object(t->model, node->mName.data, strlen(node->mName.data));
         if (object < 0 || faces_object(&t->all.faces, object))
