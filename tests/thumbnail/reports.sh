@@ -234,6 +234,9 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     squared two.gltf "2 1\n255\n$two" $linear
     check "without that" draw two.gltf b.ppm --up y --view right
     check "they run into each other" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    sed 's|UDYKMSAxCjI1NQoAgAA=|AAAA|' "$T/map.gltf" >"$T/broken.gltf"
+    check "a picture that is none" draw broken.gltf a.ppm
+    check "is told by its number" said "images\[0\]: no picture that stb_image reads"
     polished cut.gltf '"metallicFactor":0'
     sed -i 's/"doubleSided":true,/&"alphaMode":"MASK",/; s/0.2,1\]/0.2,0.3]/' "$T/cut.gltf"
     bad_model "less alpha than is cut away" cut.gltf "cut.gltf: nothing of it can be seen: its alpha is below"

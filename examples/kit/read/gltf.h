@@ -516,6 +516,8 @@ static inline int gltf_nearest(gltf *g, uint32_t sampler, int *nearest)
    -1 where it cannot be read, which is a warning. */
 static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what, int *number)
 {
+    static const char *const ways[2][3] = { { "", ", u clamped", ", u mirrored" },
+                                            { "", ", v clamped", ", v mirrored" } };
     const int wrap[2] = { gltf_wrap(g, sampler, "wrapS"), gltf_wrap(g, sampler, "wrapT") };
     const uint32_t view = json_member(&g->j, image, "bufferView");
     mesh_reader *const outer = g->r;
@@ -523,10 +525,12 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
     gltf_bytes bytes = { NULL, 0, NULL };
     char name[64], error[300] = "out of memory", *path = NULL;
     double stride;
+    size_t place = 0;
     int failed, nearest;
     if (gltf_nearest(g, sampler, &nearest)) return 1;
-    snprintf(name, sizeof name, "picture %lu, %d, %d%s", (unsigned long)image, wrap[0], wrap[1],
-             nearest ? ", squares" : "");
+    while (g->item[GLTF_IMAGES][place] != image) place++;
+    snprintf(name, sizeof name, "images[%lu]%s%s%s", (unsigned long)place, ways[0][wrap[0]],
+             ways[1][wrap[1]], nearest ? ", squares" : "");
     *number = picture_find(g->m, name, what);
     if (*number >= 0) return 0;
     quiet.error = error;
