@@ -201,6 +201,9 @@ property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_
     done
     printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
     same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
+    printf 'newmtl q\nKd 0 0 0\nmap_Kd quarters.ppm\n' >"$T/moved.mtl"
+    sed 's/still.mtl/moved.mtl/' "$T/still.obj" >"$T/moved.obj"
+    same "a picture beside black is seen" still.obj moved.obj 0 "--up y"
     polished() {                # file, what the material says: a triangle
         printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
             "materials":[{"name":"m","doubleSided":true,"pbrMetallicRoughness":{

@@ -164,7 +164,6 @@ static int says_nothing(const struct aiMaterial *a, const shade_material *k)
 static int map_from(model_surface *s, const struct aiMaterial *a, int physical)
 {
     static const enum aiTextureType types[2] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
-    shade_material *k = &s->material;
     struct aiString text;
     for (int i = 0; i < 2 && !s->map; i++) {
         unsigned set = 0;
@@ -175,9 +174,7 @@ static int map_from(model_surface *s, const struct aiMaterial *a, int physical)
         s->map = model_text(text.data, strlen(text.data));
         s->set = 1;
         if (!s->map) return 1;
-        /* a map replaces the colour: some formats leave it black beside a map */
-        if (!physical && k->diffuse.x + k->diffuse.y + k->diffuse.z == 0)
-            k->diffuse = k->ambient = shade_v3(0.8f, 0.8f, 0.8f);
+        if (!physical) model_show_map(s);
     }
     return 0;
 }

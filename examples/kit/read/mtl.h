@@ -205,6 +205,7 @@ static inline int mtl_read(mesh_reader *r, model *m)
     mtl_finish(m, s, &clear);
     for (int i = 0; m->surface && i < m->surface_count; i++) {
         shade_material *k = &m->surface[i].material;
+        model_show_map(&m->surface[i]);
         k->ambient = k->diffuse;
         model_glow(&m->surface[i], 0);
         if (k->shininess < 1) k->specular = shade_v3(0, 0, 0); /* too wide */
