@@ -172,7 +172,7 @@ map_reports() {
     printf 'newmtl q\nmap_Kd ../quarters.ppm\n' >"$T/inside/out.mtl"
     printf "mtllib out.mtl\n${wedge}vt .75 .75\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\n" \
         >"$T/inside/out.obj"
-    printf 'newmtl q\n' >"$T/inside/bare.mtl"
+    printf 'newmtl q\nKd 1 1 1\n' >"$T/inside/bare.mtl"
     sed 's/out.mtl/bare.mtl/' "$T/inside/out.obj" >"$T/inside/bare.obj"
     same "a picture outside of the folder is not read" inside/bare.obj inside/out.obj 0 "--up y"
     check "but told" said "quarters.ppm: it lies outside of the model's folder; --outside reads it"
@@ -204,6 +204,8 @@ property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_
     printf 'newmtl q\nKd 0 0 0\nmap_Kd quarters.ppm\n' >"$T/moved.mtl"
     sed 's/still.mtl/moved.mtl/' "$T/still.obj" >"$T/moved.obj"
     same "a picture beside black is seen" still.obj moved.obj 0 "--up y"
+    sed -i '/^Kd/d' "$T/moved.mtl"
+    same "and beside no colour" still.obj moved.obj 0 "--up y"
     polished() {                # file, what the material says: a triangle
         printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
             "materials":[{"name":"m","doubleSided":true,"pbrMetallicRoughness":{
