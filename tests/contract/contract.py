@@ -95,6 +95,7 @@ def threemf(kind, name, required=False):
         needs += f' xmlns:q="{name}"' if prefix == "q:" else ""
     elif kind == "element" and (name.startswith(MATERIALS) or name in ("metadata", "zebra")):
         inside = f'<{"m:" if name.startswith(MATERIALS) else ""}{name} id="99"/>'
+    inside += f'<object id="2" type="{name}">{mesh}</object>' if kind == "type" else ""
     text = f'<model xmlns="{CORE}"' + "".join(f' xmlns:{p}="{u}"' for u, p in SPACES.items() if p) + needs + \
         f'><resources>{inside}<object id="1">{mesh}</object></resources><build><item objectid="1"/></build></model>'
     with zipfile.ZipFile(FOLDER / "a.3mf", "w", zipfile.ZIP_DEFLATED) as file:

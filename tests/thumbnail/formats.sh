@@ -25,6 +25,26 @@ if compile tests/thumbnail/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
     done
 fi
 
+{ echo '<?xml version="1.0"?><amf unit="inch"><object id="1"><mesh><vertices>'
+    printf "$wedge" | sed 's|v \(.*\) \(.*\) \(.*\)|<vertex><coordinates><x>\1</x><y>\2</y><z>\3</z></coordinates></vertex>|'
+    echo '</vertices><volume>'
+    printf "$ply_faces" | sed 's|3 \(.\) \(.\) \(.\)|<triangle><v1>\1</v1><v2>\2</v2><v3>\3</v3></triangle>|'
+    echo '</volume></mesh></object></amf>'; } >"$T/wedge.amf"
+same "AMF without a colour is not black" wedge.obj wedge.amf 0 "--up y"
+sed 's|</amf>|<constellation id="2"><instance objectid="1"><deltax>5</deltax></instance></constellation>&|' \
+    "$T/wedge.amf" >"$T/placed.amf"
+check "AMF with a constellation" draw placed.amf a.ppm
+check "is told" said "placed.amf: the places of its constellations"
+dxf() { printf '%s\n' 0 SECTION 2 ENTITIES "$@" 0 ENDSEC 0 EOF; }
+line="0 LINE 8 0 10 0 20 0 30 0 11 2 21 0 31 9"
+face="0 3DFACE 8 0 10 0 20 0 30 0 11 2 21 0 31 0 12 0 22 1.5 32 0 13 0 23 1.5 33 0"
+dxf $face >"$T/face.dxf"
+dxf $face $line >"$T/both.dxf"
+dxf $line >"$T/line.dxf"
+same "a line beside a face" face.dxf both.dxf 0 "--up y"
+check "is told" said "both.dxf: its points and lines"
+bad_model "lines alone" line.dxf "line.dxf: points and lines alone are not drawn"
+
 # formats beside another reader, by their triangles and the proportions of their boxes
 CORPUS=/usr/share/assimp/models
 shape() {                       # model: its triangles and the edges of its box

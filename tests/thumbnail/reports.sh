@@ -172,7 +172,7 @@ map_reports() {
     printf 'newmtl q\nmap_Kd ../quarters.ppm\n' >"$T/inside/out.mtl"
     printf "mtllib out.mtl\n${wedge}vt .75 .75\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\n" \
         >"$T/inside/out.obj"
-    printf 'newmtl q\n' >"$T/inside/bare.mtl"
+    printf 'newmtl q\nKd 1 1 1\n' >"$T/inside/bare.mtl"
     sed 's/out.mtl/bare.mtl/' "$T/inside/out.obj" >"$T/inside/bare.obj"
     same "a picture outside of the folder is not read" inside/bare.obj inside/out.obj 0 "--up y"
     check "but told" said "quarters.ppm: it lies outside of the model's folder; --outside reads it"
@@ -201,6 +201,11 @@ property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_
     done
     printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
     same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
+    printf 'newmtl q\nKd 0 0 0\nmap_Kd quarters.ppm\n' >"$T/moved.mtl"
+    sed 's/still.mtl/moved.mtl/' "$T/still.obj" >"$T/moved.obj"
+    same "a picture beside black is seen" still.obj moved.obj 0 "--up y"
+    sed -i '/^Kd/d' "$T/moved.mtl"
+    same "and beside no colour" still.obj moved.obj 0 "--up y"
     polished() {                # file, what the material says: a triangle
         printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
             "materials":[{"name":"m","doubleSided":true,"pbrMetallicRoughness":{
@@ -234,6 +239,9 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     squared two.gltf "2 1\n255\n$two" $linear
     check "without that" draw two.gltf b.ppm --up y --view right
     check "they run into each other" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    sed 's|UDYKMSAxCjI1NQoAgAA=|AAAA|' "$T/map.gltf" >"$T/broken.gltf"
+    check "a picture that is none" draw broken.gltf a.ppm
+    check "is told by its number" said "images\[0\]: no picture that stb_image reads"
     polished cut.gltf '"metallicFactor":0'
     sed -i 's/"doubleSided":true,/&"alphaMode":"MASK",/; s/0.2,1\]/0.2,0.3]/' "$T/cut.gltf"
     bad_model "less alpha than is cut away" cut.gltf "cut.gltf: nothing of it can be seen: its alpha is below"
@@ -326,6 +334,9 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     sed -i 's/usemtl r/usemtl R/' "$T/library.obj"
     check "a material that is in no library" draw library.obj a.ppm
     check "is told" said "no library has its material R"
+    printf "mtllib\nusemtl r\n$wedge$faces" >"$T/alone.obj"
+    same "materials without a library" wedge.obj alone.obj 0 "--up y"
+    check "are told" said "alone.obj: it names materials, and no library of them"
     for k in "-clamp on" "-mm 0.2 0.5"; do
         library library.mtl "map_Bump $k none.png"
         check "$k is drawn without" draw library.obj a.ppm
@@ -356,6 +367,9 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     { printf "OFF\n4 4 0\n"; rows; faces_of 7; } >"$T/more.off"
     same "a number in a map of colours" wedge.obj more.off 0 "$plain"
     check "is told" said "numbers behind its vertices or faces that are no colours"
+    { cat "$T/wedge.off"; echo 3 0 1 2; } >"$T/more.off"
+    same "OFF with more faces than it counts" wedge.obj more.off 0 "$plain"
+    check "is told" said "more.off: lines behind the vertices and faces that it counts"
     stl_counts() {              # file, count, triangles behind those of the wedge
         stl_colors $1 "made by hand" '\000\000' '\000\000' '\000\000' '\000\000'
         { head -c 80 "$T/$1"; printf "$2\000\000\000"; tail -c +85 "$T/$1"
@@ -388,6 +402,8 @@ property $2 green\nproperty $2 blue/"; rows "$3 0 0"; printf "$ply_faces"; } >"$
     sed 's/property list/property float what\n&/; s/^3/0 3/' "$T/more.ply" >"$T/both.ply"
     same "two things that are left out" four.obj both.ply 0 "$plain"
     check "are told both" said "both.ply: bytes behind the .*; it has what, which is not read"
+    sed 's/vertex_indices/vertices/' "$T/wide.ply" >"$T/named.ply"
+    bad_model "corners by another name" named.ply "no face of it has three corners, but vertices, which is not read"
     sed 's/"materials"/"extensionsUsed":["KHR_materials_transmission"],&/' "$T/bytes.gltf" \
         >"$T/glass.gltf"
     check "a material of glass" draw glass.gltf a.ppm
@@ -423,6 +439,13 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
     { printf 'v -1 0 0\nv -1 1 0\n'; sed 's/^f \(.\) \(.\) \(.\)/f -4 -3 -2/' "$T/bytes.obj"; } >"$T/some.obj"
     { printf 'v -1 0 0\nv -1 1 0\n'; sed 's/^f \(.\) \(.\) \(.\)/f -4 -3 -2/' "$T/parts.obj"; } >"$T/two.obj"
     same "of some vertices" two.obj some.obj 0 "$plain"
+    paint="#MRGB ffffff00FF333300\n#MRGB 00666600ff000000\n"
+    { printf "v -1 0 0\nv -1 1 0\n$wedge$paint"; sed -n '/^f/p' "$T/two.obj"; } >"$T/zbrush.obj"
+    same "as ZBrush writes them" two.obj zbrush.obj 0 "$plain"
+    check "without a word" test ! -s "$T/err"
+    { printf "$wedge$paint#MRGB ffffffff\n$faces"; } >"$T/zbrush.obj"
+    same "more than there are vertices" wedge.obj zbrush.obj 0 "$plain"
+    check "are told" said "zbrush.obj: it has #MRGB, which is not read"
     sed '1s/ 1 1 0$//' "$T/parts.obj" >"$T/some.obj"
     sed '1s/ 1 1 0$/ 1 1 1/' "$T/parts.obj" >"$T/two.obj"
     same "and a vertex without one is white" two.obj some.obj 0 "$plain"

@@ -11,7 +11,6 @@
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <assimp/config.h>
 #include <errno.h>
 
 /* ---- meshes --------------------------------------------------------------------------------- */
@@ -51,13 +50,14 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
     const shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
     gather_corner v = { .position = { (double)P.x, (double)P.y, (double)P.z },
                         .color = { 1, 1, 1 } };
+    struct aiColor4D color = { 0, 0, 0, 0 };
     if (mesh->mNormals) {
         const struct aiVector3D n = mesh->mNormals[i];
         v.normal = shade_mat3_transform(turn, shade_v3(n.x, n.y, n.z));
     }
-    if (mesh->mColors[0]) {
-        const struct aiColor4D c = mesh->mColors[0][i];
-        v.color = shade_linear_from_srgb(shade_v3(c.r, c.g, c.b));
+    if (mesh->mColors[0]) color = mesh->mColors[0][i];
+    if (color.r + color.g + color.b + color.a > 0) { /* all 0: AMF has none there */
+        v.color = shade_linear_from_srgb(shade_v3(color.r, color.g, color.b));
         t->all.colored = t->all.colors_kept = 1;
     }
     if (coords) {
@@ -72,9 +72,11 @@ static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
     size_t first = t->all.positions.count / 3;
     shade_mat3 turn = shade_normal_matrix(at);
     int mirrored = shade_mat3_determinant(shade_mat3_from_mat4(at)) < 0;
-    if (!mesh->mNumFaces ||
-        !(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)))
+    if (!mesh->mNumFaces) return 0;
+    if (!(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON))) {
+        model_warn(t->model, t->reader->name, "its points and lines");
         return 0;
+    }
     if (first + mesh->mNumVertices >= INT_MAX) return mesh_fail(t->reader, "too many vertices");
     if (faces_surface(&t->all.faces, (int)mesh->mMaterialIndex))
         return mesh_fail(t->reader, "out of memory");
@@ -101,6 +103,8 @@ static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
     shade_mat4 at = shade_mat4_mul(above, tree_matrix(&node->mTransformation));
     int failed = 0, object;
     if (t->depth > 1000) return mesh_fail(t->reader, "nodes more than 1000 deep");
+    if (t->depth == 2 && t->model->z_up) /* assimp 5 leaves out where AMF's instances are */
+        model_warn(t->model, t->reader->name, "the places of its constellations");
     if (node->mNumMeshes) {
         object = model_add_object(t->model, node->mName.data, strlen(node->mName.data));
         if (object < 0 || faces_object(&t->all.faces, object))
@@ -160,7 +164,6 @@ static int says_nothing(const struct aiMaterial *a, const shade_material *k)
 static int map_from(model_surface *s, const struct aiMaterial *a, int physical)
 {
     static const enum aiTextureType types[2] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
-    shade_material *k = &s->material;
     struct aiString text;
     for (int i = 0; i < 2 && !s->map; i++) {
         unsigned set = 0;
@@ -171,9 +174,7 @@ static int map_from(model_surface *s, const struct aiMaterial *a, int physical)
         s->map = model_text(text.data, strlen(text.data));
         s->set = 1;
         if (!s->map) return 1;
-        /* a map replaces the colour: some formats leave it black beside a map */
-        if (!physical && k->diffuse.x + k->diffuse.y + k->diffuse.z == 0)
-            k->diffuse = k->ambient = shade_v3(0.8f, 0.8f, 0.8f);
+        if (!physical) model_show_map(s);
     }
     return 0;
 }
@@ -319,6 +320,8 @@ static int memory_ran_out(void) { return errno == ENOMEM; }
 static int tree_finish(tree *t, model *m)
 {
     if (!t->all.faces.triangles && memory_ran_out()) return mesh_fail(t->reader, "out of memory");
+    if (!t->all.faces.triangles && m->warning[0])
+        return mesh_fail(t->reader, "points and lines alone are not drawn");
     return gather_finish(t->reader, &t->all, m);
 }
 
@@ -378,21 +381,15 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     static const tree empty_tree;
     mesh_reader r = mesh_about(path, q->error, q->error_size);
     model_kind kind = model_kind_of(path);
-    struct aiPropertyStore *set = aiCreatePropertyStore();
     tree t = empty_tree;
     int failed;
     *m = empty_model;
     r.most = q->most;
-    if (!set) return mesh_fail(&r, "out of memory");
     errno = 0;
-    aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
-                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     if (!bytes)
-        t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
+        t.scene = aiImportFile(path, flags);
     else if (size <= UINT_MAX)
-        t.scene = aiImportFileFromMemoryWithProperties((const char *)bytes, (unsigned)size, flags,
-                                                       kind.text, set);
-    aiReleasePropertyStore(set);
+        t.scene = aiImportFileFromMemory((const char *)bytes, (unsigned)size, flags, kind.text);
     if (!t.scene) return assimp_failed(&r);
     if (assimp_other(t.scene)) {
         mesh_fail(&r, "it is of %s, which is not read", assimp_other(t.scene));

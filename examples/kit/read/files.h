@@ -105,7 +105,8 @@ static const struct {
                     { "gltf", "attribute", gltf_attributes },
                     { "3mf", "extension", threemf_extensions },
                     { "3mf", "element", threemf_elements },
-                    { "3mf", "attribute", threemf_attributes } };
+                    { "3mf", "attribute", threemf_attributes },
+                    { "3mf", "type", threemf_types } };
 
 static inline int model_read_stl(mesh_reader *r, model *m)
 {

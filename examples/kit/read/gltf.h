@@ -38,6 +38,7 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_materials_emissive_strength", KNOWN_DRAWN },
                                          { "KHR_materials_pbrSpecularGlossiness", KNOWN_DRAWN },
                                          { "EXT_mesh_gpu_instancing", KNOWN_DRAWN },
+                                         { "KHR_node_visibility", KNOWN_DRAWN },
                                          { "KHR_materials_specular", KNOWN_SILENT },
                                          { "KHR_materials_ior", KNOWN_SILENT },
                                          { "KHR_materials_volume", KNOWN_SILENT },
@@ -181,20 +182,6 @@ static inline int gltf_base64(gltf *g, const char *text, gltf_bytes *out)
     return 0;
 }
 
-/* Undoes %20 and its like, in place. */
-static inline void gltf_unescape(char *text)
-{
-    char *to = text;
-    for (const char *from = text; *from; from++) {
-        const unsigned char digits[4] = { '0', '0', (unsigned char)from[1],
-                                          from[1] ? (unsigned char)from[2] : (unsigned char)0 };
-        const int code = *from == '%' ? json_hex(digits, digits + 4) : -1;
-        *to++ = code > 0 ? (char)code : *from;
-        if (code > 0) from += 2;
-    }
-    *to = 0;
-}
-
 /* What a URI means.  *path is where a file was found, to be freed. */
 static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
 {
@@ -210,7 +197,7 @@ static inline int gltf_uri(gltf *g, uint32_t at, gltf_bytes *out, char **path)
         free(text);
         return failed;
     }
-    gltf_unescape(text);
+    mesh_unescape(text, text, strlen(text) + 1);
     if (!model_is_beside(text)) {
         failed = mesh_fail(g->r, "%s does not lie beside the model", text);
     } else if (!g->m->beside) {
@@ -237,7 +224,7 @@ static inline int gltf_buffer(gltf *g, uint32_t number, gltf_bytes *out)
         if (uri) failed = gltf_uri(g, uri, b, &path);
         free(path);
         if (failed) return 1;
-        if (!uri && !g->binary)
+        if (!uri && (!g->binary || number)) /* the first may stand in GLB */
             return mesh_fail(g->r, "buffers[%u] has no bytes", (unsigned)number);
         if (!uri) b->at = g->binary;
         if (!uri) b->size = g->binary_size;
@@ -520,6 +507,8 @@ static inline void gltf_kind(const gltf *g, uint32_t image, model_picture *p)
    -1 where it cannot be read, which is a warning. */
 static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what, int *number)
 {
+    static const char *const ways[2][3] = { { "", ", u clamped", ", u mirrored" },
+                                            { "", ", v clamped", ", v mirrored" } };
     const int wrap[2] = { gltf_wrap(g, sampler, "wrapS"), gltf_wrap(g, sampler, "wrapT") };
     const uint32_t view = json_member(&g->j, image, "bufferView");
     mesh_reader *const outer = g->r;
@@ -528,9 +517,11 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
     char name[64], error[300] = "out of memory", *path = NULL;
     double stride;
     const int nearest = json_number_of(&g->j, sampler, "magFilter", 9729) == 9728;
+    size_t place = 0;
     int failed;
-    snprintf(name, sizeof name, "picture %lu, %d, %d%s", (unsigned long)image, wrap[0], wrap[1],
-             nearest ? ", squares" : "");
+    while (g->item[GLTF_IMAGES][place] != image) place++;
+    snprintf(name, sizeof name, "images[%lu]%s%s%s", (unsigned long)place, ways[0][wrap[0]],
+             ways[1][wrap[1]], nearest ? ", squares" : "");
     *number = picture_find(g->m, name, what);
     if (*number >= 0) return 0;
     quiet.error = error;
@@ -640,15 +631,32 @@ static inline shade_vec3 gltf_color(const double *v)
     return shade_clamp(c, shade_v3(0, 0, 0), shade_v3(1, 1, 1));
 }
 
+/* Tells of a member that is there. */
+static inline int gltf_told(gltf *g, uint32_t object, const char *name)
+{
+    return json_member(&g->j, object, name)
+               ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, strlen(name))
+               : 0;
+}
+
+/* Colours of specular and glossiness: what is black but for its highlight is a metal. */
+static inline int gltf_gloss(gltf *g, uint32_t gloss, double base[3], double *metal)
+{
+    double shine[3] = { 0, 0, 0 };
+    json_array(&g->j, gloss, "specularFactor", shine, 3);
+    *metal = !json_member(&g->j, gloss, "diffuseTexture") && base[0] + base[1] + base[2] < 0.1 &&
+             shine[0] + shine[1] + shine[2] > 0.5;
+    if (*metal > 0) memcpy(base, shine, sizeof shine);
+    return gltf_told(g, gloss, "specularGlossinessTexture");
+}
+
 /* The picture of metal and roughness */
 static inline int gltf_polish(gltf *g, gltf_place *place, uint32_t rough, model_surface *s)
 {
-    static const char name[] = "metallicRoughnessTexture";
+    const char *const name = "metallicRoughnessTexture";
     if (g->m->polish_wanted)
         return gltf_texture(g, place, rough, name, PICTURE_POLISH, NULL, &s->polish);
-    return json_member(&g->j, rough, name)
-               ? known_take(g->r, g->m, KNOWN_TOLD, 0, name, sizeof name - 1)
-               : 0;
+    return gltf_told(g, rough, name);
 }
 
 static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gltf_place *place)
@@ -666,7 +674,8 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
         return 1;
     json_array(&g->j, from, gloss ? "diffuseFactor" : "baseColorFactor", base, 4);
     json_array(&g->j, material, "emissiveFactor", glow, 3);
-    metal = gloss ? 0 : json_number_of(&g->j, rough, "metallicFactor", 1);
+    metal = json_number_of(&g->j, rough, "metallicFactor", 1);
+    if (gloss && gltf_gloss(g, gloss, base, &metal)) return 1;
     roughness = gloss ? 1 - json_number_of(&g->j, gloss, "glossinessFactor", 1)
                       : json_number_of(&g->j, rough, "roughnessFactor", 1);
     strength = fmin(100, fmax(0, json_number_of(&g->j, shine, "emissiveStrength", 1)));
@@ -735,6 +744,7 @@ static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
 /* What a primitive has at its vertices */
 typedef struct gltf_vertices {
     gltf_values position, normal, uv, color, joint[2], weight[2], index;
+    char uv_name[24];
     gather_matrix *bone;
     uint32_t bones;
 } gltf_vertices;
@@ -761,14 +771,16 @@ static inline int gltf_morph(gltf *g, uint32_t primitive, uint32_t mesh, uint32_
     at = weights + 1;
     for (uint32_t i = 0; i < g->j.value[targets].count && i < g->j.value[weights].count; i++) {
         const double weight = json_number_at(&g->j, at, 0);
-        static const char *const names[2] = { "POSITION", "NORMAL" };
-        gltf_values *const base[2] = { &v->position, &v->normal };
-        for (int k = 0; k < 2 && weight != 0; k++) {
+        const char *const names[4] = { "POSITION", "NORMAL", v->uv_name, "COLOR_0" };
+        gltf_values *const base[4] = { &v->position, &v->normal, &v->uv, &v->color };
+        for (int k = 0; k < 4 && weight != 0; k++) {
+            const int width = base[k]->width;
             gltf_values moved;
-            int failed = gltf_attribute(g, target, names[k], 3, 3, v->position.count, &moved);
-            if (!failed && base[k]->width && !base[k]->v) failed = gltf_copy(g, base[k]);
-            for (size_t c = 0; !failed && base[k]->v && c < 3 * moved.count; c++)
-                base[k]->v[c] += weight * gltf_value(&moved, c / 3, (int)(c % 3));
+            int failed = gltf_attribute(g, target, names[k], 2, 4, v->position.count, &moved);
+            if (!failed && width && !base[k]->v) failed = gltf_copy(g, base[k]);
+            for (size_t n = 0; !failed && n < moved.count; n++)
+                for (int c = 0; c < width && c < moved.width; c++)
+                    base[k]->v[n * (size_t)width + (size_t)c] += weight * gltf_value(&moved, n, c);
             free(moved.v);
             if (failed) return 1;
         }
@@ -808,13 +820,14 @@ static inline int gltf_load(gltf *g, uint32_t primitive, int surface, gltf_verti
 {
     const uint32_t attributes = json_of(&g->j, primitive, "attributes", JSON_OBJECT);
     const uint32_t index = json_member(&g->j, primitive, "indices");
-    char uv[24];
+    char *const uv = v->uv_name;
     size_t n;
     if (gltf_tell(g, attributes)) return 1;
     if (gltf_read_values(g, json_member(&g->j, attributes, "POSITION"), 3, 3, 0, &v->position))
         return 1;
     n = v->position.count;
-    snprintf(uv, sizeof uv, "TEXCOORD_%d", surface == g->plain ? 0 : (int)g->place[surface].set);
+    snprintf(uv, sizeof v->uv_name, "TEXCOORD_%d",
+             surface == g->plain ? 0 : (int)g->place[surface].set);
     if (gltf_attribute(g, attributes, "NORMAL", 3, 3, n, &v->normal) ||
         gltf_attribute(g, attributes, uv, 2, 2, n, &v->uv) ||
         gltf_colors(g, attributes, surface, n, &v->color) ||
@@ -1061,9 +1074,11 @@ static inline int gltf_mesh(gltf *g, uint32_t node, const gather_matrix *at)
 
 static inline int gltf_node(gltf *g, uint32_t node, const gather_matrix *above)
 {
+    const uint32_t seen = gltf_extended(g, node, "KHR_node_visibility");
     uint32_t children, lower, below;
     gather_matrix local, here;
     int failed = 0;
+    if (seen && json_of(&g->j, seen, "visible", JSON_FALSE)) return 0;
     if (++g->nodes > GLTF_NODES || g->depth >= GLTF_DEPTH)
         return mesh_fail(g->r, "more than %d nodes, %d deep, or they go in circles", GLTF_NODES,
                          GLTF_DEPTH);

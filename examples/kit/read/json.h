@@ -90,19 +90,6 @@ static inline int json_take_number(mesh_reader *r)
     return 0;
 }
 
-/* Four digits of base 16 behind \u; -1: there are none */
-static inline int json_hex(const unsigned char *at, const unsigned char *end)
-{
-    int code = 0;
-    for (int k = 0; k < 4; k++) {
-        const int c = at + k < end ? at[k] | 32 : 0;
-        const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-        if (digit < 0) return -1;
-        code = code * 16 + digit;
-    }
-    return code;
-}
-
 static inline int json_take_text(mesh_reader *r)
 {
     for (r->at++; r->at < r->end && *r->at != '"'; r->at++) {
@@ -111,7 +98,7 @@ static inline int json_take_text(mesh_reader *r)
         r->at++;
         if (r->at == r->end || !*r->at || !strchr("\"\\/bfnrtu", *r->at))
             return json_wrong(r, "one of \"\\/bfnrtu");
-        if (*r->at == 'u' && json_hex(r->at + 1, r->end) < 0)
+        if (*r->at == 'u' && mesh_hex(r->at + 1, r->end, 4) < 0)
             return json_wrong(r, "four digits of base 16");
     }
     if (r->at == r->end) return json_wrong(r, "a quotation mark");
@@ -317,9 +304,10 @@ static inline char *json_copy(const json_doc *j, uint32_t at)
             *to++ = known ? means[known - escapes] : (char)from[-1];
             continue;
         }
-        code = (unsigned)json_hex(from, end);
+        code = (unsigned)mesh_hex(from, end, 4);
         from += 4;
-        low = end - from > 5 && from[0] == '\\' && from[1] == 'u' ? json_hex(from + 2, end) : -1;
+        low = end - from > 5 && from[0] == '\\' && from[1] == 'u' ? (int)mesh_hex(from + 2, end, 4)
+                                                                  : -1;
         if (code >= 0xD800 && code < 0xDC00 && low >= 0xDC00 && low < 0xE000) {
             code = 0x10000 + ((code - 0xD800) << 10) + ((unsigned)low - 0xDC00);
             from += 6;

@@ -64,13 +64,24 @@ static inline int known_word(mesh_reader *r, model *m, const known_name *list)
                       (size_t)(end.at - r->at));
 }
 
+static inline const char *known_are(const model *m)
+{
+    return strchr(m->unread, ',') ? "are" : "is";
+}
+
+/* Fails because there is nothing to draw, and names what was noted. */
+static inline int known_nothing(mesh_reader *r, const model *m, const char *what)
+{
+    if (!m->unread[0]) return mesh_fail(r, "%s", what);
+    return mesh_fail(r, "%s, but %s, which %s not read", what, m->unread, known_are(m));
+}
+
 /* Warns of what was noted. */
 static inline void known_tell(model *m, const char *about)
 {
     char text[sizeof m->unread + 40];
-    const char *many = strchr(m->unread, ',') ? "are" : "is";
     if (!m->unread[0]) return;
-    snprintf(text, sizeof text, "it has %s, which %s not read", m->unread, many);
+    snprintf(text, sizeof text, "it has %s, which %s not read", m->unread, known_are(m));
     model_warn(m, about, text);
     m->unread[0] = 0;
 }

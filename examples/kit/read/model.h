@@ -239,6 +239,14 @@ static inline void model_polish(model_surface *s, float metal, float rough)
     model_rough(s, s->metal * metal, s->rough * rough);
 }
 
+/* A picture replaces black, as some programs leave the colour beside one. */
+static inline void model_show_map(model_surface *s)
+{
+    shade_material *k = &s->material;
+    if (s->map && k->diffuse.x + k->diffuse.y + k->diffuse.z <= 0)
+        k->diffuse = k->ambient = shade_v3(1, 1, 1);
+}
+
 /* Where there is a picture of what shines, the colour of emission is its factor.  Files that are
    not exact leave that colour black. */
 static inline void model_glow(model_surface *s, int exact)

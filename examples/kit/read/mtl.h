@@ -74,12 +74,12 @@ static inline int mtl_number(mesh_reader *r, float lowest, float highest, float 
 /* What a surface says of its transparency besides the number, and of the places of pictures other
    than map_Kd */
 typedef struct mtl_clear {
-    int has_d, mapped, others; /* mapped: there is a map_d; others: another picture */
+    int has_kd, has_d, mapped, others; /* mapped: there is a map_d; others: another picture */
     char *map;
     float move[4];
     float white; /* of the colours of all surfaces */
 } mtl_clear;
-static const mtl_clear mtl_fresh = { 0, 0, 0, NULL, { 0, 0, 1, 1 }, 1 };
+static const mtl_clear mtl_fresh = { 0, 0, 0, 0, NULL, { 0, 0, 1, 1 }, 1 };
 
 /* The name of a picture behind options, which begin with a dash: the numbers after one are its
    own, and of those that take a word the word.  What may be missing: *strength becomes the number
@@ -147,7 +147,10 @@ static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_
 {
     shade_material *k = &s->material;
     float number;
-    if (mesh_take_word(r, "kd")) return mtl_color(r, c->white, &k->diffuse);
+    if (mesh_take_word(r, "kd")) {
+        c->has_kd = 1;
+        return mtl_color(r, c->white, &k->diffuse);
+    }
     if (mesh_take_word(r, "ks")) return mtl_color(r, c->white, &k->specular);
     if (mesh_take_word(r, "ke")) return mtl_color(r, c->white, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
@@ -172,6 +175,7 @@ static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
     if (s && c->others && !s->map) memcpy(s->move, c->move, sizeof s->move);
     if (s && c->others && memcmp(c->move, s->move, sizeof s->move) != 0)
         model_warn(m, s->map, "its -o and -s are not those of the other pictures");
+    if (s && s->map && !c->has_kd) s->material.diffuse = shade_v3(0, 0, 0);
     if (s && s->map) s->opaque = !c->mapped && s->transparency <= 0;
     if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))
         model_warn(m, c->map, "map_d counts only where it is the picture of map_Kd");
@@ -205,6 +209,7 @@ static inline int mtl_read(mesh_reader *r, model *m)
     mtl_finish(m, s, &clear);
     for (int i = 0; m->surface && i < m->surface_count; i++) {
         shade_material *k = &m->surface[i].material;
+        model_show_map(&m->surface[i]);
         k->ambient = k->diffuse;
         model_glow(&m->surface[i], 0);
         if (k->shininess < 1) k->specular = shade_v3(0, 0, 0); /* too wide */

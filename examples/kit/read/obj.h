@@ -1,7 +1,7 @@
-/* obj.h - reads OBJ: v (with optional w or red green blue), vt, vn and f, every form of index (v,
-   v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any shape, usemtl,
-   mtllib, o and g, continued lines, comments, any line ends.  obj_known has the other statements.
-   One vertex is made for each different v/vt/vn. */
+/* obj.h - reads OBJ: v (with optional w or red green blue, or #MRGB of ZBrush), vt, vn and f, every
+   form of index (v, v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any
+   shape, usemtl, mtllib, o and g, continued lines, comments, any line ends.  obj_known has the
+   other statements.  One vertex is made for each different v/vt/vn. */
 #ifndef MODEL_OBJ_H
 #define MODEL_OBJ_H
 
@@ -40,7 +40,8 @@ typedef struct obj_corner_place {
 typedef struct obj_data {
     mesh_floats list[3], color; /* color: of the first so many v, NAN where there is none, as the
                                    file has it and at the end in linear light; empty: none */
-    float bright;               /* the greatest of them */
+    mesh_floats painted;        /* colours of ZBrush for as many v before them */
+    float bright;               /* the greatest of color */
     float clearest;             /* the least number behind them, which is alpha */
     mesh_origin origin;
     mesh_set corners; /* v, vt, vn, counted from 1; 0: absent */
@@ -63,21 +64,55 @@ static inline int obj_numbers(mesh_reader *r, double *out, int wanted, int allow
     return 0;
 }
 
-static inline int obj_vertex(mesh_reader *r, obj_data *o)
+/* The first so many numbers of v have colours, or NAN where there are none. */
+static inline int obj_color_to(mesh_reader *r, obj_data *o, size_t count)
 {
     static const float none[3] = { NAN, NAN, NAN };
+    while (o->color.count < count)
+        if (mesh_push(&o->color, none, 3)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+/* #MRGB in comments of ZBrush: eight digits of base 16 for each v, of which the first two are a
+   mask */
+static inline int obj_comment(mesh_reader *r, obj_data *o)
+{
+    if (!mesh_take_word(r, "#mrgb")) return 0;
+    for (mesh_skip_blanks(r, 0); mesh_hex(r->at, r->end, 8) >= 0; r->at += 8) {
+        float rgb[3];
+        for (int k = 0; k < 3; k++) rgb[k] = (float)mesh_hex(r->at + 2 + 2 * k, r->end, 2) / 255;
+        if (mesh_push(&o->painted, rgb, 3)) return mesh_fail(r, "out of memory");
+    }
+    return 0;
+}
+
+/* Gives the last v the colours that stand in comments behind them. */
+static inline int obj_paint(mesh_reader *r, obj_data *o, model *m)
+{
+    const size_t n = o->painted.count, all = o->list[OBJ_V].count;
+    o->painted.count = 0;
+    if (!n) return 0;
+    if (o->color.count + n > all) return known_take(r, m, KNOWN_TOLD, 0, "#MRGB", 5);
+    o->bright = fmaxf(o->bright, 1);
+    if (obj_color_to(r, o, all - n)) return 1;
+    for (size_t i = 0; i < n; i += 3)
+        if (mesh_push(&o->color, o->painted.v + i, 3)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+static inline int obj_vertex(mesh_reader *r, obj_data *o, model *m)
+{
     double v[7];
     float place[3], rgb[3];
     int count;
-    if (obj_numbers(r, v, 3, 7, &count)) return 1;
+    if (obj_paint(r, o, m) || obj_numbers(r, v, 3, 7, &count)) return 1;
     mesh_relative(&o->origin, v, place);
     for (int k = 0; k < 3 && count >= 6; k++) {
         rgb[k] = mesh_or_zero(v[3 + k]);
         o->bright = fmaxf(o->bright, rgb[k]);
     }
     if (count == 7) o->clearest = fminf(o->clearest, mesh_or_zero(v[6]));
-    while (count >= 6 && o->color.count < o->list[OBJ_V].count)
-        if (mesh_push(&o->color, none, 3)) return mesh_fail(r, "out of memory");
+    if (count >= 6 && obj_color_to(r, o, o->list[OBJ_V].count)) return 1;
     if (count >= 6 && mesh_push(&o->color, rgb, 3)) return mesh_fail(r, "out of memory");
     if (mesh_push(&o->list[OBJ_V], place, 3)) return mesh_fail(r, "out of memory");
     return 0;
@@ -198,13 +233,13 @@ static inline int obj_object(mesh_reader *r, obj_data *o, model *m, int is_objec
 static inline int obj_library(mesh_reader *r, model *m)
 {
     const unsigned char *begin = mesh_take_line(r);
-    if (m->library_count >= 100) return 0;
+    if (m->library_count >= 100 || r->at == begin) return 0;
     return model_add_library(m, begin, (size_t)(r->at - begin)) ? mesh_fail(r, "out of memory") : 0;
 }
 
 static inline int obj_statement(mesh_reader *r, obj_data *o, model *m)
 {
-    if (mesh_take_word(r, "v")) return obj_vertex(r, o);
+    if (mesh_take_word(r, "v")) return obj_vertex(r, o, m);
     if (mesh_take_word(r, "vt")) return obj_texcoord(r, o);
     if (mesh_take_word(r, "vn")) return obj_normal(r, o);
     if (mesh_take_word(r, "f")) return obj_face(r, o);
@@ -273,7 +308,7 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     owned_mesh *m = &out->mesh;
     size_t n;
     int missing = 0;
-    if (obj_number(r, o)) return 1;
+    if (obj_number(r, o) || obj_paint(r, o, out)) return 1;
     obj_light(r, o, out);
     n = o->corners.count;
     if (!n && o->list[OBJ_V].count) return obj_points(r, o, out);
@@ -306,6 +341,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
         missing |=
             m->normals[3 * i] == 0 && m->normals[3 * i + 1] == 0 && m->normals[3 * i + 2] == 0;
     }
+    if (out->surface_count && !out->library_count && out->surface[out->surface_count - 1].name[0])
+        model_warn(out, r->name, "it names materials, and no library of them");
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);
@@ -325,12 +362,13 @@ static inline int obj_read(mesh_reader *r, model *m)
         mesh_skip_blanks(r, 1);
         comment = r->at < r->end && *r->at == '#';
         failed = mesh_tell(r, i);
-        if (!failed && !comment) failed = obj_statement(r, &o, m);
+        if (!failed) failed = comment ? obj_comment(r, &o) : obj_statement(r, &o, m);
         if (!failed) mesh_next_line(r, !comment && !(r->at < r->end && *r->at == '#'));
     }
     if (!failed) failed = obj_finish(r, &o, m);
     for (int k = 0; k < 3; k++) free(o.list[k].v);
     free(o.color.v);
+    free(o.painted.v);
     mesh_set_free(&o.corners);
     faces_free(&o.faces);
     return failed;

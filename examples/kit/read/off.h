@@ -275,6 +275,8 @@ static inline int off_read(mesh_reader *r, model *m)
         else if (!failed)
             failed = i < vertices ? off_vertex(r, &o) : off_face(r, &o, vertices);
     }
+    if (!failed && !off_line(r))
+        model_warn(m, r->name, "lines behind the vertices and faces that it counts");
     if (!failed) failed = off_finish(r, &o, m);
     free(o.position.v);
     free(o.color.v);

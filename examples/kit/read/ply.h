@@ -486,8 +486,8 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     for (int k = 0; k < p->elements; k++)
         has_faces |= p->element[k].kind >= PLY_FACE && p->element[k].count > 0;
     if (!p->faces.triangles && (!n || has_faces))
-        return mesh_fail(r, n ? "no face of it has three corners"
-                              : "neither vertices nor faces in it");
+        return known_nothing(
+            r, out, n ? "no face of it has three corners" : "neither vertices nor faces in it");
     if (p->highest >= (double)n)
         return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
     if (p->corner.count && ply_spread(r, p)) return 1;

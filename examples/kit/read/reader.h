@@ -526,6 +526,31 @@ static inline mesh_quote mesh_here(const mesh_reader *r)
     return q;
 }
 
+/* So many digits of base 16; -1: they are not there */
+static inline long long mesh_hex(const unsigned char *at, const unsigned char *end, int digits)
+{
+    long long code = 0;
+    for (int k = 0; k < digits; k++) {
+        const int c = at + k < end ? at[k] | 32 : 0;
+        const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+        if (digit < 0) return -1;
+        code = code * 16 + digit;
+    }
+    return code;
+}
+
+/* A name where %20 is a blank, without such signs; out may be the name itself. */
+static inline void mesh_unescape(const char *name, char *out, size_t room)
+{
+    for (; *name && room > 1; name++, room--) {
+        const unsigned char *digits = (const unsigned char *)name + 1;
+        const long long code = *name == '%' ? mesh_hex(digits, digits + 2, 2) : -1;
+        *out++ = (char)(code > 0 ? code : *name);
+        if (code > 0) name += 2;
+    }
+    *out = 0;
+}
+
 /* Takes the word if it comes next, in capital or small letters. */
 static inline int mesh_take_word(mesh_reader *r, const char *word)
 {

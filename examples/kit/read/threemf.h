@@ -96,6 +96,12 @@ static const known_name threemf_attributes[] = {
     { NULL, KNOWN_TOLD }
 };
 
+/* What objects are for: not all of them are what is made. */
+static const known_name threemf_types[] = {
+    { "model", KNOWN_DRAWN },       { "surface", KNOWN_DRAWN }, { "support", KNOWN_TOLD },
+    { "solidsupport", KNOWN_TOLD }, { "other", KNOWN_TOLD },    { NULL, KNOWN_TOLD }
+};
+
 /* ---- what the files have --------------------------------------------------------------------- */
 
 typedef struct threemf_array {
@@ -119,7 +125,8 @@ typedef struct threemf_object {
     char *name;
     uint32_t file, pid, pindex;
     size_t vertex, vertices, face, faces, use, uses;
-    int ready, part; /* ready: its corners are there; part: of another object */
+    int ready, part, aside; /* ready: its corners are there; part: of another object; aside: it is
+                               not drawn */
     size_t corner, corners, index;
 } threemf_object;
 
@@ -242,13 +249,10 @@ static inline int threemf_color(threemf *t, xml *x, const char *name)
     shade_vec3 linear;
     if (value.at && (value.size != 7 && value.size != 9)) return xml_fail(x, name, "is no colour");
     if (value.at && *value.at != '#') return xml_fail(x, name, "is no colour");
-    for (size_t i = 1; i < value.size; i++) {
-        const int digit = value.at[i] | 32;
-        const int bits = digit >= '0' && digit <= '9'   ? digit - '0'
-                         : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10
-                                                        : -1;
+    for (size_t i = 1; i < value.size; i += 2) {
+        const long long bits = mesh_hex(value.at + i, value.at + value.size, 2);
         if (bits < 0) return xml_fail(x, name, "is no colour");
-        c[(i - 1) / 2] = i % 2 ? 16 * bits : (c[(i - 1) / 2] + bits) / 255;
+        c[i / 2] = (double)bits / 255;
     }
     linear = shade_linear_from_srgb(shade_v3((float)c[0], (float)c[1], (float)c[2]));
     c[0] = (double)linear.x;
@@ -364,6 +368,9 @@ static inline int threemf_read_texture(threemf *t, xml *x)
     if (kind.size < sizeof texture->kind)
         memcpy(texture->kind, kind.at ? kind.at : x->name.at, kind.size);
     texture->path = xml_copy(xml_value(x, XML_NO_SPACE, "path"));
+    if (xml_equals(xml_value(x, XML_NO_SPACE, "filter"), "nearest") &&
+        known_take(t->r, t->m, KNOWN_TOLD, 0, "filter nearest", 14))
+        return 1;
     return texture->path ? 0 : threemf_out(t);
 }
 
@@ -393,6 +400,8 @@ static inline int threemf_read_use(threemf *t, xml *x, threemf_array *uses)
     if (!use || threemf_transform(x, &use->at)) return 1;
     if (xml_whole(x, "objectid", UINT32_MAX, &use->object)) return 1;
     if (use->object == UINT32_MAX) return xml_fail(x, "objectid", "is missing");
+    if (xml_equals(xml_value(x, XML_NO_SPACE, "printable"), "0"))
+        model_warn(t->m, t->r->name, "it has objects that are not printed, drawn like others");
     if (!path.size) return 0;
     use->path = xml_copy(path);
     return use->path ? 0 : threemf_out(t);
@@ -485,6 +494,19 @@ static inline int threemf_read_part(threemf *t, xml *x, const threemf_object *ob
     return failed || x->failed || threemf_number(t, x, object, vertex, face);
 }
 
+/* Objects of some types are told and left out. */
+static inline int threemf_type(threemf *t, xml *x, threemf_object *object)
+{
+    const xml_text type = xml_value(x, XML_NO_SPACE, "type");
+    const int size = type.size < 30 ? (int)type.size : 30;
+    const known_what what = known_find(threemf_types, type.at, type.size);
+    char text[40];
+    if (!size || what < KNOWN_TOLD) return 0;
+    object->aside = 1;
+    snprintf(text, sizeof text, "type %.*s", size, (const char *)type.at);
+    return known_take(t->r, t->m, what, 0, text, strlen(text));
+}
+
 static inline int threemf_read_object(threemf *t, xml *x)
 {
     threemf_object object = { 0 },
@@ -492,7 +514,8 @@ static inline int threemf_read_object(threemf *t, xml *x)
     const int depth = x->depth;
     int failed = 0;
     if (!out || threemf_named(t, x, &t->object_of, t->objects.count)) return 1;
-    if (xml_whole(x, "pid", UINT32_MAX, &object.pid) || xml_whole(x, "pindex", 0, &object.pindex))
+    if (xml_whole(x, "pid", UINT32_MAX, &object.pid) || xml_whole(x, "pindex", 0, &object.pindex) ||
+        threemf_type(t, x, &object))
         return 1;
     object.file = (uint32_t)t->files.count - 1;
     object.vertex = t->vertices.count;
@@ -956,6 +979,7 @@ static inline int threemf_build(threemf *t, uint32_t from, threemf_use use,
     scale = threemf_file_at(t, file)->unit / threemf_file_at(t, from)->unit;
     for (int k = 0; k < 12 && file != from; k++) at.at[k] *= scale;
     o = threemf_object_at(t, place);
+    if (o->aside) return 0;
     if (o->faces) failed = t->counting ? threemf_count(t, o) : threemf_place(t, o, &at);
     t->depth++;
     for (size_t i = 0; !failed && i < threemf_object_at(t, place)->uses; i++)
@@ -997,8 +1021,8 @@ static inline int threemf_pass(threemf *t, int counting)
     return 0;
 }
 
-/* Slicers keep in files of their own which parts cut others, or only change how these are printed.
-   Such parts are drawn as others are, which is told. */
+/* Slicers keep in files of their own which parts cut others, or only change how these are printed,
+   and which extruder prints a part.  Such parts are drawn as others are, which is told. */
 static inline void threemf_tell_parts(threemf *t)
 {
     static const char *const files[] = { "Metadata/Slic3r_PE_model.config",
@@ -1006,18 +1030,22 @@ static inline void threemf_tell_parts(threemf *t)
     static const char *const words[] = { "NegativeVolume",  "negative_part",    "ParameterModifier",
                                          "modifier_part",   "SupportBlocker",   "support_blocker",
                                          "SupportEnforcer", "support_enforcer", NULL };
+    static const char extruder[] = "key=\"extruder\" value=\"";
     mesh_reader quiet = *t->r;
     quiet.error_size = 0;
     for (int k = 0; files[k]; k++) {
         const zip_entry *e = zip_find(&t->z, files[k]);
         unsigned char *text = e ? zip_unpack(&quiet, &t->z, e) : NULL;
-        int found = 0;
+        int found = 0, second = 0;
         if (!text) continue;
         text[e->size] = 0;
+        for (const char *at = (const char *)text; (at = strstr(at, extruder)) != NULL; at++)
+            second |= atoi(at + sizeof extruder - 1) > 1;
         for (int w = 0; words[w]; w++) found |= strstr((const char *)text, words[w]) != NULL;
         if (found)
             model_warn(t->m, t->r->name,
                        "it has negative parts or modifiers, which are drawn like others");
+        if (second) model_warn(t->m, t->r->name, "the colours of its extruders do not count");
         free(text);
     }
 }
@@ -1033,9 +1061,7 @@ static inline int threemf_make(threemf *t)
     if (failed || (!t->items.count && threemf_all(t))) return 1;
     threemf_tell_parts(t);
     if (threemf_pass(t, 1)) return 1;
-    if (t->triangles <= 0)
-        return mesh_fail(t->r, "no faces in it%s%s%s", *t->m->unread ? ", but " : "", t->m->unread,
-                         *t->m->unread ? ", which is not read" : "");
+    if (t->triangles <= 0) return known_nothing(t->r, t->m, "no faces in it");
     if (threemf_pass(t, 0)) return 1;
     for (int i = 0; i < t->m->surface_count; i++) t->m->surface[i].set = t->all.colored;
     return gather_finish(t->r, &t->all, t->m);

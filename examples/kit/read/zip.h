@@ -51,31 +51,13 @@ static inline int zip_is(const zip_entry *e, const char *name)
     return i == e->length && !*name;
 }
 
-/* A digit of base 16; -1: it is none */
-static inline int zip_digit(int c)
-{
-    return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 87 : -1;
-}
-
-/* The name of a package, where %20 is a blank, as an archive has it */
-static inline void zip_plain(const char *name, char *out, size_t room)
-{
-    for (; *name && room > 1; name++, room--) {
-        const int high = *name == '%' ? zip_digit(name[1]) : -1;
-        const int low = high >= 0 ? zip_digit(name[2]) : -1;
-        *out++ = (char)(low >= 0 ? 16 * high + low : *name);
-        if (low >= 0) name += 2;
-    }
-    *out = 0;
-}
-
 /* The file of that name; NULL: there is none. */
 static inline const zip_entry *zip_find(const zip *z, const char *name)
 {
     char plain[300];
     for (size_t i = z->count; i-- > 0;)
         if (zip_is(&z->entry[i], name)) return &z->entry[i];
-    zip_plain(name, plain, sizeof plain);
+    mesh_unescape(name, plain, sizeof plain);
     for (size_t i = z->count; i-- > 0 && strchr(name, '%');)
         if (zip_is(&z->entry[i], plain)) return &z->entry[i];
     return NULL;

@@ -198,8 +198,38 @@ def test_skins_and_morph_targets_are_at_rest():
     made.json["meshes"][mesh]["weights"] = [0.25, 0.5]
     made.node(mesh=mesh)
     assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 1.5], atol=1e-6)
+    quad = made.json["meshes"][mesh]["primitives"][0]
+    quad["attributes"].update(COLOR_0=made.accessor(np.ones((4, 4), "<f4"), "VEC4"),
+                              TEXCOORD_0=made.accessor(np.zeros((4, 2), "<f4"), "VEC2"))
+    quad["targets"][1] = {"COLOR_0": made.accessor(np.array([[-1, 0, -2]] * 4, "<f4"), "VEC3"),
+                          "TEXCOORD_0": made.accessor(np.array([[1, 0.5]] * 4, "<f4"), "VEC2")}
+    quad["material"] = 0
+    made.json["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    made.json["textures"] = [{"source": 0}]
+    made.json["images"] = [{"bufferView": made.view(shade.Picture(np.full((1, 1, 4), 255, np.uint8)).png())}]
+    found = files._read(made.bytes(), "a.glb", None)[1]
+    assert np.allclose(np.asarray(found["color"]), [shown(0.5), 1, 0])
+    assert np.allclose(np.asarray(found["uv"]), [0.5, 0.75])
     made.json["nodes"][0]["weights"] = [1, 0]
     assert np.allclose(corners(made.bytes()), QUAD + [0, 0, 2], atol=1e-6)
+
+
+def test_nodes_that_are_hidden_are_not_drawn():
+    made = Glb()
+    mesh = made.quad()
+    made.node(mesh=mesh, extensions={"KHR_node_visibility": {"visible": True}})
+    made.node(mesh=mesh, children=[0], extensions={"KHR_node_visibility": {"visible": False}})
+    made.json["extensionsUsed"] = ["KHR_node_visibility"]
+    assert np.allclose(corners(made.bytes()), QUAD)
+
+
+def test_the_bytes_of_glb_are_those_of_its_first_buffer():
+    made = Glb()
+    made.node(mesh=made.quad())
+    made.json["buffers"].append({"byteLength": 48})
+    made.json["bufferViews"][0]["buffer"] = 1
+    with pytest.raises(shade.Error, match=r"buffers\[1\] has no bytes"):
+        shade.load(io.BytesIO(made.bytes()))
 
 
 def test_instances_and_sparse_accessors():
@@ -251,6 +281,16 @@ def test_specular_glossiness_and_what_is_not_read():
         "diffuseFactor": [0, 0, 1, 1], "glossinessFactor": 0.1}}}))
     middle = drawn(made.bytes()).rgba[24, 32].astype(int)
     assert middle[2] > 100 > middle[0]
+    gold = [1, 0.7, 0.2]
+    made.json["materials"][0] = {"pbrMetallicRoughness": {"baseColorFactor": [*gold, 1], "roughnessFactor": 0.4}}
+    wanted = drawn(made.bytes()).rgba
+    made.json["materials"][0] = {"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0, 0, 0, 1], "specularFactor": gold, "glossinessFactor": 0.6}}}
+    assert np.array_equal(drawn(made.bytes()).rgba, wanted)
+    made.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"][
+        "specularGlossinessTexture"] = {"index": 0}
+    with pytest.warns(UserWarning, match="it has specularGlossinessTexture, which is not read"):
+        drawn(made.bytes())
     made.json["extensionsRequired"] = ["EXT_made_up"]
     with pytest.raises(shade.Error, match="it needs EXT_made_up, which is not read"):
         shade.load(io.BytesIO(made.bytes()))
@@ -334,14 +374,14 @@ def test_models_of_3mf_in_several_files():
     assert len(shade.load(io.BytesIO(data)).faces) == 12
 
 
-def corners_of(resources, mark, more=None, items='<item objectid="1"/>'):
+def corners_of(resources, mark, more=None, items='<item objectid="1"/>', later=""):
     """Colours of the corners of a triangle that has a mark, and what is said of it."""
     mesh = mesh_xml(np.eye(3), np.array([[0, 1, 2]]), [mark])
-    data = threemf(f'{resources}<object id="1">{mesh}</object>', items, more=more)
+    data = threemf(f'{resources}<object id="1">{mesh}</object>{later}', items, more=more)
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         (vertices, faces), found = files._read(data, "a.3mf", None)
-    assert np.array_equal(vertices[faces[0]], np.eye(3))
+    assert np.array_equal(vertices[faces], [np.eye(3)])
     return found, [str(w.message) for w in said], faces[0]
 
 
@@ -385,6 +425,9 @@ def test_a_texture_of_3mf_lies_with_v_upward():
     assert not said and np.array_equal(looks[numbers[0]].texture, red)
     assert looks[numbers[0]].wrap == ("clamp", "repeat")
     assert np.asarray(found["uv"])[face] == pytest.approx(np.array([[0.5, 0.75]] * 3))
+    near = texture.replace("path", 'filter="nearest" path')
+    said = corners_of(near, 'pid="6" p1="0"', {"3D/a.png": shade.Picture(red).png()})[1]
+    assert "it has filter nearest, which is not read" in said[0]
     found, said, face = corners_of(texture, 'pid="6" p1="0"')
     assert "3D/a.png: it is not in the archive" in said[0]
     assert all(look.texture is None for look in found["surfaces"][1])
@@ -409,15 +452,40 @@ def test_what_3mf_has_beyond_is_told_or_refused_by_name():
             assert len(shade.load(io.BytesIO(data)).faces) == 12
 
 
+PARTS, EXTRUDERS = "it has negative parts or modifiers, which", "the colours of its extruders do not"
+
+
 @pytest.mark.parametrize("name, text, told", [
-    ("Slic3r_PE_model", '<metadata key="volume_type" value="NegativeVolume"/>', True),
-    ("Slic3r_PE_model", '<metadata key="volume_type" value="ModelPart"/>', False),
-    ("model_settings", '<part id="2" subtype="modifier_part"/>', True),
-    ("model_settings", '<part id="2" subtype="normal_part"/>', False)])
+    ("Slic3r_PE_model", '<metadata key="volume_type" value="NegativeVolume"/>', PARTS),
+    ("Slic3r_PE_model", '<metadata key="volume_type" value="ModelPart"/>', ""),
+    ("Slic3r_PE_model", '<metadata type="object" key="extruder" value="2"/>', EXTRUDERS),
+    ("model_settings", '<part id="2" subtype="modifier_part"/>', PARTS),
+    ("model_settings", '<metadata key="extruder" value="12"/>', EXTRUDERS),
+    ("model_settings", '<part id="2" subtype="normal_part"/><metadata key="extruder" value="1"/>', "")])
 def test_parts_of_slicers_that_are_no_plain_ones_are_told(name, text, told):
     more = {f"Metadata/{name}.config": f"<config>{text}</config>"}
     said = corners_of("", "", more)[1]
-    assert bool(said) == told and all("negative parts or modifiers" in line for line in said)
+    assert bool(said) == bool(told) and all(told in line for line in said)
+
+
+@pytest.mark.parametrize("more, told", [
+    ('type="support"', "it has type support, which is not read"),
+    ('type="solidsupport"', "it has type solidsupport, which is not read"),
+    ('type="other"', "it has type other, which is not read")])
+def test_supports_of_3mf_are_told_and_not_drawn(more, told):
+    """As an object, as a part of one, and alone."""
+    support = f'<object id="2" {more}>{mesh_xml(np.eye(3) + 9, np.array([[0, 1, 2]]))}</object>'
+    whole = '<object id="3"><components><component objectid="1"/><component objectid="2"/></components></object>'
+    for items in ('<item objectid="1"/><item objectid="2"/>', '<item objectid="3"/>'):
+        found, said, face = corners_of(support, "", items=items, later=whole)
+        assert len(said) == 1 and told in said[0]
+    with pytest.raises(shade.Error, match="no faces in it, but " + told[7:]):
+        shade.load(io.BytesIO(threemf(support, '<item objectid="2"/>')))
+
+
+def test_objects_of_3mf_that_are_not_printed_are_drawn_and_told():
+    assert not corners_of("", "", items='<item objectid="1" printable="1"/>')[1]
+    assert "not printed" in corners_of("", "", items='<item objectid="1" printable="0"/>')[1][0]
 
 
 def test_names_of_3mf_may_have_percent_signs():
