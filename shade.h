@@ -1875,7 +1875,7 @@ SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m)
 SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
 {
     shade_mat3 a = shade_mat3_from_mat4(m), c = shade__cofactors(a);
-    if (shade_dot(a.col[0], c.col[0]) < 0)
+    if (shade_mat3_determinant(a) < 0)
         for (int k = 0; k < 3; k++) c.col[k] = shade_neg(c.col[k]);
     return c;
 }
@@ -2042,14 +2042,14 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
 }
 
 /* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  y is 1 / tan(fovy /
-   2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the camera
-   degenerate. */
+   2). */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
     double s, c;
     shade__sincos(fovy / 2, &s, &c);
-    const double y = fovy > 0 && fovy < 3.2f && c > 0 ? c / s : DBL_MAX;
+    good = good && fovy > 0 && fovy < 3.2f && c > 0 && shade__within(aspect, FLT_MAX);
+    const double y = c / s;
     const double e[16] = { y / (double)aspect, 0, 0, 0, 0, y, 0, 0,
                            0, 0, scale, -1, 0, 0, offset, 0 };
     return shade__finite_or(good, e, 1);
