@@ -7316,7 +7316,7 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
 
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1)
 {
-    return shade_dot(to_eye, n0) * shade_dot(to_eye, n1) <= 0;
+    return (double)shade_dot(to_eye, n0) * (double)shade_dot(to_eye, n1) <= 0;
 }
 
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
@@ -8351,6 +8351,10 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
         return "A light's spot_cos_cutoff is outside -1 .. 1: it is the cosine of the angle, not "
                "the angle; make the light with shade_spot_light.";
+    if (l->position.w == 0 && shade__is_zero(shade__xyz(l->position)) &&
+        !shade__is_zero(l->diffuse))
+        return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
+               "lights nothing; fill it with shade_directional_light or shade_point_light.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
