@@ -77,11 +77,11 @@
        >>lines     6776  shade_draw_lines      >>camera    6968  eye and line of sight
        >>shape     7062  normals, edges        >>chunks    7428  sorting and boxes
        >>rays      7597  shade_pick            >>survey    7785  experiments on a draw
-       >>explain   8246  why nothing is seen   >>replay    9419  the same for lines, pipelines
-       >>image     9746  makes mipmaps, PPM    >>presets  10078  classic materials
+       >>explain   8246  why nothing is seen   >>replay    9422  the same for lines, pipelines
+       >>image     9749  makes mipmaps, PPM    >>presets  10081  classic materials
      Sources
-       >>refs     10163                        >>history  10193
-       >>license  10199
+       >>refs     10166                        >>history  10196
+       >>license  10202
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8263,9 +8263,9 @@ static const char *shade__no_mesh(const shade_mesh *m)
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";
-    if (m->position_stride && m->position_stride < 12)
-        return "mesh.position_stride is shorter than a position of 12 bytes; strides count bytes, "
-               "not floats, and 0 means tightly packed.";
+    if ((uint32_t)m->position_stride - 1 < 11 || (uint32_t)m->normal_stride - 1 < 11)
+        return "mesh.position_stride or normal_stride is shorter than a position or normal, 12 "
+               "bytes; strides count bytes, not floats, and 0 means tightly packed.";
     return NULL;
 }
 
@@ -8351,8 +8351,7 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
         return "A light's spot_cos_cutoff is outside -1 .. 1: it is the cosine of the angle, not "
                "the angle; make the light with shade_spot_light.";
-    if (l->position.w == 0 && shade__is_zero(shade__xyz(l->position)) &&
-        !shade__is_zero(l->diffuse))
+    if (shade_dot4(l->position, l->position) == 0 && !shade__is_zero(l->diffuse))
         return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
                "lights nothing; fill it with shade_directional_light or shade_point_light.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
@@ -8875,8 +8874,8 @@ static const char shade__no_color[] =
     "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
     "only grazes them, and no highlight reaches the eye.";
 static const char shade__multiply[] =
-    "The visible pixels are black or almost: state.material, mesh.colors, the map, alpha, "
-    "lighting.terms and the lights multiply, and several of them may be at fault.";
+    "The visible pixels are black or almost: state.material, mesh.normals, mesh.colors, the map, "
+    "alpha, lighting.terms and the lights work together, and several of them may be at fault.";
 
 /* ---- the mesh is black, or lit by ambient light alone: the lamps */
 
@@ -9360,7 +9359,7 @@ static const char *shade__why_wrong(const shade__survey *s)
             return NULL;
         return opaque || 1 - s->state.transparency > s->dim    /* else white would be black, too */
                    ? "state.fragment leaves all pixels of the mesh black: does it write color for "
-                     "each lane, or discard them?"
+                     "each lane, leave color[3], alpha, above 0, or discard them?"
                    : shade__transparent;
     }
     q = seen;
@@ -9596,7 +9595,7 @@ static const char *shade__why_nowhere(const shade__replay *r, const shade_stats 
                      "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
     if (n->clipped == n->triangles) return shade__why_outside(r);
     return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a "
-                      "line has gaps; or they lie beside the picture."
+                      "line has gaps; or both ends coincide, or they lie beside the picture."
                     : "The triangles cover no pixel centre: they have no area on the screen, since "
                       "their corners coincide or they are seen edge-on, or lie beside the picture.";
 }
