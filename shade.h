@@ -58,30 +58,30 @@
        >>tools      694  explain, lines, rays  >>plumbing   886  compilers, flags and bits
        >>math      1025  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1385  processors            >>base      1620  bits, masks, rows of vectors
-       >>matrix    1817  cameras, inverses     >>power     2094  x^n
-       >>pixels    2160  formats, sRGB
+       >>machine   1386  processors            >>base      1621  bits, masks, rows of vectors
+       >>matrix    1818  cameras, inverses     >>power     2100  x^n
+       >>pixels    2166  formats, sRGB
      Inside: light
-       >>lamps     2468  attenuation, cones    >>terms     2720  one term at one point
-       >>surface   2795  material and lights   >>lit       2912  the whole sum, at many points
+       >>lamps     2474  attenuation, cones    >>terms     2726  one term at one point
+       >>surface   2801  material and lights   >>lit       2918  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3301  fields by owner       >>vertices  3513  shading, projection
-       >>triangles 3715  culling, edge setup   >>clip      4068  near, far, guard band
-       >>tiles     4254  edges and depth test  >>cover     4612  triangles, tile by tile
-       >>fragments 4878  interpolation, lod    >>texture   5151  texels, filters
-       >>store     5600  blending, packing
+       >>state     3307  fields by owner       >>vertices  3519  shading, projection
+       >>triangles 3721  culling, edge setup   >>clip      4074  near, far, guard band
+       >>tiles     4260  edges and depth test  >>cover     4618  triangles, tile by tile
+       >>fragments 4884  interpolation, lod    >>texture   5157  texels, filters
+       >>store     5606  blending, packing
      Inside: calls of the renderer
-       >>check     5850  refusals              >>seen      6057  view volume, chunks
-       >>drive     6177  shade_draw            >>mesh      6366  shade_draw_mesh
+       >>check     5856  refusals              >>seen      6063  view volume, chunks
+       >>drive     6183  shade_draw            >>mesh      6372  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6770  shade_draw_lines      >>camera    6962  eye and line of sight
-       >>shape     7056  normals, edges        >>chunks    7422  sorting and boxes
-       >>rays      7591  shade_pick            >>survey    7779  experiments on a draw
-       >>explain   8240  why nothing is seen   >>replay    9413  the same for lines, pipelines
-       >>image     9740  makes mipmaps, PPM    >>presets  10072  classic materials
+       >>lines     6776  shade_draw_lines      >>camera    6968  eye and line of sight
+       >>shape     7062  normals, edges        >>chunks    7428  sorting and boxes
+       >>rays      7597  shade_pick            >>survey    7785  experiments on a draw
+       >>explain   8246  why nothing is seen   >>replay    9422  the same for lines, pipelines
+       >>image     9749  makes mipmaps, PPM    >>presets  10081  classic materials
      Sources
-       >>refs     10157                        >>history  10187
-       >>license  10193
+       >>refs     10166                        >>history  10196
+       >>license  10202
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1285,14 +1285,14 @@ SHADE__EXPORT shade_vec4 shade_mat4_transform(shade_mat4 m, shade_vec4 v)
 /* The product a b, which transforms by b first, then by a. */
 SHADE__EXPORT shade_mat3 shade_mat3_mul(shade_mat3 a, shade_mat3 b)
 {
-    return shade__m3(shade_mat3_transform(a, b.col[0]), shade_mat3_transform(a, b.col[1]),
-                     shade_mat3_transform(a, b.col[2]));
+    for (int k = 0; k < 3; k++) b.col[k] = shade_mat3_transform(a, b.col[k]);
+    return b;
 }
 
 SHADE__EXPORT shade_mat4 shade_mat4_mul(shade_mat4 a, shade_mat4 b)
 {
-    return shade__m4(shade_mat4_transform(a, b.col[0]), shade_mat4_transform(a, b.col[1]),
-                     shade_mat4_transform(a, b.col[2]), shade_mat4_transform(a, b.col[3]));
+    for (int k = 0; k < 4; k++) b.col[k] = shade_mat4_transform(a, b.col[k]);
+    return b;
 }
 
 /* m (p, 1) divided by its w; not divided where w = 0. */
@@ -1372,7 +1372,8 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
 /* The matrix that transforms normals where m transforms points: sign(det) times the cofactors of
    the upper left 3 x 3.  It is the inverse transpose up to the positive factor |det|, and is
    defined for singular m as well: flattening keeps the normal of the plane.  Make transformed
-   normals unit. */
+   normals unit.  Entries are products of two of m's: for a scale of 1e-10 they are 1e-20, which
+   shade_normalize takes for zero.  Pass such an m times a large number. */
 SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m);
 
 SHADE__END
@@ -1874,22 +1875,27 @@ SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m)
 SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
 {
     shade_mat3 a = shade_mat3_from_mat4(m), c = shade__cofactors(a);
-    float s = shade_dot(a.col[0], c.col[0]) < 0 ? -1.0f : 1.0f;
-    for (int k = 0; k < 3; k++) c.col[k] = shade_scale(c.col[k], s);
+    if (shade_mat3_determinant(a) < 0)
+        for (int k = 0; k < 3; k++) c.col[k] = shade_neg(c.col[k]);
     return c;
+}
+
+/* m times the power of 2 that takes its greatest column entry to 1 .. 2, so that its normal matrix
+   neither vanishes nor overflows. */
+static shade_mat4 shade__sized(shade_mat4 m)
+{
+    float *entry = (float *)&m;
+    int most = 0;
+    for (int k = 0; k < 12; k++)
+        most = shade__max(most, shade__ordinal(entry[k]) & 0x7F800000);
+    for (int k = 0; k < 12; k++) entry[k] *= shade__from_ordinal(0x7F000000 - most);
+    return m;
 }
 
 /* shade_mat4_mul as a call: one copy of its code. */
 static SHADE__NOINLINE shade_mat4 shade__mat4_product(const shade_mat4 *a, const shade_mat4 *b)
 {
     return shade_mat4_mul(*a, *b);
-}
-
-static shade_mat4 shade__zero_matrix(void)
-{
-    shade_mat4 m;
-    SHADE__ZERO(m);
-    return m;
 }
 
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
@@ -1971,12 +1977,13 @@ static int shade__is_finite(const shade_mat4 *m)
     return 1;
 }
 
-/* The projection with these entries; the degenerate one where good is 0 or an entry is not finite,
-   as after a division by zero. */
-static shade_mat4 shade__projection(int good, const double e[16])
+/* The matrix with these entries.  Where good is 0 or an entry is not finite, as after a division by
+   zero: the degenerate camera, or with w = 0 the zero matrix. */
+static shade_mat4 shade__finite_or(int good, const double e[16], float w)
 {
-    shade_mat4 none = shade__zero_matrix(), m = shade__mat4_of(e);
-    none.col[3] = shade_v4(0, 0, 2, 1);
+    shade_mat4 none, m = shade__mat4_of(e);
+    SHADE__ZERO(none);
+    none.col[3] = shade_v4(0, 0, 2 * w, w);
     return good && shade__is_finite(&m) ? m : none;
 }
 
@@ -1997,8 +2004,7 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
         row[8] = (x * o[4] - y * o[2] + w * o[0]) * k;
         row[12] = (-x * o[3] + y * o[1] - z * o[0]) * k;
     }
-    m = shade__mat4_of(inverse);
-    return shade__is_finite(&m) ? m : shade__zero_matrix();
+    return shade__finite_or(1, inverse, 0);
 }
 
 /* Rodrigues' formula: c 1 + s [a]x + (1 - c) a a^T, with a the unit axis. */
@@ -2036,17 +2042,17 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
 }
 
 /* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  y is 1 / tan(fovy /
-   2).  For fovy outside (0, pi) it is a number that no float can hold, which makes the camera
-   degenerate. */
+   2). */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
     double s, c;
     shade__sincos(fovy / 2, &s, &c);
-    const double y = fovy > 0 && fovy < 3.2f && c > 0 ? c / s : DBL_MAX;
+    good = good && fovy > 0 && fovy < 3.2f && c > 0 && shade__within(aspect, FLT_MAX);
+    const double y = c / s;
     const double e[16] = { y / (double)aspect, 0, 0, 0, 0, y, 0, 0,
                            0, 0, scale, -1, 0, 0, offset, 0 };
-    return shade__projection(good, e);
+    return shade__finite_or(good, e, 1);
 }
 
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
@@ -2078,7 +2084,7 @@ static shade_mat4 shade__box_projection(int frustum, float left, float right, fl
     column[2] = z;
     column[3] = frustum ? -1 : 1;
     e[frustum ? 14 : 10] = frustum ? k * f / d : k / d;
-    return shade__projection(!frustum || (n > 0 && f > 0), e);
+    return shade__finite_or(!frustum || (n > 0 && f > 0), e, 1);
 }
 
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
@@ -6667,7 +6673,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     s->clip_from_object = shade__or_identity(state->projection);
     s->clip_from_object = shade__mat4_product(&s->clip_from_object, &view);
     s->clip_from_object = shade__mat4_product(&s->clip_from_object, &s->world_from_object);
-    s->normal_matrix = shade_normal_matrix(s->world_from_object);
+    s->normal_matrix = shade_normal_matrix(shade__sized(s->world_from_object));
     s->eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
                  ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
                  : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
@@ -7310,7 +7316,7 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
 
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1)
 {
-    return shade_dot(to_eye, n0) * shade_dot(to_eye, n1) <= 0;
+    return (double)shade_dot(to_eye, n0) * (double)shade_dot(to_eye, n1) <= 0;
 }
 
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
@@ -8257,9 +8263,9 @@ static const char *shade__no_mesh(const shade_mesh *m)
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";
-    if (m->position_stride && m->position_stride < 12)
-        return "mesh.position_stride is shorter than a position of 12 bytes; strides count bytes, "
-               "not floats, and 0 means tightly packed.";
+    if ((uint32_t)m->position_stride - 1 < 11 || (uint32_t)m->normal_stride - 1 < 11)
+        return "mesh.position_stride or normal_stride is shorter than a position or normal, 12 "
+               "bytes; strides count bytes, not floats, and 0 means tightly packed.";
     return NULL;
 }
 
@@ -8345,6 +8351,9 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
         return "A light's spot_cos_cutoff is outside -1 .. 1: it is the cosine of the angle, not "
                "the angle; make the light with shade_spot_light.";
+    if (shade_dot4(l->position, l->position) == 0 && !shade__is_zero(l->diffuse))
+        return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
+               "lights nothing; fill it with shade_directional_light or shade_point_light.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
@@ -8865,8 +8874,8 @@ static const char shade__no_color[] =
     "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
     "only grazes them, and no highlight reaches the eye.";
 static const char shade__multiply[] =
-    "The visible pixels are black or almost: state.material, mesh.colors, the map, alpha, "
-    "lighting.terms and the lights multiply, and several of them may be at fault.";
+    "The visible pixels are black or almost: state.material, mesh.normals, mesh.colors, the map, "
+    "alpha, lighting.terms and the lights work together, and several of them may be at fault.";
 
 /* ---- the mesh is black, or lit by ambient light alone: the lamps */
 
@@ -9350,7 +9359,7 @@ static const char *shade__why_wrong(const shade__survey *s)
             return NULL;
         return opaque || 1 - s->state.transparency > s->dim    /* else white would be black, too */
                    ? "state.fragment leaves all pixels of the mesh black: does it write color for "
-                     "each lane, or discard them?"
+                     "each lane, leave color[3], alpha, above 0, or discard them?"
                    : shade__transparent;
     }
     q = seen;
@@ -9586,7 +9595,7 @@ static const char *shade__why_nowhere(const shade__replay *r, const shade_stats 
                      "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
     if (n->clipped == n->triangles) return shade__why_outside(r);
     return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a "
-                      "line has gaps; or they lie beside the picture."
+                      "line has gaps; or both ends coincide, or they lie beside the picture."
                     : "The triangles cover no pixel centre: they have no area on the screen, since "
                       "their corners coincide or they are seen edge-on, or lie beside the picture.";
 }

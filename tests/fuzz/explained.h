@@ -697,6 +697,7 @@ static const claim claims[] = {
     { "light_count is negative", so_negative_count, cure_nothing, STATED },
     { "lighting.lights holds a NaN", so_lamp_nan, cure_nothing, STATED },
     { "spot_cos_cutoff is outside", so_bad_cosine, cure_nothing, STATED },
+    { "direction without length", NULL, cure_nothing, STATED },
     { "quadratic is negative", so_negative_attenuation, cure_nothing, STATED },
     { "make them so", so_some_bad, cure_nothing, STATED },
     { "shorter than a position", NULL, cure_nothing, STATED },

@@ -200,6 +200,31 @@ TEST(mesh, mirrored_models_keep_their_given_normals)
     check_meshes(SHADE_SHADING_PER_FRAGMENT, 1);
 }
 
+TEST(mesh, models_of_any_scale_have_the_same_light) /* to the bit, for powers of 2 */
+{
+    static const float p[] = { -0.9f, -0.9f, 0, 0.9f, -0.8f, 0.3f, 0, 0.9f, -0.2f };
+    static const float n[] = { 0.2f, -0.1f, 1, 0.1f, 0.6f, 0.4f, -0.7f, 0.2f, 2 };
+    const shade_light lamp = shade_directional_light(shade_v3(0.2f, -0.3f, -1), shade_v3(1, 1, 1));
+    shade_mesh mesh = plain_mesh(p, 3);
+    mesh.normals = n;
+    for (int i = 0; i < 2 * 91; i++) {
+        canvas picture[2];
+        for (int k = 0; k < 2; k++) {
+            const float size = k ? (float)ldexp(1, i / 2 - 50) : 1, x = i % 2 ? -size : size;
+            shade_draw_state s = plain_state(&lamp);
+            s.model = shade_mat4_scaling(shade_v3(x, size, size));
+            s.projection = shade_mat4_scaling(shade_v3(1 / x, 1 / size, 1 / size));
+            s.lighting.flags = SHADE_FLAG_INFINITE_VIEWER;
+            picture[k] = canvas_ready(24, 24, 0, SHADE_FORMAT_RGBA8, 1);
+            canvas_draw_mesh(&picture[k], &mesh, &s);
+        }
+        CHECK(canvas_code(&picture[0], 12, 12, 0) > 100);
+        CHECK_SAY(canvas_same(&picture[0], &picture[1]), "2^%d, mirrored %d", i / 2 - 50, i % 2);
+        canvas_close(&picture[0]);
+        canvas_close(&picture[1]);
+    }
+}
+
 TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* to the bit */
 {
     shade_material material = teapot_brass();

@@ -366,6 +366,7 @@ MISTAKE(indices_never_filled, BOTH, "mesh.indices") { memset(s->index, 0, sizeof
 MISTAKE(stride_in_floats, BOTH, "bytes") { s->mesh.position_stride = 3; }
 MISTAKE(stride_of_eight_floats, BOTH, "position_stride") { s->mesh.position_stride = 8; }
 MISTAKE(normal_stride_in_floats, BOTH, "normal_stride") { s->mesh.normal_stride = 3; }
+MISTAKE(normal_stride_of_one_float, BOTH, "normal_stride") { s->mesh.normal_stride = 4; }
 MISTAKE(positions_of_doubles, BOTH, "mesh.positions")
 {
     for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
@@ -640,6 +641,10 @@ MISTAKE(lamp_of_ambient_light, BOTH, "Only ambient|diffuse")    /* filled by han
     s->lamps[0].ambient = shade_v3(0.5f, 0.5f, 0.5f);
 }
 MISTAKE(lamp_nan, BOTH, "NaN") { stage_one_lamp(s)->position.x = NAN; }
+MISTAKE(lamp_without_position, BOTH, "direction without length")    /* filled by hand */
+{
+    memset(&stage_one_lamp(s)->position, 0, sizeof s->lamps[0].position);
+}
 MISTAKE(lamp_negative, POT, "") { stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1); }
 MISTAKE(terms_of_nothing, BOTH, "lighting.terms") { s->state.lighting.terms = SHADE_TERM_EMISSION; }
 MISTAKE(terms_of_highlights, BOTH, "") { s->state.lighting.terms = SHADE_TERM_SPECULAR; }

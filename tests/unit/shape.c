@@ -808,6 +808,9 @@ TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
     CHECK_INT(shade_is_crease(x, x, 1), 1);
     CHECK_INT(shade_is_crease(x, x, 0.99f), 0);
     CHECK_INT(shade_is_crease(x, minus, -1), 1);
+    const shade_vec3 e = shade_v3(0, 0, 1e-12f), a = shade_v3(0, 1e-12f, 1e-12f);
+    CHECK(!shade_is_silhouette(e, a, a)); /* both fronts, however small: the product is not 0 */
+    CHECK(shade_is_silhouette(e, a, shade_neg(a)));
 }
 
 TEST(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal)
