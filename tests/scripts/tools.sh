@@ -36,7 +36,9 @@ find_libraries() {
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 # Lessons draw with one sample a pixel where $one_sample is included before them, but for those that
 # count the samples of their picture themselves.
-one_sample=$PWD/tests/scripts/one_sample.h alone="32_z_buffer 37_rays"
+one_sample=$T/one_sample.h alone="32_z_buffer 37_rays"
+printf '#include "%s/examples/shared/canvas.h"\n#define canvas_new(w, h, samples) canvas_new(w, h, 1)\n' \
+    "$PWD" >"$one_sample"
 among() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }      # word, words
 soon() {                        # waits up to $patience seconds, 20, for a command to succeed
     for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
