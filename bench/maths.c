@@ -7,8 +7,7 @@
 #include "clock.h"
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "maths.h"
-#include "maths_shade.h"
+#include "maths_shade.c"
 
 enum { COUNT = 128, LIBRARIES = 4, OPERATIONS = 4, MOST_ROUNDS = 101 };
 
@@ -85,13 +84,6 @@ static void measure(const maths_library *const *libraries, int op, int rounds, F
     if (tsv) fprintf(tsv, "\t%s\n", operations[op].name);
 }
 
-static const maths_library *shade_together(void)
-{
-    static const maths_library library = { "shade.h", shade_mat4_mat4, shade_mat4_vec4,
-                                           shade_normalize_all, shade_inverse_transpose };
-    return &library;
-}
-
 int main(int argc, char **argv)
 {
     const maths_library *libraries[LIBRARIES];
@@ -104,7 +96,7 @@ int main(int argc, char **argv)
     }
     if (rounds < 3) rounds = 3;
     if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
-    libraries[0] = shade_together();
+    libraries[0] = &maths_shade;
     libraries[1] = maths_shade_apart();
     libraries[2] = maths_cglm();
     libraries[3] = maths_glm();
