@@ -320,36 +320,6 @@ TEST(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more)
     }
 }
 
-/* k_d I_d max(0, N.L) amount: a shader of one's own gets what shade_lit_lanes gives. */
-TEST(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light)
-{
-    static lane_packet k;
-    light_sample s;
-    long lit = 0;
-    for (int round = 0; round < 400; round++) {
-        random_sample(&s);
-        random_packet(&k, &s, 2);
-        s.lights[0] = random_light(s.P, 2);
-        s.lighting.light_count = 1;
-        s.lighting.model = SHADE_MODEL_LAMBERT;
-        s.lighting.flags = 0;
-        s.lighting.terms = SHADE_TERM_DIFFUSE;
-        float L[3][SHADE_LANES], amount[SHADE_LANES], rgb[3 * SHADE_LANES];
-        shade_light_at_lanes(&s.lights[0], k.P[0], L[0], amount);
-        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
-        d3 light = d3_mul(d3_from(s.material.diffuse), d3_from(s.lights[0].diffuse));
-        for (int i = 0; i < SHADE_LANES; i++) {
-            d3 toward = d3_of((double)L[0][i], (double)L[1][i], (double)L[2][i]);
-            double NL = d3_dot(d3_unit(d3_from(k.n[i])), toward), arriving = (double)amount[i];
-            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
-            d3 want = d3_scale(light, arriving * fmax(0, NL));
-            lit += d3_max(want) > 1e-3;
-            check_color(__LINE__, "diffuse", got, want, 2e-6 * arriving * d3_max(light) + 1e-37);
-        }
-    }
-    CHECK_SAY(lit > 50L * SHADE_LANES, "%ld", lit);
-}
-
 /* The rows of each lamp, in a block of exactly their size. */
 static float *random_visibility(int light_count)
 {
