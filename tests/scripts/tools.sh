@@ -32,6 +32,13 @@ find_libraries() {
     echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
         -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
 }
+# Sets $python to a Python that has these modules, or to nothing.
+find_python() {                 # modules, with commas between them
+    for python in python3 /usr/bin/python3; do
+        $python -c "import $1" 2>/dev/null && return
+    done
+    python=
+}
 # The inline functions of shade.h's public part, one a line
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 # Lessons draw with one sample a pixel where $one_sample is included before them, but for those that

@@ -188,7 +188,6 @@ enum {
 #define BLACK shade_v3(0, 0, 0)
 #define WHITE shade_v3(1, 1, 1)
 #define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
-#define SUN shade_directional_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1))
 
 /* ---- of a newcomer, in any scene */
 
