@@ -1,4 +1,5 @@
-/* file.h - tells which pieces are there, whose they are, and how long the rest will take.  POSIX or Windows. */
+/* file.h - tells which pieces are there, whose they are, and how long the rest will take.  POSIX
+   or Windows. */
 #ifndef BATCH_FILE_H
 #define BATCH_FILE_H
 
