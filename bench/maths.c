@@ -89,13 +89,7 @@ int main(int argc, char **argv)
     const maths_library *libraries[LIBRARIES];
     int rounds = 31;
     uint32_t seed = 1;
-    FILE *tsv = NULL;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--rounds")) rounds = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--tsv")) tsv = fopen(argv[i + 1], "w");
-    }
-    if (rounds < 3) rounds = 3;
-    if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
+    FILE *tsv = clock_options(argc, argv, &rounds, MOST_ROUNDS);
     libraries[0] = &maths_shade;
     libraries[1] = maths_shade_apart();
     libraries[2] = maths_cglm();

@@ -1,5 +1,5 @@
-/* maths_shade.c - the loops of maths.c with shade.h.  Compiled by itself it calls what is not inline
-   in another file; maths.c includes it behind the implementation. */
+/* maths_shade.c - the loops of maths.c with shade.h.  Compiled by itself it calls what is not
+   inline in another file; maths.c includes it behind the implementation. */
 #include "shade.h"
 #include "maths.h"
 
