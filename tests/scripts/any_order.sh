@@ -103,7 +103,7 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="abi dialects compare contents contract coverage drawing embed lint matrix mutation node packages prove
+apart="abi dialects compare contract coverage drawing embed lint matrix mutation node packages prove
        python rows sizes static threads thumbnail user_files vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \
