@@ -41,6 +41,20 @@ static inline double clock_median(double *v, int n)
     return n % 2 ? v[n / 2] : (v[n / 2 - 1] + v[n / 2]) / 2;
 }
 
+/* The options of several programs: --rounds N, from 3 to most, and --tsv FILE, which is returned
+   open, or NULL. */
+static inline FILE *clock_options(int argc, char **argv, int *rounds, int most)
+{
+    FILE *tsv = NULL;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        if (!strcmp(argv[i], "--rounds")) *rounds = atoi(argv[i + 1]);
+        if (!strcmp(argv[i], "--tsv")) tsv = fopen(argv[i + 1], "w");
+    }
+    if (*rounds < 3) *rounds = 3;
+    if (*rounds > most) *rounds = most;
+    return tsv;
+}
+
 /* A line of Markdown: how fast this core fills and copies memory that no cache holds.  Large
    pictures of little arithmetic come to no more. */
 static inline void clock_memory(void)

@@ -275,13 +275,7 @@ static void table_models(void)
 
 int main(int argc, char **argv)
 {
-    FILE *tsv = NULL;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--rounds")) rounds = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--tsv")) tsv = fopen(argv[i + 1], "w");
-    }
-    if (rounds < 3) rounds = 3;
-    if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
+    FILE *tsv = clock_options(argc, argv, &rounds, MOST_ROUNDS);
     make_pixels();
     clock_machine(stdout);
     printf("shade_lit_lanes in packets of %d, every light lit, medians of %d rounds in turns; in "

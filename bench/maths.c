@@ -7,8 +7,7 @@
 #include "clock.h"
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "maths.h"
-#include "maths_shade.h"
+#include "maths_shade.c"
 
 enum { COUNT = 128, LIBRARIES = 4, OPERATIONS = 4, MOST_ROUNDS = 101 };
 
@@ -85,26 +84,13 @@ static void measure(const maths_library *const *libraries, int op, int rounds, F
     if (tsv) fprintf(tsv, "\t%s\n", operations[op].name);
 }
 
-static const maths_library *shade_together(void)
-{
-    static const maths_library library = { "shade.h", shade_mat4_mat4, shade_mat4_vec4,
-                                           shade_normalize_all, shade_inverse_transpose };
-    return &library;
-}
-
 int main(int argc, char **argv)
 {
     const maths_library *libraries[LIBRARIES];
     int rounds = 31;
     uint32_t seed = 1;
-    FILE *tsv = NULL;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--rounds")) rounds = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--tsv")) tsv = fopen(argv[i + 1], "w");
-    }
-    if (rounds < 3) rounds = 3;
-    if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
-    libraries[0] = shade_together();
+    FILE *tsv = clock_options(argc, argv, &rounds, MOST_ROUNDS);
+    libraries[0] = &maths_shade;
     libraries[1] = maths_shade_apart();
     libraries[2] = maths_cglm();
     libraries[3] = maths_glm();

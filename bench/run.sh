@@ -91,10 +91,10 @@ maths_with() {
     if can_build c '#include <cglm/cglm.h>' $cc "$build/probe.c" -lm; then cglm="-DHAVE_CGLM"; fi
     if can_build cpp '#include <glm/glm.hpp>' $cxx "$build/probe.cpp"; then glm="-DHAVE_GLM"; fi
     $cc $standard "$@" "-DBENCH_FLAGS=\"$*\"" -c bench/maths.c -o "$build/maths.o"
-    $cc $standard "$@" -c bench/maths_apart.c -o "$build/maths_apart.o"
+    $cc $standard "$@" -c bench/maths_shade.c -o "$build/maths_shade.o"
     $cc -std=gnu99 "$@" $cglm -c bench/peers/cglm.c -o "$build/maths_cglm.o"
     $cxx "$@" $glm -c bench/peers/glm.cpp -o "$build/maths_glm.o"
-    $cxx "$build/maths.o" "$build/maths_apart.o" "$build/maths_cglm.o" "$build/maths_glm.o" -lm \
+    $cxx "$build/maths.o" "$build/maths_shade.o" "$build/maths_cglm.o" "$build/maths_glm.o" -lm \
         -o "$build/maths"
     $pin "$build/maths" $rounds --tsv "$build/bench_maths.tsv"
     echo

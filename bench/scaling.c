@@ -566,12 +566,7 @@ static void rays(void)
 
 int main(int argc, char **argv)
 {
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--rounds")) rounds = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--tsv")) tsv = fopen(argv[i + 1], "w");
-    }
-    if (rounds < 3) rounds = 3;
-    if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
+    tsv = clock_options(argc, argv, &rounds, MOST_ROUNDS);
     clock_machine(stdout);
     triangles();
     pixels();

@@ -7,7 +7,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "../shared/mesh.h"
-#include "../shared/noise.h"
+#include "../shared/paint.h"
 #include "../shared/label.h"
 
 enum { WIDTH = 1024, HEIGHT = 512 };

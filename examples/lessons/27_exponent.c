@@ -9,7 +9,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "../shared/mesh.h"
-#include "../shared/noise.h"
+#include "../shared/paint.h"
 #include "../shared/label.h"
 
 /* The angle between N and H at which the highlight is half as bright, to a tenth of a degree */

@@ -13,7 +13,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "../shared/shapes.h"
-#include "../shared/noise.h"
+#include "../shared/paint.h"
 #include "../shared/label.h"
 
 static const shade_vec3 eye = { 0, 0, 100 };

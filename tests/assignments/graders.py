@@ -18,6 +18,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 ASSIGNMENTS = ROOT / "examples/teaching/assignments"
 sys.path.insert(0, str(ASSIGNMENTS))
+import grade  # noqa: E402
 from judge import process, student, tools  # noqa: E402
 from judge.points import Judge, Task  # noqa: E402
 from judge.process import Refused, Student  # noqa: E402
@@ -95,7 +96,8 @@ def right_answers(task):
         notes = Student(task.name, HERE / name, task.sent, task.outputs, 5).notes()
         check(f"{task.name}: nothing is told of {name}", not notes, notes)
     for name in ("starter.c", "starter.py"):
-        score, says = judged(task, ASSIGNMENTS / task.name / name)
+        path = handed_in(name, grade.starter(task.name, name.endswith(".c")))
+        score, says = judged(task, path)
         check(f"{task.name}: {name} has less than half", score < full(task) / 2 and says, says)
         check(f"{task.name}: {name} runs", "raises" not in says and "compile" not in says, says)
 

@@ -48,10 +48,8 @@ cached cc "${CC:-cc}" "-DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED"
 cached c++ "${CXX:-c++}" "-DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED"
 cached clang clang -DSHADE_NO_DISPATCH
 cached arm-none-eabi-gcc arm-none-eabi-gcc
-for python in python3 /usr/bin/python3; do
-    $python -c 'import numpy, PIL' 2>/dev/null &&
-        ln -s "$(command -v $python)" "$T/bin/python3" && break
-done
+find_python "numpy, PIL"
+[ -z "$python" ] || ln -s "$(command -v $python)" "$T/bin/python3"
 unset BUILD OUT SHADE BASE LEVELS MESH MAKEFLAGS MFLAGS MAKELEVEL
 PATH=$T/bin:$PATH CC=cc CXX=c++ CLANG=clang ROUNDS=1
 REVEAL=$TOP/build/node_modules/reveal.js    # clones have nothing of npm
@@ -105,7 +103,7 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="abi dialects compare contents contract coverage drawing embed lint matrix mutation node packages prove
+apart="abi dialects compare contract coverage drawing embed lint matrix mutation node packages prove
        python rows sizes static threads thumbnail user_files vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \

@@ -12,13 +12,13 @@ chmod 711 "$T"
 commands() { sed -n '/^```sh$/,/^```$/p' "$1" | grep -v '^```'; }
 shown() { awk -v n="$2" '/^```/ { k += inside = /^```text/; next } inside && k == n' "$1"; }
 # The same as a page's commands, in a folder with nothing but shade.h and the assignments
-walk() { (cd "$T/tree" && commands "$1" | sh); }
+walk() { (cd "$T/tree" && rm -f ./*.c ./*.py && commands "$1" | sh); }
 mkdir -p "$T/tree/examples/teaching" && cp shade.h "$T/tree" && cp -R $A "$T/tree/$A"
 solved() {                      # a page: its commands again, the starter replaced by a solution
-    commands "$1" | sed "s|^cp $A/[^ ]*/starter|cp $PWD/tests/assignments/by_hand|" >"$T/steps"
+    commands "$1" | sed "s|^python3 .* --start \(.*\)\(\.[a-z]*\)|cp $PWD/tests/assignments/by_hand\2 \1\2|" >"$T/steps"
     (cd "$T/tree" && sh "$T/steps")
 }
-in_python() { sed -e '/^cp /s/\.c/.py/g' -e '/^python3 /s/\.c /.py /' "$1" >"$T/python.md"; }
+in_python() { sed '/^python3 .* [0-9a-z_]*\.c\>/s/\.c\>/.py/' "$1" >"$T/python.md"; }
 
 walk $A/README.md >"$T/said"
 check "README shows what a starter is told" same "$(shown $A/README.md 2)" "$(cat "$T/said")"
@@ -66,11 +66,16 @@ assert (f"off by {most:.0e}".replace("e-0", "e-") + " max(1, |x|)" if most else 
 END
     check "$name: its page has points and tolerance" test ! -s "$T/log"
 done
-for wrong in "01_lambert" "no_task LICENSE" "11 LICENSE" "01_lambert LICENSE --mistake half"; do
+for wrong in "01_lambert" "no_task LICENSE" "11 LICENSE" "01_lambert LICENSE --mistake half" \
+    "01_lambert LICENSE --start $T/no.c"; do
     check "grade.py refuses $wrong" sh -c "python3 $A/grade.py $wrong 2>/dev/null; [ \$? -eq 2 ]"
 done
+python3 $A/grade.py 3 --start "$T/starter.c"
+python3 $A/grade.py 3 --start "$T/starter.py"
+check "what is there is no place for a starter" sh -c \
+    "python3 $A/grade.py 3 --start '$T/starter.c' 2>&1 | grep -qx '$T/starter.c is not written: File exists.'"
 check "without nm or a compiler C is refused in words" sh -c \
-    "CC=no_such_cc python3 $A/grade.py 01_lambert $A/01_lambert/starter.c | grep -q 'There is no no_such_cc'"
+    "CC=no_such_cc python3 $A/grade.py 3 '$T/starter.c' | grep -q 'There is no no_such_cc'"
 for number in 01 1 10; do
     check "grade.py takes $number for the name of a task" python3 $A/grade.py $number tests/assignments/by_hand.c
 done
@@ -104,9 +109,9 @@ if there zip; then
     for file in by_hand.c by_hand.py; do
         check "$file gets full points" hands_in tests/assignments/$file my.${file#*.} "sum(x['score'] for x in t) == 10"
     done
-    check "a starter in Python gets less than half, and sentences" hands_in $A/03_highlight/starter.py my.py \
+    check "a starter in Python gets less than half, and sentences" hands_in "$T/starter.py" my.py \
         "sum(x['score'] for x in t) < 5 and all(x['output'] for x in t if x['score'] < x['max_score'])"
-    check "results have the name and the points of each case" hands_in $A/03_highlight/starter.c my.c \
+    check "results have the name and the points of each case" hands_in "$T/starter.c" my.c \
         "[x['max_score'] for x in t] == [3, 1, 3, 1, 2] and t[0]['name'] == 'H'"
     check "what does not compile shows the compiler's words" hands_in LICENSE my.c \
         "$none 'does not compile' in x['output'] and 'error' in x['output'] for x in t)"

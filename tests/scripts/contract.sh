@@ -7,17 +7,12 @@ cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
 FLAGS="-std=c99 -O1 -I. -ffp-contract=off"
-for python in python3 /usr/bin/python3; do
-    $python -c 'import numpy, setuptools, wheel' 2>/dev/null && break
-    python=
-done
+find_python "numpy, setuptools, wheel"
 [ "$python" ] || { left_out "the contract: no Python with NumPy, setuptools and wheel"; finish; }
-zlib=
-echo 'int main(void) { return !zlibVersion(); }' | $CC -include zlib.h -x c - -lz -o "$T/probe" \
-    2>/dev/null && zlib="-DMODEL_ZLIB -lz"
+find_libraries
 check "the lists" $CC $FLAGS -DSHADE_IMPLEMENTATION tests/contract/names.c -lm -o "$T/names"
 check "thumbnail" $CC $FLAGS -DSHADE_IMPLEMENTATION -pthread examples/programs/thumbnail/thumbnail.c \
-    $zlib -lm -o "$T/thumbnail"
+    $ZLIB -lm -o "$T/thumbnail"
 mkdir "$T/files" "$T/tree"
 cp -R shade.h LICENSE examples "$T/tree"
 check "the package for Python" sh -c "cd '$T/tree/examples/packages/python' &&

@@ -99,10 +99,7 @@ for wheel in "$D"/shade_h-*.whl; do
 done
 if there twine; then check "twine" sh -c "twine check --strict '$D'/shade_h-*"
 else left_out "twine"; fi
-python=
-for p in python3 /usr/bin/python3; do
-    $p -c 'import numpy, venv, ensurepip' 2>/dev/null && python=$p && break
-done
+find_python "numpy, venv, ensurepip"
 if [ "$python" ] && ls "$D"/shade_h-*manylinux_2_17_x86_64.whl >/dev/null 2>&1 && [ "$(uname -m)" = x86_64 ]; then
     check "an environment" $python -m venv --system-site-packages "$T/env"
     check "the wheel is installed" $clean "$T/env/bin/pip" install -q --no-index --no-deps \

@@ -21,10 +21,7 @@ compile alone -O1 -DSHADE_NO_DISPATCH -DSHADE_LANES=16 -DBANDS_ALONE
 THUMBNAIL=$T/thumbnail
 
 # ---- what is drawn -------------------------------------------------------------------------------
-python=
-for k in python3 /usr/bin/python3; do
-    [ "$python" ] || { $k -c 'import numpy, PIL' 2>/dev/null && python=$k; }
-done
+find_python "numpy, PIL"
 if [ "$STB" ] && [ "$python" ]; then
     [ "$ASSIMP" ] || left_out "nodes as parts: no libassimp-dev"
     "$python" tests/thumbnail/drawing.py "$THUMBNAIL" "$T" ${ASSIMP:+assimp} >"$T/python.log" 2>&1

@@ -19,10 +19,8 @@ compiler() {
 compiler cc "$(command -v "$CC")"
 cxx=${CXX:-$(command -v c++ || command -v g++ || command -v clang++)}
 [ -n "$cxx" ] && compiler c++ "$(command -v "$cxx")"
-for python in python3 /usr/bin/python3; do
-    $python -c 'import numpy, PIL' 2>/dev/null && python=$(command -v $python) &&
-        ln -s "$python" "$T/bin/python3" && break
-done
+find_python "numpy, PIL"
+[ -z "$python" ] || ln -s "$(command -v $python)" "$T/bin/python3"
 PATH=$T/bin:$PATH CC=$T/bin/cc CXX=$T/bin/c++
 export PATH CC CXX
 

@@ -1,8 +1,29 @@
 #!/bin/sh
-# lint.sh - the house rules that a script can hold.  make format lays out the files that it names;
-# elsewhere columns, tabs and trailing blanks are held here, indents by .editorconfig.
+# lint.sh [--update] - the house rules that a script can hold.  make format lays out the files that
+# it names; elsewhere columns, tabs and trailing blanks are held here, indents by .editorconfig.
+# --update writes the line numbers of the banners into the contents table of shade.h, and ends.
 cd "$(dirname "$0")/../.." || exit 1
 H=shade.h
+# shade.h, its contents table with the line numbers of the banners
+numbered() {
+    awk 'NR == FNR { if (/^\/\*-+ >>/) line[$2] = FNR; next }
+        />>contents$/ { inside = 1 }
+        !NF { inside = 0 }
+        inside {
+            rest = $0; done = ""
+            while (match(rest, />>[a-z]+ +[0-9]+/)) {
+                entry = substr(rest, RSTART, RLENGTH); tag = entry; sub(/ .*/, "", tag)
+                done = done substr(rest, 1, RSTART - 1) sprintf("%s%" (RLENGTH - length(tag)) "d", tag, line[tag])
+                rest = substr(rest, RSTART + RLENGTH)
+            }
+            $0 = done rest
+        }
+        { print }' $H $H
+}
+if [ "$1" = --update ]; then
+    numbered >/tmp/lint_numbered.$$ && cat /tmp/lint_numbered.$$ >$H && rm /tmp/lint_numbered.$$
+    exit
+fi
 passed=0 failed=0
 check() {                                    # what, the lines that offend
     if [ -z "$2" ]; then passed=$((passed + 1)); return; fi
@@ -18,7 +39,7 @@ check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H $C)"
 sed -n '/>>contents$/,/^$/p' $H | grep -oE '>>[a-z]+' | grep -v '>>contents' >/tmp/lint_contents.$$
 grep -oE '^/\*-+ >>[a-z]+' $H | grep -oE '>>[a-z]+' >/tmp/lint_banners.$$
 printf '>>about\n>>contents\n>>conventions\n>>model\n' | cat - /tmp/lint_banners.$$ | grep -v '>>contents' >/tmp/lint_want.$$
-check "the contents table has the banners' lines (sh tests/scripts/contents.sh --update)" "$(sh tests/scripts/contents.sh)"
+check "the contents table has the banners' lines (sh tests/scripts/lint.sh --update)" "$(numbered | diff $H -)"
 check "contents table equals banners" "$(diff /tmp/lint_contents.$$ /tmp/lint_want.$$)"
 rm -f /tmp/lint_contents.$$ /tmp/lint_banners.$$ /tmp/lint_want.$$
 

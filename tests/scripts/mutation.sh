@@ -46,8 +46,8 @@ assembly() {                    # the folder of a shade.h, public or implementat
 }
 first() {                       # sections of the tests that know a section of shade.h best
     case $1 in
-    math) echo math matrix ;; matrix) echo matrix ;; power) echo power light ;;
-    base) echo power lanes store ;; pixels | store) echo store resolve texture ;;
+    math) echo math matrix ;; matrix) echo matrix ;; power) echo math light ;;
+    base) echo math lanes store ;; pixels | store) echo store resolve texture ;;
     lamps | terms) echo light lanes ;; lit) echo lanes light ;; vertices) echo vertex clip ;;
     triangles) echo packets depth cover ;; clip) echo clip depth ;;
     tiles) echo work cover ;; cover) echo work cover blocks fragment ;; fragments) echo packets fragment store ;;

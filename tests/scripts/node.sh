@@ -87,10 +87,7 @@ if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco
 else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
 
-for python in python3 /usr/bin/python3; do
-    $python -c 'import numpy, setuptools, wheel, PIL' 2>/dev/null && break
-    python=
-done
+find_python "numpy, setuptools, wheel, PIL"
 if [ "$python" ]; then
     check "the package for Python" sh -c "cd '$T/tree/examples/packages/python' &&
         $python setup.py -q build_ext --build-lib '$T/python' && cp shade_h/*.py '$T/python/shade_h'"

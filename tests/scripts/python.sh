@@ -6,10 +6,7 @@ cd "$(dirname "$0")/../.." || exit 1
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONDONTWRITEBYTECODE
 
-for python in python3 /usr/bin/python3; do
-    $python -c 'import numpy, pytest, setuptools, venv, wheel, build' 2>/dev/null && break
-    python=
-done
+find_python "numpy, pytest, setuptools, venv, wheel, build"
 [ "$python" ] || { left_out "everything: no Python with numpy, pytest, setuptools and build"; finish; }
 
 mkdir -p "$T/tree/examples/packages"

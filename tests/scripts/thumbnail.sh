@@ -694,7 +694,5 @@ build=full THUMBNAIL=$T/full
 both
 [ "$STB" ] && map_reports
 [ "$STB" ] && . tests/thumbnail/pictures.sh
-[ "$STB" ] && . tests/thumbnail/reliefs.sh
 [ "$ASSIMP" ] && . tests/thumbnail/formats.sh
-[ "$STB" ] && [ "$ASSIMP" ] && . tests/thumbnail/real.sh
 finish

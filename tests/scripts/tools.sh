@@ -32,11 +32,20 @@ find_libraries() {
     echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
         -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
 }
+# Sets $python to a Python that has these modules, or to nothing.
+find_python() {                 # modules, with commas between them
+    for python in python3 /usr/bin/python3; do
+        $python -c "import $1" 2>/dev/null && return
+    done
+    python=
+}
 # The inline functions of shade.h's public part, one a line
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 # Lessons draw with one sample a pixel where $one_sample is included before them, but for those that
 # count the samples of their picture themselves.
-one_sample=$PWD/tests/scripts/one_sample.h alone="32_z_buffer 37_rays"
+one_sample=$T/one_sample.h alone="32_z_buffer 37_rays"
+printf '#include "%s/examples/shared/canvas.h"\n#define canvas_new(w, h, samples) canvas_new(w, h, 1)\n' \
+    "$PWD" >"$one_sample"
 among() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }      # word, words
 soon() {                        # waits up to $patience seconds, 20, for a command to succeed
     for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done

@@ -2,7 +2,7 @@
    field to look at; good scenes get none; what is said of random draws is so; hostile ones cost no
    memory and no crash. */
 #include "unit.h"
-#include "stage.h"
+#include "mistakes.h"
 
 static int explained_pick(int n) { return rnd_int(0, n - 1); }
 #include "../fuzz/explained.h"

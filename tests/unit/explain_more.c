@@ -1,7 +1,7 @@
 /* explain_more.c - where sentences of shade_explain begin: each is said on one side of its limit,
    and not on the other, a step away.  The ball of mistakes.h is the scene. */
 #include "unit.h"
-#include "stage.h"
+#include "mistakes.h"
 
 /* The words are said where miss is 0, and not where it is 1 .. misses: a sentence of several
    conditions has a miss for each. */

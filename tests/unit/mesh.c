@@ -363,27 +363,6 @@ TEST(mesh, every_layout_of_the_same_mesh_gives_the_same_bits)
     }
 }
 
-/* Two to seven bands, of heights that are no multiples of a block or a tile. */
-/* G13 */
-TEST(mesh, bands_of_a_mesh_give_the_bits_of_the_whole)
-{
-    static test_mesh m;
-    for (int i = 0; i < 60; i++) {
-        canvas c[2];
-        canvas_twins(c, 64, 48, (shade_format)(i % 3), 1);
-        random_mesh_scene(&m, (shade_shading)(i % 3), 0);
-        canvas_draw_mesh(&c[0], &m.mesh, &m.state);
-        int bands = rnd_int(2, 7);
-        for (int k = 0; k < bands; k++) {
-            c[1].target.clip_y = 48 * k / bands;
-            c[1].target.clip_height = 48 * (k + 1) / bands - c[1].target.clip_y;
-            c[1].target.clip_width = 64;
-            canvas_draw_mesh(&c[1], &m.mesh, &m.state);
-        }
-        canvas_twins_close(c);
-    }
-}
-
 /* The light falls at a cosine of 0.8 upon a triangle whose normal is z: 0.8 of (0.5, 1, 2), and
    0.1 of ambient red. */
 TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)

@@ -8,7 +8,7 @@
 #define MISTAKES_H
 
 #include "examples/shared/teapot.h"
-#include "listed.h"
+#include "test.h"
 
 enum { STAGE_RINGS = 12, STAGE_SECTORS = 16, STAGE_WIDTH = 96, STAGE_HEIGHT = 64 };
 enum { STAGE_VERTICES = (STAGE_RINGS + 1) * (STAGE_SECTORS + 1) };
@@ -123,6 +123,12 @@ static inline void stage_of_ball(stage *s)
     s->z_far = 100;
     stage_look(s);
 }
+static inline stage *stage_open(void)
+{
+    stage *s = (stage *)test_memory(sizeof *s);
+    stage_of_ball(s);
+    return s;
+}
 /* README's first program, with the teapot of few triangles. */
 static inline void stage_of_teapot(stage *s)
 {
@@ -182,7 +188,6 @@ enum {
 #define BLACK shade_v3(0, 0, 0)
 #define WHITE shade_v3(1, 1, 1)
 #define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
-#define SUN shade_directional_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1))
 
 /* ---- of a newcomer, in any scene */
 

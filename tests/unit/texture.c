@@ -437,37 +437,6 @@ TEST(texture, no_texel_outside_the_picture_is_read)
     }
 }
 
-/* Packets run the build for this processor, single samples that for any: both must round alike. */
-/* G14 */
-TEST(texture, lanes_are_the_scalar_samples_bit_for_bit)
-{
-    for (int i = 0; i < 300; i++) {
-        static float u[SHADE_LANES], v[SHADE_LANES], lod[SHADE_LANES], rgba[4 * SHADE_LANES];
-        shade_texture t = random_texture(30), levels[16];
-        void *memory = add_mipmaps(&t, levels);
-        t.filter = (shade_filter)rnd_int(0, 2);
-        for (int k = 0; k < SHADE_LANES; k++) {
-            u[k] = random_coordinate();
-            v[k] = random_coordinate();
-            lod[k] = rnd_one_in(3) ? rnd_nasty() : rnd_float(-1, 7);
-        }
-        int with_lod = !rnd_one_in(4);
-        shade_sample_lanes(&t, u, v, with_lod ? lod : NULL, rgba);
-        for (int k = 0; k < SHADE_LANES; k++) {
-            float got[4];
-            sample_to(&t, u[k], v[k], with_lod ? lod[k] : 0, got);
-            for (int c = 0; c < 4; c++) {
-                CHECK_SAY(float_bits(got[c]) == float_bits(rgba[c * SHADE_LANES + k]),
-                          "lane %d channel %d filter %d at %a %a lod %a: %a, scalar %a", k, c,
-                          (int)t.filter, (double)u[k], (double)v[k], (double)lod[k],
-                          (double)rgba[c * SHADE_LANES + k], (double)got[c]);
-            }
-        }
-        free(memory);
-        free_texture(&t);
-    }
-}
-
 /* lanes of one packet that read different levels */
 /* G14 */
 TEST(texture, lanes_stay_apart_when_texels_are_not_finite)

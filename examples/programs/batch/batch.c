@@ -12,7 +12,6 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "film.h"
-#include "mark.h"
 #include "sheet.h"
 
 static const char usage[] =

@@ -6,7 +6,7 @@
 #ifndef THUMBNAIL_VIEWS_H
 #define THUMBNAIL_VIEWS_H
 
-#include "drawing_options.h"
+#include "options.h"
 #include "../../shared/mesh.h"
 
 typedef struct matrix4 {

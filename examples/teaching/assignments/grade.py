@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Judges what a student hands in for a task: a .c file or a .py file.
 
+    python3 grade.py 01_lambert --start my.c
     python3 grade.py 01_lambert my.c --picture out.png
 
 The exit status is 0 for full points.  It needs Python 3.8 or newer, for C a C compiler and nm.
@@ -9,6 +10,7 @@ import argparse
 import json
 import math
 import os
+import re
 import struct
 import sys
 import textwrap
@@ -21,7 +23,32 @@ try:
     from judge.process import Refused, Student
 except ImportError as error:
     sys.exit(f"{error}: the grader needs Linux or macOS; on Windows use WSL.")
+HERE = Path(__file__).resolve().parent
 SIDE = 160  # of a picture
+NOTHING = {  # what a starter returns, by the type in C or by the words of a task's page
+    "float": "0", "int": "0", "shade_vec2": "shade_v2(0, 0)", "shade_vec3": "shade_v3(0, 0, 0)",
+    "shade_mat3": "shade_mat3_identity()",
+    "a float": "0.0", "a bool": "False", "[u, v]": "[0.0, 0.0]",
+    "a list of three floats": "[0.0, 0.0, 0.0]",
+    "three lists of three floats, column after column": "[model[0:3], model[4:7], model[8:11]]",
+}
+
+
+def starter(task, is_c):
+    """Returns a file that runs without an answer, with the functions that the page asks for."""
+    page = (HERE / task / "README.md").read_text(encoding="utf-8")
+    block = page.split("```c\n" if is_c else "```python\n")[1].split("```")[0]
+    if not is_c:
+        heads = re.findall(r"(def .*:)  # returns (.*)", block)
+        return f'"""{task}: write what the page of the task asks for."""\n' + "".join(
+            f"\n\n{head}  # returns {what}\n    return {NOTHING[what]}\n" for head, what in heads)
+    text = f"/* {task}: write what the page of the task asks for. */\n"
+    text += '#include "shade.h"\n#include <math.h>\n'
+    for kind, name, given in re.findall(r"(\w+) (\w+)\((.*?)\);", block, re.S):
+        names = re.findall(r"(\w+)(?:\[3\])?(?:,|$)", given)
+        unused = "".join(f"    (void){one};\n" for one in names)
+        text += f"\n{kind} {name}({given})\n{{\n{unused}    return {NOTHING[kind]};\n}}\n"
+    return text
 
 
 def pixels(task, ask):
@@ -74,15 +101,28 @@ def arguments():
                         type=lambda text: numbers.get(text.zfill(2), text))
     add = parser.add_argument
     add("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
+    add("--start", metavar="FILE", help="writes a .c or a .py to begin with, where there is none")
     add("--seed", default="1", help="of the inputs; teachers keep theirs to themselves")
     add("--json", metavar="RESULTS", help="writes results as Gradescope reads them")
     add("--picture", metavar="PNG", help="draws your answers, and beside them the right ones")
     add("--mistake", metavar="NAME", help="judges a known mistake in place of a file")
     add("--seconds", type=int, default=5, help="of the processor, for the inputs of a case")
     options = parser.parse_args()
-    if bool(options.answer) == bool(options.mistake):
-        parser.error("give a FILE, or --mistake NAME")
+    if sum(map(bool, (options.answer, options.start, options.mistake))) != 1:
+        parser.error("give a FILE, --start FILE or --mistake NAME")
     return options
+
+
+def start(task, path):
+    """Writes a file to begin with."""
+    if path.suffix not in (".c", ".py"):
+        sys.exit(f"{path} is neither a .c nor a .py.")
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(starter(task, path.suffix == ".c"))
+    except OSError as error:
+        sys.exit(f"{path} is not written: {error.strerror}.")
+    return 0
 
 
 def mistaken(task, name):
@@ -96,6 +136,8 @@ def mistaken(task, name):
 def main():
     """Runs the command line."""
     options = arguments()
+    if options.start:
+        return start(options.task, Path(options.start))
     task, student, output = Task(options.task), None, ""
     scores = [(0, "The grader did not finish.")] * len(task.cases)
     if options.json:
