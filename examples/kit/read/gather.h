@@ -3,6 +3,7 @@
 #define MODEL_GATHER_H
 
 #include "faces.h"
+#include "points.h"
 
 /* ---- where things are ------------------------------------------------------------------------ */
 
@@ -107,6 +108,17 @@ static inline float *gather_take(mesh_floats *from)
     float *v = from->v;
     from->v = NULL;
     return v;
+}
+
+/* Moves vertices that no face joins into a model, as points. */
+static inline int gather_points(mesh_reader *r, gather *g, model *m)
+{
+    const size_t n = g->positions.count / 3;
+    if (g->colored && gather_fill(&g->colors, 3 * n, 1)) return mesh_fail(r, "out of memory");
+    m->mesh.positions = gather_take(&g->positions);
+    if (g->colored) m->mesh.colors = gather_take(&g->colors);
+    model_placed(m, &g->origin);
+    return points_finish(r, m, n);
 }
 
 /* Moves all that was gathered into a model.  Returns non-zero with the error in r. */

@@ -4,7 +4,7 @@
 
    An extension is drawn, or it changes nothing that a picture of shade.h has, or a file that
    requires it is refused by its name (gltf_known).  A picture that only an extension could decode
-   is a warning, and so are points and lines. */
+   is a warning, and so are lines, and points beside faces. */
 #ifndef MODEL_GLTF_H
 #define MODEL_GLTF_H
 
@@ -94,9 +94,10 @@ typedef struct gltf {
     gltf_place *place;
     int plain; /* the surface of faces without a material; -1: not yet */
     gather all;
-    int counting, nodes, depth, others; /* others: there are points or lines */
-    int cut;                            /* faces are left out, for all of them are holes */
-    double triangles, vertices;
+    int counting, nodes, depth, lines; /* lines: there are some */
+    int cut;                           /* faces are left out, for all of them are holes */
+    int cloud;                         /* there are points, and no faces */
+    double triangles, vertices, points;
 } gltf;
 
 /* ---- numbers and objects of the JSON --------------------------------------------------------- */
@@ -724,6 +725,14 @@ static inline int gltf_materials(gltf *g)
     return 0;
 }
 
+/* Where what has no material is on */
+static inline int gltf_plain(gltf *g, int *surface)
+{
+    if (g->plain < 0) g->plain = model_add_surface(g->m, "plain", 5);
+    *surface = g->plain;
+    return g->plain < 0 ? mesh_fail(g->r, "out of memory") : 0;
+}
+
 /* The surface of a primitive, whose place is g->place of that number */
 static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
 {
@@ -734,9 +743,7 @@ static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
         *surface = (int)json_number_at(&g->j, at, 0);
         return 0;
     }
-    if (g->plain < 0) g->plain = model_add_surface(g->m, "plain", 5);
-    *surface = g->plain;
-    return g->plain < 0 ? mesh_fail(g->r, "out of memory") : 0;
+    return gltf_plain(g, surface);
 }
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
@@ -745,6 +752,7 @@ static inline int gltf_surface(gltf *g, uint32_t primitive, int *surface)
 typedef struct gltf_vertices {
     gltf_values position, normal, uv, color, joint[2], weight[2], index;
     char uv_name[24];
+    shade_vec3 tint; /* of all colours */
     gather_matrix *bone;
     uint32_t bones;
 } gltf_vertices;
@@ -898,6 +906,7 @@ static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const g
     memcpy(&c.normal, normal, sizeof normal);
     for (int k = 0; v->color.width && k < 3; k++) rgb[k] = gltf_value(&v->color, i, k);
     if (v->color.width) c.color = gltf_color(rgb);
+    c.color = shade_mul(c.color, v->tint);
     if (v->uv.width && place) {
         const double uv[2] = { gltf_value(&v->uv, i, 0), gltf_value(&v->uv, i, 1) };
         const double *t = place->change;
@@ -939,10 +948,13 @@ static inline int gltf_count(gltf *g, uint32_t primitive, double mode, size_t in
     if (gltf_count_of(g, json_member(&g->j, attributes, "POSITION"), &vertices)) return 1;
     corners = vertices;
     if (index && gltf_count_of(g, index, &corners)) return 1;
-    g->vertices += vertices * (double)instances;
-    g->triangles += (mode == 4 ? floor(corners / 3) : fmax(0, corners - 2)) * (double)instances;
+    if (mode > 0) {
+        g->vertices += vertices * (double)instances;
+        g->triangles += (mode == 4 ? floor(corners / 3) : fmax(0, corners - 2)) * (double)instances;
+    } else
+        g->points += corners * (double)instances;
     if (g->triangles > most) return mesh_fail(g->r, "more than %lu triangles", (unsigned long)most);
-    if (g->vertices > 4 * most + 1e6)
+    if (fmax(g->vertices, g->points) > 4 * most + 1e6)
         return mesh_fail(g->r, "more than %lu vertices", (unsigned long)(4 * most + 1e6));
     return 0;
 }
@@ -959,6 +971,14 @@ static inline int gltf_bare(gltf *g, uint32_t at)
     return gltf_item(g, GLTF_ACCESSORS, at, &object) || !json_member(&g->j, object, "bufferView");
 }
 
+/* Points have no surface: its base colour becomes theirs. */
+static inline shade_vec3 gltf_tint(const gltf *g, int surface)
+{
+    const model_surface *s = &g->m->surface[surface];
+    if (!g->cloud || surface == g->plain) return shade_v3(1, 1, 1);
+    return shade_scale(s->material.diffuse, 1 / (1 - MODEL_METAL_DARK * s->metal));
+}
+
 static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uint32_t node,
                                  const gltf_instances *in)
 {
@@ -973,36 +993,43 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     if (!at) return 0; /* nothing to draw, says glTF */
     if (gltf_extended(g, primitive, "KHR_draco_mesh_compression") && gltf_bare(g, at))
         return mesh_fail(g->r, "it needs KHR_draco_mesh_compression, which is not read");
-    if (mode < 4 || mode > 6) {
-        g->others = 1;
+    if (mode > 0 && (mode < 4 || mode > 6)) {
+        g->lines = 1;
         return 0;
     }
     if (g->counting) return gltf_count(g, primitive, mode, in->count);
+    if (g->cloud != !(mode > 0)) return 0;
     if (gltf_surface(g, primitive, &surface)) return 1;
     if (g->m->surface[surface].alpha_cutoff > 1) { /* no alpha of a picture is enough */
         g->cut = 1;
         return 0;
     }
     place = surface == g->plain ? NULL : &g->place[surface];
+    if (place && place->used > 0 && g->cloud)
+        model_warn(g->m, g->r->name, "the pictures of its points");
+    v.tint = gltf_tint(g, surface);
     failed = gltf_load(g, primitive, surface, &v);
-    if (!failed && place && place->used > 0 && !v.uv.width)
+    if (!failed && place && place->used > 0 && !v.uv.width && !g->cloud)
         model_warn(g->m, g->r->name, "a picture has no texture coordinates");
     if (!failed)
         failed = gltf_morph(g, primitive, mesh, node, &v) ||
                  gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
     g->all.textured |= v.uv.width && place && place->used > 0;
-    g->all.colored |= v.color.width > 0;
+    g->all.colored |= v.color.width > 0 || v.tint.x * v.tint.y * v.tint.z < 1;
     g->all.texcoords_kept = g->all.textured;
     g->all.colors_kept = g->all.colored;
     for (size_t k = 0; k < in->count && !failed; k++) {
-        const size_t first = g->all.positions.count / 3, n = v.position.count;
+        const size_t first = g->all.positions.count / 3;
+        const int named = g->cloud && v.index.width; /* these points alone */
+        const size_t n = named ? v.index.count : v.position.count;
         gltf_turn turn = gltf_turned(n ? gltf_bone(&v, 0, &in->at[k]) : in->at[k]);
         const int mirrored = gather_determinant(&turn.m) < 0;
         for (size_t i = 0; i < n && !failed; i++) {
-            if (gltf_is_boned(&v)) turn = gltf_turned(gltf_bone(&v, i, &in->at[k]));
-            failed = gltf_vertex(g, &v, i, &turn, place && place->used > 0 ? place : NULL);
+            const size_t own = named ? (size_t)gltf_value(&v.index, i, 0) : i;
+            if (gltf_is_boned(&v)) turn = gltf_turned(gltf_bone(&v, own, &in->at[k]));
+            failed = gltf_vertex(g, &v, own, &turn, place && place->used > 0 ? place : NULL);
         }
-        if (!failed) failed = gltf_faces(g, &v, mode, first, mirrored);
+        if (!failed && !g->cloud) failed = gltf_faces(g, &v, mode, first, mirrored);
     }
     free(v.bone);
     gltf_free_vertices(&v);
@@ -1192,20 +1219,25 @@ static inline int gltf_version(gltf *g)
 
 static inline int gltf_build(gltf *g)
 {
+    int plain;
     if (gltf_version(g) || gltf_extensions(g, "extensionsRequired", 1) || gltf_index(g)) return 1;
     g->buffer = (gltf_bytes *)calloc((size_t)g->count[GLTF_BUFFERS] + 1, sizeof *g->buffer);
     if (!g->buffer) return mesh_fail(g->r, "out of memory");
     if (gltf_parents(g) || gltf_scene(g, 1)) return 1;
-    if (g->triangles <= 0)
-        return mesh_fail(g->r,
-                         g->others ? "points and lines alone are not drawn" : "no faces in it");
+    g->cloud = g->triangles <= 0 && g->points > 0;
+    if (g->triangles <= 0 && !g->cloud)
+        return mesh_fail(g->r, g->lines ? "lines alone are not drawn" : "no faces in it");
     if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
-    if (g->others) model_warn(g->m, g->r->name, "its points and lines");
-    if (g->cut && !g->all.faces.triangles)
+    if (g->lines || (g->points > 0 && !g->cloud))
+        model_warn(g->m, g->r->name, g->cloud ? "its lines" : "its points and lines");
+    if (g->cut && !(g->cloud ? g->all.positions.count : g->all.faces.triangles))
         return mesh_fail(g->r, "nothing of it can be seen: its alpha is below its alphaCutoff");
     if (g->cut) model_warn(g->m, g->r->name, "faces whose alpha is below their alphaCutoff");
     if (gltf_extensions(g, "extensionsUsed", 0)) return 1;
-    return gather_finish(g->r, &g->all, g->m);
+    if (!g->cloud) return gather_finish(g->r, &g->all, g->m);
+    if (gltf_plain(g, &plain) || gather_points(g->r, &g->all, g->m)) return 1;
+    if (g->m->part) g->m->part->surface = plain;
+    return 0;
 }
 
 static inline int gltf_read(mesh_reader *r, model *m)

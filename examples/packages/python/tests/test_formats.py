@@ -154,6 +154,41 @@ def test_strips_fans_vertex_colours_and_normalised_integers():
     assert (row[:, 1] - row[:, 0]).max() > 100
 
 
+def test_points_of_gltf_without_faces_are_a_cloud():
+    made, points = Glb(), np.array([[x, y, x * y] for x in range(4) for y in range(3)], "<f4")
+    bright = [[i % 2, i % 3 > 0, i % 4 < 2] for i in range(12)]
+    place = made.accessor(points[:8] - np.float32([1, 2, 4]), "VEC3")
+    made.json["meshes"] = [{"primitives": [
+        {"mode": 0, "attributes": {"POSITION": place, "COLOR_0": made.accessor(
+            np.array(bright[:8], "u1") * 255, "VEC3", normalized=True)}},
+        {"mode": 1, "attributes": {"POSITION": place}}]}, {"primitives": [
+            {"mode": 0, "material": 0, "indices": made.accessor(np.array([2, 0, 3], "<u2"), "SCALAR"),
+             "attributes": {"POSITION": made.accessor(points[8:], "VEC3")}}]}]
+    made.json["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [0, 1, 1, 1]}}]
+    made.node(mesh=0, translation=[1, 2, 4])
+    made.node(mesh=1)
+    shown, color = points[[*range(8), 10, 8, 11]], 255 * np.array([*bright[:8], *3 * [[0, 1, 1]]])
+    rows = [" ".join(map(str, (*map(float, p), *c))) for p, c in zip(shown, color)]
+    head = "".join(f"property {kind} {k}\n" for k, kind in zip(
+        ("x", "y", "z", "red", "green", "blue"), 3 * ["float"] + 3 * ["uchar"]))
+    text = "\n".join(["ply\nformat ascii 1.0\nelement vertex 11", head + "end_header", *rows, ""])
+    with pytest.warns(UserWarning) as told:
+        got = drawn(made.bytes(), up="z")
+    told = " ".join(str(w.message) for w in told)
+    assert "its lines" in told and "11 points have no faces" in told
+    with pytest.warns(UserWarning, match="11 points"):
+        same = drawn(text.encode(), up="z")
+    assert got == same and len(np.unique(got.rgba.reshape(-1, 4), axis=0)) > 7
+    made.json["meshes"][0]["primitives"][0]["mode"] = 2
+    made.json["meshes"][1]["primitives"][0]["mode"] = 3
+    with pytest.raises(shade.Error, match="lines alone are not drawn"):
+        drawn(made.bytes())
+    made.json["nodes"][1]["mesh"] = made.quad()
+    made.json["meshes"][0]["primitives"][0]["mode"] = 0
+    with pytest.warns(UserWarning, match="its points and lines"):
+        drawn(made.bytes())
+
+
 def corners(data):
     """The corners of the triangles that a file shows."""
     got = shade.load(io.BytesIO(data))
