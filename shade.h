@@ -54,34 +54,34 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     129  options               >>types      256  materials, lamps, targets, states
-       >>light      434  the equation, colour  >>draw       541  shaders, meshes, pixels
-       >>tools      694  explain, lines, rays  >>plumbing   886  compilers, flags and bits
-       >>math      1025  vectors and matrices
+       >>light      435  the equation, colour  >>draw       543  shaders, meshes, pixels
+       >>tools      696  explain, lines, rays  >>plumbing   891  compilers, flags and bits
+       >>math      1030  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1386  processors            >>base      1621  bits, masks, rows of vectors
-       >>matrix    1818  cameras, inverses     >>power     2100  x^n
-       >>pixels    2166  formats, sRGB
+       >>machine   1391  processors            >>base      1626  bits, masks, rows of vectors
+       >>matrix    1823  cameras, inverses     >>power     2105  x^n
+       >>pixels    2171  formats, sRGB
      Inside: light
-       >>lamps     2474  attenuation, cones    >>terms     2726  one term at one point
-       >>surface   2801  material and lights   >>lit       2918  the whole sum, at many points
+       >>lamps     2479  attenuation, cones    >>terms     2731  one term at one point
+       >>surface   2806  material and lights   >>lit       2923  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3307  fields by owner       >>vertices  3519  shading, projection
-       >>triangles 3721  culling, edge setup   >>clip      4074  near, far, guard band
-       >>tiles     4260  edges and depth test  >>cover     4618  triangles, tile by tile
-       >>fragments 4884  interpolation, lod    >>texture   5157  texels, filters
-       >>store     5606  blending, packing
+       >>state     3312  fields by owner       >>vertices  3524  shading, projection
+       >>triangles 3726  culling, edge setup   >>clip      4079  near, far, guard band
+       >>tiles     4265  edges and depth test  >>cover     4623  triangles, tile by tile
+       >>fragments 4889  interpolation, lod    >>texture   5162  texels, filters
+       >>store     5611  blending, packing
      Inside: calls of the renderer
-       >>check     5856  refusals              >>seen      6063  view volume, chunks
-       >>drive     6183  shade_draw            >>mesh      6372  shade_draw_mesh
+       >>check     5861  refusals              >>seen      6068  view volume, chunks
+       >>drive     6188  shade_draw            >>mesh      6377  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6776  shade_draw_lines      >>camera    6968  eye and line of sight
-       >>shape     7062  normals, edges        >>chunks    7428  sorting and boxes
-       >>rays      7597  shade_pick            >>survey    7785  experiments on a draw
-       >>explain   8246  why nothing is seen   >>replay    9422  the same for lines, pipelines
-       >>image     9749  makes mipmaps, PPM    >>presets  10081  classic materials
+       >>lines     6781  shade_draw_lines      >>camera    6973  eye and line of sight
+       >>shape     7067  normals, edges        >>chunks    7433  sorting and boxes
+       >>rays      7602  shade_pick            >>survey    7790  experiments on a draw
+       >>explain   8251  why nothing is seen   >>replay    9427  the same for lines, pipelines
+       >>image     9754  makes mipmaps, PPM    >>presets  10086  classic materials
      Sources
-       >>refs     10166                        >>history  10196
-       >>license  10202
+       >>refs     10171                        >>history  10201
+       >>license  10207
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -355,7 +355,8 @@ typedef enum shade_filter {
 } shade_filter;
 
 /* A picture to sample.  u runs right and v DOWN from the top left corner of row 0; texel (i, j) has
-   its centre at ((i + 1/2) / width, (j + 1/2) / height).  A bad texture samples as white. */
+   its centre at ((i + 1/2) / width, (j + 1/2) / height).  A bad texture samples as white.  Levels
+   are read with the wrap and filter of the full size, which also takes the place of a bad level. */
 typedef struct shade_texture {
     const void  *pixels;
     int          width, height, stride;    /* texels, 1 .. 16384; stride 0 means width */
@@ -364,7 +365,7 @@ typedef struct shade_texture {
     shade_wrap   wrap_u, wrap_v;
     shade_filter filter;
     const struct shade_texture *mipmaps;   /* levels 1, 2, ...; only TRILINEAR reads them */
-    int          mipmap_count;
+    int          mipmap_count;             /* at most 16 count; negative: none */
 } shade_texture;
 
 /* A picture and its depth buffer, in your memory. */
@@ -459,7 +460,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 
 /* How much of a lamp arrives at P if nothing is in the way: spot / (a + b r + c r^2), a factor of
    I_d and I_s; 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P toward
-   the lamp.  Where P is the lamp, L is zero, and a cone with cos(beta) > 0 gives no light.
+   the lamp.  Where P is the lamp, or a lamp at infinity has no direction, L is zero, and a cone
+   with cos(beta) > 0 gives no light.
    *distance becomes r, or FLT_MAX at infinity.  Either may be NULL.  For light NULL all three are
    zero. */
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
@@ -509,8 +511,8 @@ SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shad
 /* B max(0, N.H)^n with H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12. [Blinn77] */
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
                                           float exponent);
-/* 1 / (a + b r + c r^2), at most 1e20.  It is 1 where a = b = c = 0; where only a is 0, r counts as
-   max(r, 1e-4). */
+/* 1 / (a + b r + c r^2), at most 1e20, which is also the result for a sum that is negative or NaN.
+   It is 1 where a = b = c = 0; where only a is 0, r counts as max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
 /* (L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It is 1
    where aim is zero. */
@@ -518,7 +520,7 @@ SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff,
 
 /* The reflectance f_r: reflected light is f_r I (N.L).  It is k_d + k_s (N.H)^n for BLINN_PHONG,
    k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, else 0.  It has no B: the weight N.L does the same.
-   N, L and V are unit vectors. */
+   N, L and V are unit vectors.  material NULL is white Lambert. */
 SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model, shade_vec3 normal,
                                shade_vec3 to_light, shade_vec3 to_eye);
 /* cool + k_w (warm - cool) with k_w = (1 + N.L) / 2.  N and L are unit vectors.      [Gooch98] */
@@ -637,7 +639,7 @@ typedef struct shade_mesh {
     const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
     int vertex_count;
     const uint32_t *indices; int index_count;        /* NULL: vertices 0, 1, 2, ... */
-    const struct shade_chunk *chunks; int chunk_count;    /* NULL: no triangle is skipped */
+    const struct shade_chunk *chunks; int chunk_count;    /* NULL and 0: no triangle is skipped */
     const uint16_t *indices16;                       /* in place of indices: one of them is NULL */
 } shade_mesh;
 
@@ -746,14 +748,16 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
 typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
-    float         width;                          /* in pixels; 0 means 1, above 2^25 as 2^25 */
+    float         width;                          /* in pixels; 0 means 1; at most 2^25 counts */
     shade_cap     cap;                            /* SQUARE adds half the width, to close joints */
     shade_vec4    color;
     shade_raster  raster;                         /* cull is ignored */
 } shade_line_state;
 /* Draws point_count / 2 lines between pairs of points.  Each is a rectangle on the screen, drawn as
    two triangles, which stats counts.  For lines over a filled mesh use SHADE_COMPARE_LESS_EQUAL and
-   a small negative depth_bias.  An odd or negative count is SHADE_ERROR_MESH. */
+   a small negative depth_bias.  A line whose ends coincide is nothing, or a square with
+   SHADE_CAP_SQUARE.  An odd or negative count, or one beyond 715827882, is SHADE_ERROR_MESH; a
+   width that is negative, NaN or infinite is SHADE_ERROR_STATE. */
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
@@ -813,9 +817,10 @@ SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
    than 3e-5 of itself from near to far.  Then the ray starts where clip z = -w: on the near plane
    or, if z is from 0 to w, on a plane far - near in front of it.  It points to where depth grows,
    and so meets first what SHADE_COMPARE_LESS draws.
-     Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
-   camera (both w and depth are constant), and for a zero matrix, which is not the identity here: in
-   place of the zero matrices of a draw state pass shade_mat4_identity(). */
+     Its direction is a unit vector.  A width or height below 1 counts as 1.  The ray is zero where
+   it would not be finite, for a degenerate camera (both w and depth are constant), and for a zero
+   matrix, which is not the identity here: in place of the zero matrices of a draw state pass
+   shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -1150,7 +1155,7 @@ SHADE__EXPORT shade_vec3 shade_normalize(shade_vec3 v)
     return shade_scale(v, d >= 1e-36f ? 1 / shade__sqrt(d) : 0);
 }
 
-/* a + t (b - a): exactly a at t = 0, b up to rounding at t = 1.  t is not clamped. */
+/* a + t (b - a): exactly a at t = 0; at t = 1 b, up to the rounding of b - a.  t is not clamped. */
 SHADE__EXPORT shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t)
 {
     return shade_madd(a, t, shade_sub(b, a));

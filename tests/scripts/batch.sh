@@ -296,6 +296,9 @@ check "a file for a folder" refused "Not a directory" "$BATCH" $turn --out empty
 check "a folder in none" refused "No such file" "$BATCH" $turn --out none/frames
 check "help" sh -c "'$BATCH' --help | grep -q '^usage: batch'"
 [ -w /dev/full ] && check "no room" refused "No space" sh -c "'$BATCH' $turn --pipe >/dev/full"
+[ -w /dev/full ] && check "no room for numbers, and for help" sh -c "
+    ! '$BATCH' $turn --missing >/dev/full && ! '$BATCH' --help >/dev/full &&
+    ! '$BATCH' --material list >/dev/full"
 check "no room for a file" refused "too large" \
     sh -c "trap '' XFSZ; ulimit -f 4; exec '$BATCH' $turn --out full"
 check "nothing half-written" same "$(ls full | wc -l)" 0

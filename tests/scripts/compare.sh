@@ -127,6 +127,8 @@ if [ -c /dev/full ]; then
         --difference /dev/full "$T/g.ppm" "$T/h.ppm"
     full() { "$compare" "$T/a.ppm" "$T/a.ppm" >/dev/full 2>"$T/err"; same $? 2; }
     check "numbers onto a full device" full
+    check "help onto a full device" refused "output: No space" \
+        sh -c "exec '$compare' --help >/dev/full"
 fi
 
 # ---- bad input ----------------------------------------------------------------------------------

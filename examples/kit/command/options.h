@@ -17,6 +17,7 @@
 #ifndef MODEL_OPTIONS_H
 #define MODEL_OPTIONS_H
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -188,6 +189,13 @@ static inline const char *options_words(const command *c)
     return c->usage + strlen("usage: ") + strlen(c->name);
 }
 
+/* The end of an answer on standard output, if all of it was written */
+static inline int options_answered(void)
+{
+    if (!fflush(stdout) && !ferror(stdout)) return OPTIONS_ANSWERED;
+    return complain("standard output: %s", strerror(errno));
+}
+
 /* Takes the option at argv[*i].  Moves *i onto the last word that belongs to it. */
 static inline int options_take(const command *c, void *to, int argc, char **argv, int *i)
 {
@@ -209,7 +217,7 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
     else
         taken = o->take ? o->take(at, value) : option_integer(value, o->least, o->most, (int *)at);
     if (c->notice) c->notice(to, o->name);
-    if (taken == OPTIONS_ANSWERED) return OPTIONS_ANSWERED;
+    if (taken == OPTIONS_ANSWERED) return options_answered();
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
     option_said(c->usage, o->name, said, sizeof said);
     return complain("%s %s: %s", o->name, value, said);
@@ -233,7 +241,7 @@ static inline int options_read(const command *c, void *to, int argc, char **argv
     int files = 0, end = OPTIONS_READ, rest = 0;
     program_name = options_name(c, argv[0]);
     for (int i = 1; i < argc && end == OPTIONS_READ; i++) {
-        if (!rest && options_answer(c, argv[i])) return OPTIONS_ANSWERED;
+        if (!rest && options_answer(c, argv[i])) return options_answered();
         if (!rest && !strcmp(argv[i], "--")) {
             rest = 1;
         } else if (!rest && argv[i][0] == '-' && argv[i][1]) {

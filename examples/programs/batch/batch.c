@@ -252,7 +252,7 @@ static int write_pieces(batch *b)
         drawn += !there;
         if (last - first > 1) batch_tell(&clock, k + 1 - first, last - first, drawn);
     }
-    return 0;
+    return b->missing && options_answered() == OPTIONS_WRONG;
 }
 
 static int write_film(batch *b, const char *path)
