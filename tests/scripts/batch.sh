@@ -12,11 +12,7 @@ ${MAKE:-make} -s build/batch build/thumbnail build/compare build/shade.o || { ec
 [ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }
 cd "$T" || exit 1
 
-refused() {                     # what it says, command ...: status 1, one line
-    text=$1; shift
-    "$@" >out 2>err </dev/null
-    same "$?" 1 && same "$(wc -l <err)" 1 && grep "^batch: .*$text" err
-}
+refused() { refused_by batch "$@"; }
 
 # ---- frames -------------------------------------------------------------------------------------
 turn="--frames 12 --size 97x60 --samples 2"

@@ -51,13 +51,9 @@ for k in thumbnail alone; do
 done
 
 # ---- what goes wrong -----------------------------------------------------------------------------
-# Status 1, one line on stderr with a text, and no file
-refused() {                     # text, command
-    text=$1; shift
+refused() {                     # text, command ...: and no file
     rm -f "$T"/none.*
-    "$@" >"$T/out" 2>"$T/err" </dev/null
-    [ $? -eq 1 ] && [ "$(wc -l <"$T/err")" -eq 1 ] && grep -e "^thumbnail: .*$text" "$T/err" &&
-        [ ! -s "$T/out" ] && [ -z "$(ls "$T" | grep -e '^none\.' -e '\.part$')" ]
+    refused_by thumbnail "$@" && [ -z "$(ls "$T" | grep -e '^none\.' -e '\.part$')" ]
 }
 bad() {                         # text, options
     text=$1; shift

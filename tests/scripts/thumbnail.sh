@@ -53,13 +53,9 @@ same() {
 }
 # x, y of the picture a.ppm has the display's color of linear r g b
 pixel() { "$T/look" pixel "$T/a.ppm" "$1" "$2" $("$T/look" display "$3" "$4" "$5") 1; }
-# Status 1, one line on stderr with a text, no output but what was there
-refused() {
-    text=$1; shift
+refused() {                     # text, command ...: and no picture
     rm -f "$T/none.ppm"
-    "$@" >"$T/out" 2>"$T/err" </dev/null
-    [ $? -eq 1 ] && [ "$(wc -l <"$T/err")" -eq 1 ] && grep "^thumbnail: .*$text" "$T/err" &&
-        [ ! -e "$T/none.ppm" ] && [ ! -s "$T/out" ] && no ls "$T"/*.part
+    refused_by thumbnail "$@" && [ ! -e "$T/none.ppm" ] && no ls "$T"/*.part
 }
 bad_model() { check "$1" refused "$3" "$THUMBNAIL" "$T/$2" "$T/none.ppm"; }
 

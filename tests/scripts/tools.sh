@@ -16,6 +16,12 @@ check() {                       # what, command ...
 }
 no() { ! "$@"; }
 same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
+# Status 1, one line on stderr, of a program, that holds a text, and nothing on stdout
+refused_by() {                  # program, text, command ...
+    begins="^$1: .*$2"; shift 2
+    "$@" >"$T/out" 2>"$T/err" </dev/null
+    [ $? -eq 1 ] && [ "$(wc -l <"$T/err")" -eq 1 ] && grep -e "$begins" "$T/err" && [ ! -s "$T/out" ]
+}
 # Sets CC and CXX where they are not set; CXX stays empty if there is no C++ compiler.
 find_compilers() {
     CC=${CC:-cc}

@@ -23,12 +23,7 @@ $CC -std=c99 -O1 -pthread -I. -DSHADE__IMPLEMENTED tests/view/check.c build/shad
 check "encoding and decoding" "$T/check"
 
 # ---- the command line, and what is no terminal --------------------------------------------------
-# Status 1 and one line on stderr that holds a text
-refused() {
-    text=$1; shift
-    "$@" >"$T/out" 2>"$T/err" </dev/null
-    same "$?" 1 && same "$(wc -l <"$T/err")" 1 && grep "^view: .*$text" "$T/err"
-}
+refused() { refused_by view "$@"; }
 check "standard input is no terminal" refused "standard input is no terminal" "$VIEW"
 check "nothing is printed then" test ! -s "$T/out"
 check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicate
