@@ -284,6 +284,10 @@ for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000
     check "$bad" refused "$bad: " "$BATCH" $bad
 done
 check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3
+check "strips and frames" refused "frames does not go with --strips" "$BATCH" --strips 2 --frames 2
+check "frames and strips" refused "frames does not go with --strips" "$BATCH" --frames 2 --strips 2
+check "a pipe into a folder" refused "pipe does not go with --out" "$BATCH" --frames 2 --pipe --out a
+check "a film into a folder" refused "does not go with" "$BATCH" --film a.webp --out a
 check "more strips than rows" refused "more strips than rows" "$BATCH" --size 9x9 --strips 10
 check "an unknown option" refused "unknown option --frob" "$BATCH" --frob
 check "an option without its value" refused "size needs a value" "$BATCH" --size

@@ -194,6 +194,9 @@ if mkfifo "$T/rows" 2>/dev/null; then
     check "time is up" sh -c "printf 'P6 23 17 255\n' >'$T/rows' & '$compare' '$T/a.ppm' - --max-seconds 1 \
         <>'$T/rows' 2>'$T/err'; [ \$? -eq 2 ] && grep 'gave up after --max-seconds while comparing' '$T/err'"
 fi
+check "a limit of all" refused "--limit 256: a channel" "$compare" --limit 256 "$T/a.ppm" "$T/a.ppm"
+check "more than all" refused "--count 101%: N pixels" "$compare" --count 101% "$T/a.ppm" "$T/a.ppm"
+check "a size of pictures" refused "--size, --rotate" "$compare" --size 8x8 "$T/a.ppm" "$T/a.ppm"
 check "a limit in percent" refused "--limit 3%: a channel" "$compare" --limit 3% "$T/a.ppm" "$T/a.ppm"
 check "three pictures" refused "one file too many" "$compare" "$T/a.ppm" "$T/b.ppm" "$T/a.ppm"
 check "standard input twice" refused "only one picture" "$compare" - -

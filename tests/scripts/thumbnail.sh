@@ -407,8 +407,10 @@ upright() {
     guessed lamp y
     check "a torus" draw torus.obj a.ppm --verbose
     check "says nothing" grep -q "which axis is up: y, as usual" "$T/err"
-    check "and no word without --verbose" draw torus.obj a.ppm
-    check "at all" test ! -s "$T/err"
+    for k in "" "--verbose --quiet"; do
+        check "no word with \"$k\"" draw torus.obj a.ppm $k
+        check "at all, with \"$k\"" test ! -s "$T/err"
+    done
 }
 
 # A part of 3 x 2 x 1, with eighths in it, far from the origin of its coordinates: x, name

@@ -249,7 +249,7 @@ static int model_up(const model *m, const model_options *o, int picture)
     if (o->up >= 0) return o->up;
     if (m->up_told || !picture) return usual;
     up = stand_guess(&m->mesh, usual);
-    if (o->verbose)
+    if (o->verbose && !o->quiet)
         complain("the format does not say which axis is up: %s, %s", option_axes[up],
                  up == usual ? "as usual" : "by the feet on which it stands");
     return up;

@@ -37,6 +37,7 @@ typedef struct batch {
     const char *out, *film;
     int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
     int piece, pipe, missing, rate;            /* piece -1: all; count 0: not said */
+    int both;                                  /* strips and frames are wanted */
     FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
     float begin;    /* the yaw of the first piece */
@@ -67,15 +68,16 @@ static int take_size(void *to, const char *value)
 static int take_frames(void *to, const char *value)
 {
     batch *b = (batch *)to;
-    b->strips = 0;
+    b->both |= b->strips;
     return option_integer(value, 1, 99999, &b->count);
 }
 
 static int take_strips(void *to, const char *value)
 {
-    const int taken = take_frames(to, value);
-    ((batch *)to)->strips = 1;
-    return taken;
+    batch *b = (batch *)to;
+    b->both |= b->count && !b->strips;
+    b->strips = 1;
+    return option_integer(value, 1, 99999, &b->count);
 }
 
 /* Reads the command line.  Returns what options_read does. */
@@ -104,13 +106,15 @@ static int read_options(batch *b, int argc, char **argv)
 
     if (!b->count && !b->film)
         return complain("what shall it make? --frames 360, --strips N or --film FILE");
+    if (b->both) return complain("--frames does not go with --strips");
+    if (b->film && (b->strips || b->pipe || b->missing || b->piece >= 0 || b->out))
+        return complain("--film does not go with --strips, --pipe, --missing, --piece or --out");
+    if (b->pipe && b->out) return complain("--pipe does not go with --out");
     if (!b->count) b->count = 360;
     if (!b->out) b->out = b->strips ? "strips" : "frames";
     if (b->piece >= b->count)
         return complain("there is no piece %d: they count from 0 to %d", b->piece, b->count - 1);
     if (b->strips && b->count > b->height) return complain("more strips than rows");
-    if (b->film && (b->strips || b->pipe || b->missing || b->piece >= 0))
-        return complain("--film does not go with --strips, --pipe, --missing or --piece");
     if (b->film && film_is_mp4(b->film) && (b->width % 2 || b->height % 2))
         return complain("--size %dx%d: MP4 needs even numbers", b->width, b->height);
     if (b->pipe && batch_is_terminal(stdout))

@@ -226,7 +226,7 @@ static int take_limit(void *to, const char *value)
 {
     char *end;
     *(double *)to = strtod(value, &end);
-    return end > value && *(double *)to >= 0 && !*end;
+    return end > value && *(double *)to >= 0 && *(double *)to <= 255 && !*end;
 }
 
 static int take_count(void *to, const char *value)
@@ -235,7 +235,8 @@ static int take_count(void *to, const char *value)
     char *end;
     all->count = strtod(value, &end);
     all->percent = *end == '%';
-    return end > value && all->count >= 0 && !end[all->percent];
+    return end > value && all->count >= 0 && (!all->percent || all->count <= 100) &&
+           !end[all->percent];
 }
 
 static int take_difference(void *to, const char *value)
@@ -261,10 +262,14 @@ static int read_options(options *o, int argc, char **argv)
                                            { own, 0 },
                                            { NULL, 0 } };
     static const command c = { "compare", usage, groups, offsetof(options, names), 2, 2, "", NULL };
+    const portrait *as = &o->portrait;
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
     if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-"))
         return complain("only one picture can be standard input");
+    if ((as->sized || as->rotated || as->samples || as->background) &&
+        !model_has_name(o->names[0]) && !model_has_name(o->names[1]))
+        return complain("--size, --rotate, --samples and --background need a model");
     for (int i = 0; o->difference && i < 2; i++)
         if (save_same(o->names[i], o->difference))
             return complain("%s is read: it cannot be written as well", o->difference);
