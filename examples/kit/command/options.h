@@ -193,7 +193,8 @@ static inline const char *options_words(const command *c)
 static inline int options_answered(void)
 {
     if (!fflush(stdout) && !ferror(stdout)) return OPTIONS_ANSWERED;
-    return complain("standard output: %s", strerror(errno));
+    complain("standard output: %s", strerror(errno));
+    return OPTIONS_WRONG;
 }
 
 /* Takes the option at argv[*i].  Moves *i onto the last word that belongs to it. */
