@@ -1039,8 +1039,10 @@ static inline void threemf_tell_parts(threemf *t)
         int found = 0, second = 0;
         if (!text) continue;
         text[e->size] = 0;
-        for (const char *at = (const char *)text; (at = strstr(at, extruder)) != NULL; at++)
-            second |= atoi(at + sizeof extruder - 1) > 1;
+        for (const char *at = (const char *)text; (at = strstr(at, extruder)) != NULL;) {
+            at += sizeof extruder - 1; /* its number, without zeros before it */
+            second |= *at > '1' || (*at == '1' && at[1] != '"');
+        }
         for (int w = 0; words[w]; w++) found |= strstr((const char *)text, words[w]) != NULL;
         if (found)
             model_warn(t->m, t->r->name,
