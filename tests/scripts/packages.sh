@@ -174,7 +174,16 @@ if there dpkg-buildpackage && there dh_python3 && there lintian && [ -f /usr/inc
     cp -R "$P/debian" "$T/deb/tree"
     built() { (cd "$T/deb/tree" && DEB_BUILD_OPTIONS=nocheck dpkg-buildpackage -us -uc); }
     check "dpkg-buildpackage" built
-    silent() { (lintian --allow-root -EI "$T"/deb/*.changes >"$T/lintian" 2>&1; cat "$T/lintian"; no grep -q '^[EWI]:' "$T/lintian"); }
+    # machine code looks like misspelt words at times: a word counts if the sources have it
+    silent() {
+        lintian --allow-root -EI "$T"/deb/*.changes >"$T/lintian" 2>&1
+        grep '^[EWI]:' "$T/lintian" | while read -r kind package tag word rest; do
+            [ "$tag" = spelling-error-in-binary ] && no grep -rqw -- "$word" shade.h examples ||
+                echo "$kind $package $tag $word $rest"
+        done >"$T/said"
+        cat "$T/said"
+        test ! -s "$T/said"
+    }
     check "lintian has nothing to say" silent
     check "lintian looked" test -f "$T"/deb/shade-h_"$V"-1_*.changes
     for name in libshade-dev shade-tools python3-shade-h; do
