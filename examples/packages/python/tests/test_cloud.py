@@ -5,30 +5,13 @@ import warnings
 
 import numpy as np
 import pytest
-from shapes import box
+from shapes import box, ply
 
 import shade_h as shade
 
 FLAT = {"ortho": True, "size": (200, 150), "samples": 1}
 RNG = np.random.default_rng(5)
 GRID = np.stack(np.meshgrid(np.arange(4.0), np.arange(3.0), [0.0]), -1).reshape(-1, 3)
-
-
-def ply(points, form, colors=None, kind="float"):
-    head = f"ply\nformat {form} 1.0\nelement vertex {len(points)}\n" + \
-        "".join(f"property {kind} {k}\n" for k in "xyz") + \
-        ("" if colors is None else
-         "".join(f"property uchar {k}\n" for k in ("red", "green", "blue")))
-    order = ">" if "big" in form else "<"
-    if form == "ascii":
-        rows = [[*map(repr, map(float, p)), *(() if colors is None else map(str, c))]
-                for p, c in zip(points, points if colors is None else colors)]
-        body = "".join(" ".join(row) + "\n" for row in rows).encode()
-    else:
-        body = b"".join(np.asarray(p, order + ("f8" if kind == "double" else "f4")).tobytes() +
-                        (b"" if colors is None else bytes(int(v) for v in c))
-                        for p, c in zip(points, points if colors is None else colors))
-    return head.encode() + b"end_header\n" + body
 
 
 @pytest.mark.parametrize("far", [0.0, 1e8])

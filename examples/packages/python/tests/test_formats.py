@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shapes import box
+from shapes import box, ply
 
 import shade_h as shade
 from shade_h import files
@@ -168,16 +168,12 @@ def test_points_of_gltf_without_faces_are_a_cloud():
     made.node(mesh=0, translation=[1, 2, 4])
     made.node(mesh=1)
     shown, color = points[[*range(8), 10, 8, 11]], 255 * np.array([*bright[:8], *3 * [[0, 1, 1]]])
-    rows = [" ".join(map(str, (*map(float, p), *c))) for p, c in zip(shown, color)]
-    head = "".join(f"property {kind} {k}\n" for k, kind in zip(
-        ("x", "y", "z", "red", "green", "blue"), 3 * ["float"] + 3 * ["uchar"]))
-    text = "\n".join(["ply\nformat ascii 1.0\nelement vertex 11", head + "end_header", *rows, ""])
     with pytest.warns(UserWarning) as told:
         got = drawn(made.bytes(), up="z")
     told = " ".join(str(w.message) for w in told)
     assert "its lines" in told and "11 points have no faces" in told
     with pytest.warns(UserWarning, match="11 points"):
-        same = drawn(text.encode(), up="z")
+        same = drawn(ply(shown, "ascii", color), up="z")
     assert got == same and len(np.unique(got.rgba.reshape(-1, 4), axis=0)) > 7
     made.json["meshes"][0]["primitives"][0]["mode"] = 2
     made.json["meshes"][1]["primitives"][0]["mode"] = 3
