@@ -195,6 +195,7 @@ fi
 # programs of two files; C and C++ together.  Without position-independent code, constant tables of
 # pointers lie with the other constants; what SHADE_STATIC does not need leaves from -O1 on.
 fixed=-fno-pic pie=-no-pie
+quick="-O0 -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED"
 echo 'int main(void) { return 0; }' >"$T/fixed.c"
 $CC -Werror $fixed $pie "$T/fixed.c" -o "$T/fixed" >/dev/null 2>&1 || fixed= pie=
 run() { "$1"; }
@@ -205,7 +206,7 @@ check "SHADE_STATIC in two files" $CC -std=c99 $WARN -O1 -I. "$T/static_main.c" 
       "$T/static_other.c" -lm -o "$T/static"
 check "SHADE_STATIC runs" run "$T/static"
 if [ -n "$CXX" ]; then
-    check "C++, implementation" $CXX -std=c++11 $WARN -Os -I. -x c++ -c "$T/impl.c" \
+    check "C++, implementation" $CXX -std=c++11 $WARN $quick -I. -x c++ -c "$T/impl.c" \
           -o "$T/implxx.o"
     cxx="$CXX -std=c++11 $WARN -I. -x c++"
     check "C++ caller, C++ implementation" $cxx "$T/main.c" "$T/other.c" -x none "$T/implxx.o" -lm \
@@ -261,8 +262,7 @@ sized() {                       # object, lanes_varyings, compiler, flags and fi
     object=$1 sizes="-DSHADE_LANES=${2%_*} -DSHADE_MAX_VARYINGS=${2#*_}"; shift 2
     check "$object.o" "$@" $WARN $sizes -I. -c -o "$T/$object.o"
 }
-sized impl_16_8 16_8 $CC -std=c99 $fixed -O0 -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED \
-    "$T/impl.c"
+sized impl_16_8 16_8 $CC -std=c99 $fixed $quick "$T/impl.c"
 linked() { $CC "$T/$1.o" "$T/$2.o" -lm $pie -o "$T/linked"; }
 draws() { linked "$@" && "$T/linked"; }
 not_linked() { ! linked "$@"; }
@@ -276,15 +276,6 @@ for size in 128_16 16_8 16_16 128_8; do
         check "$size in $f, $how with 16_8" $how ${f}_$size impl_16_8
     done
 done
-
-# the program in the head of shade.h
-{ printf '#include "shade.h"\n'
-  awk '/^ +#include <stdio.h>/ { inside = 1 } inside { print } /^       }/ { inside = 0 }' shade.h
-} >"$T/head.c"
-head_runs() { (cd "$T" && ./head && test "$(wc -c <triangle.ppm)" -gt 900000); }
-check "program in the head comment" $CC -std=c99 -Wall -Wextra -Wno-missing-field-initializers \
-      -Werror -I. "$T/head.c" "$T/impl.o" -lm $pie -o "$T/head"
-check "program in the head comment runs" head_runs
 
 # a draw that needs more varyings than there are is a bad state; the same with enough is drawn
 cat >"$T/few.c" <<'END'
@@ -331,7 +322,7 @@ int main(void)
 }
 END
 for n in 6 8; do
-    check "meshes with $n varyings" $CC -std=c99 $WARN -Os -DSHADE_NO_DISPATCH -DSHADE_LANES=16 \
+    check "meshes with $n varyings" $CC -std=c99 $WARN $quick -DSHADE_LANES=16 \
           -DSHADE_MAX_VARYINGS=$n -I. "$T/few.c" -lm -o "$T/few"
     check "meshes with $n varyings are drawn or refused" run "$T/few"
 done

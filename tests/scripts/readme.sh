@@ -59,7 +59,9 @@ check "the program has its command" test -n "$command"
 check "the program, by its command" in_folder alone sh -c "$command"
 if command -v pngtopnm >/dev/null; then check "the picture shown is the program's" shown
 else left_out "pngtopnm (netpbm)"; fi
-check "the program of shade.h" in_folder head $CC -std=c99 $WARN triangle.c -lm
+${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+check "the program of shade.h" in_folder head $CC -std=c99 $WARN -DSHADE__IMPLEMENTED triangle.c \
+      "$PWD/build/shade.o" -lm
 check "the program of shade.h runs" in_folder head ./a.out
 headers='#include <string.h>
 #include <math.h>
@@ -81,7 +83,6 @@ for dialect in c++11 c++20; do
 done
 
 # the snippets
-${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 sdl=$(sdl2-config --cflags 2>/dev/null)
 if [ -n "$sdl" ] && accepts "$CC" "$sdl" c '#include <SDL.h>'; then
     sdl="-DREADME_SDL $sdl $(sdl2-config --libs)"
@@ -182,15 +183,15 @@ check "the numbers of the table of lessons are those that are printed" none "$(
         table "$name" | cut -d' ' -f2- | numbers | sort -u | comm -23 - "$T/printed_numbers" | sed "s/^/$name: /"
     done <"$T/counting")"
 if command -v tcc >/dev/null; then
-    cc -O1 -I. -DSHADE__IMPLEMENTED examples/lessons/46_ambient.c build/shade.o -lm -o "$T/by_cc" &&
-        "$T/by_cc" "$T/by_cc.ppm"
-    tcc -w -I. examples/lessons/46_ambient.c -lm -o "$T/by_tcc" && "$T/by_tcc" "$T/by_tcc.ppm"
+    cc -O1 -I. -include "$one_sample" -DSHADE__IMPLEMENTED examples/lessons/46_ambient.c build/shade.o -lm \
+        -o "$T/by_cc" && "$T/by_cc" "$T/by_cc.ppm"
+    tcc -w -I. -include "$one_sample" examples/lessons/46_ambient.c -lm -o "$T/by_tcc" && "$T/by_tcc" "$T/by_tcc.ppm"
     check "a lesson built by tcc draws the same picture" cmp "$T/by_cc.ppm" "$T/by_tcc.ppm"
 else left_out tcc; fi
 # A lesson with stb's writer: by its line, as PNG, the colours of the PPM
 if echo | cc -fsyntax-only -include stb/stb_image_write.h -x c - 2>/dev/null &&
     command -v pngtopnm >/dev/null; then
-    cc -O2 -DCANVAS_STB -I. examples/lessons/46_ambient.c -lm -o "$T/ambient"
+    cc -O1 -DCANVAS_STB -I. -DSHADE__IMPLEMENTED examples/lessons/46_ambient.c build/shade.o -lm -o "$T/ambient"
     (cd "$T" && ./ambient && ./ambient ambient.ppm && pngtopnm ambient.png) >"$T/from_png" 2>/dev/null
     check "a lesson built with stb writes a PNG of the same colours" cmp "$T/from_png" "$T/ambient.ppm"
     check "a PNG that cannot be written is an error" sh -c "! '$T/ambient' '$T/none/x.png' 2>/dev/null"
