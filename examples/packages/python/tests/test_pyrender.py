@@ -328,3 +328,35 @@ def test_metals_reflect_ambient_light_with_all_of_their_base_colour(metal):
         image = np.full((2, 2, 3), 255, np.uint8) if "texcoord_0" in given else None
         color = sphere({"material": pyrender.Material(**material, baseColorTexture=image), **given}, 0.0, grey)[0]
         assert np.abs(color - pyrenders(shown)).max() < 8, (given, color[0], pyrenders(shown))
+
+
+def of_square(normals=None, **material):
+    """The colour of a square's middle, linear, lit from the eye by 2 times pi."""
+    square = pyrender.Primitive([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], indices=[[0, 1, 2], [0, 2, 3]],
+                                texcoord_0=[[0, 0], [1, 0], [1, 1], [0, 1]],
+                                normals=np.broadcast_to(normals or [0, 0, 1], (4, 3)),
+                                material=pyrender.Material(metallicFactor=0, **material))
+    made = pyrender.Scene(bg_color=[0, 0, 0])
+    made.add(pyrender.Mesh([square]))
+    made.add(pyrender.OrthographicCamera(xmag=1, ymag=1), pose=pose(2))
+    made.add(pyrender.DirectionalLight(intensity=2.0), pose=pose(2))
+    stored = pyrender.OffscreenRenderer(9, 9).render(made)[0][4, 4] / 255.0
+    return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
+
+
+def test_what_glows_shines_by_the_square_of_its_factor_as_in_pyrenders_shader():
+    dark = {"baseColorFactor": [0, 0, 0, 1.0]}
+    unlit = of_square(**dark)
+    assert np.allclose(of_square(**dark, emissiveFactor=[0.5, 0.25, 0]) - unlit, [0.25, 0.0625, 0], atol=0.004)
+    picture = np.full((2, 2, 3), (255, 188, 0), np.uint8)    # 188: .503 of white
+    for given in (picture, Image.fromarray(picture), pyrender.Texture(source=picture)):
+        got = of_square(**dark, emissiveFactor=[0.5, 0.8, 1], emissiveTexture=given) - unlit
+        assert np.allclose(got, [0.25, 0.64 * 0.503, 0], atol=0.005)
+
+
+def test_a_normal_texture_bends_the_light_as_normals_do():
+    """A square whose texels all say (.6, 0, .8) is one with that normal; its green is up."""
+    for n in ((0.6, 0, 0.8), (0, -0.6, 0.8), (0, 0, 1)):
+        texels = np.rint(127.5 + 127.5 * np.broadcast_to(n, (2, 2, 3))).astype(np.uint8)
+        assert np.allclose(of_square(normalTexture=texels), of_square(list(n)), atol=0.01)
+    assert of_square().max() > of_square([0.6, 0, 0.8]).max() + 0.05

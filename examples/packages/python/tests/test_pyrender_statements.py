@@ -429,8 +429,8 @@ def test_how_many_statements():
 
 
 def test_what_is_not_drawn_of_a_material_is_told():
-    with pytest.warns(UserWarning, match="material: normalTexture, emissiveTexture left out"):
-        pyrender.Material(normalTexture=np.zeros((2, 2, 3)), emissiveTexture=np.zeros((2, 2, 3)))
+    with pytest.warns(UserWarning, match="material: occlusionTexture, wireframe left out"):
+        pyrender.Material(occlusionTexture=np.zeros((2, 2, 3)), wireframe=True)
     with pytest.warns(UserWarning, match="MASK is drawn as OPAQUE"):
         pyrender.Material(alphaMode="MASK")
     with pytest.raises(TypeError):

@@ -173,8 +173,17 @@ class _AlphaMode(_Attribute):
         return value
 
 
+def _picture(given: Any) -> Any:
+    """What numpy makes of a picture: a Texture's source, Pillow's as RGBA."""
+    source = getattr(given, "source", given)
+    if hasattr(source, "convert"):
+        source = source.convert("RGBA")
+    return None if source is None else np.asarray(source)
+
+
 class MetallicRoughnessMaterial:
-    """baseColorFactor is a colour, 0 .. 1, with alpha; baseColorTexture an array of bytes."""
+    """baseColorFactor is a colour, 0 .. 1, with alpha.  baseColorTexture, emissiveTexture and
+    normalTexture, whose green is up, are arrays of bytes, pictures of Pillow's or a Texture."""
 
     baseColorFactor, emissiveFactor, alphaMode = _Colour(4), _Colour(3), _AlphaMode()
     metallicFactor, roughnessFactor = _Number(0, 1, open_low=False), _Number(0, 1, open_low=False)
@@ -187,8 +196,7 @@ class MetallicRoughnessMaterial:
                  metallicFactor: float = 1.0, roughnessFactor: float = 1.0,
                  metallicRoughnessTexture: Any = None) -> None:
         """The order is pyrender's.  A warning names what is given and not drawn."""
-        self.normalTexture, self.occlusionTexture = normalTexture, occlusionTexture
-        self.emissiveTexture, self.metallicRoughnessTexture = emissiveTexture, metallicRoughnessTexture
+        self.occlusionTexture, self.metallicRoughnessTexture = occlusionTexture, metallicRoughnessTexture
         self.smooth, self.wireframe = smooth, wireframe
         lost = [k for k, v in vars(self).items() if k != "smooth" and v is not None and v is not False]
         if lost:
@@ -196,10 +204,8 @@ class MetallicRoughnessMaterial:
         self.name, self.baseColorFactor, self.emissiveFactor = name, baseColorFactor, emissiveFactor
         self.metallicFactor, self.roughnessFactor = metallicFactor, roughnessFactor
         self.alphaMode, self.alphaCutoff, self.doubleSided = alphaMode, alphaCutoff, doubleSided
-        source = getattr(baseColorTexture, "source", baseColorTexture)
-        if hasattr(source, "convert"):    # a picture of Pillow's
-            source = source.convert("RGBA")
-        self.baseColorTexture = None if source is None else np.asarray(source)
+        self.baseColorTexture, self.normalTexture, self.emissiveTexture = map(
+            _picture, (baseColorTexture, normalTexture, emissiveTexture))
 
     @property
     def is_transparent(self) -> bool:
@@ -813,7 +819,7 @@ class OffscreenRenderer:
         self._base: _Renderer | None = None
         self.viewport_width, self.viewport_height = viewport_width, viewport_height
         self.point_size = point_size
-        self._shapes: dict[int, tuple[Any, int, int]] = {}
+        self._shapes: dict[int, tuple[Any, int, dict[str, int]]] = {}
         self._made()
 
     def _made(self) -> _Renderer:
@@ -877,21 +883,22 @@ class OffscreenRenderer:
         known = self._shapes.get(id(primitive))
         if known is None:
             m, uv = primitive.material, primitive.texcoord_0
-            texture = -1
-            if m.baseColorTexture is not None and uv is not None:
-                texture = base.texture(m.baseColorTexture)
+            pictures = {"texture": m.baseColorTexture, "relief": m.normalTexture,
+                        "glow_map": m.emissiveTexture}
+            numbers = {name: base._make_texture(picture, ("repeat", "repeat"), False, None, name != "relief")
+                       for name, picture in pictures.items() if picture is not None and uv is not None}
             if uv is not None:
                 uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
             shape = base._keep_mesh(None, primitive.positions, primitive.normals, uv,
                                     None if primitive.color_0 is None else primitive.color_0[:, :3],
                                     primitive.indices)
-            known = self._shapes[id(primitive)] = (primitive, shape.number, texture)
+            known = self._shapes[id(primitive)] = (primitive, shape.number, numbers)
         m = primitive.material
         places = [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]
         made = np.zeros(len(places), SOLID)
         for o, place in zip(made, places):
             size = np.maximum(np.linalg.norm(place[:3, :3], axis=0), 1e-30)
-            o["mesh"], o["texture"], o["size"] = known[1], known[2], size
+            o["mesh"], o["texture"], o["size"] = known[1], known[2].get("texture", -1), size
             o["turn"], o["place"] = place[:3, :3] / size, place[:3, 3]
             two_sided = m.doubleSided or flags & RenderFlags.SKIP_CULL_FACES
             o["flags"] = 2 if two_sided else 0
@@ -900,8 +907,12 @@ class OffscreenRenderer:
             o["repeat"] = 1
             if flags & RenderFlags.FLAT:
                 o["emission"] = 1
-            else:
-                _reflect(o, primitive, known[2] >= 0, ambient)
+                continue
+            _reflect(o, primitive, "texture" in known[2], ambient)
+            o["relief"], o["strength"] = 1 + known[2].get("relief", -1), 1
+            o["glow_map"], o["glow_factor"] = 1 + known[2].get("glow_map", -1), m.emissiveFactor ** 2
+            if not o["glow_map"]:
+                o["glow"] += m.emissiveFactor ** 2    # pyrender's shader multiplies by it twice
         return made
 
     def _points(self, primitive: Primitive, pose: Array, eye: tuple[Node, Array]) -> Array:
