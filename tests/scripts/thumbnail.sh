@@ -224,7 +224,7 @@ break.obj" "is no OBJ"
         printf 'newmtl m\nmap_Kd pipe.obj\nmap_Ke /dev/zero\n' >"$T/piped.mtl"
         { printf 'mtllib piped.mtl\nusemtl m\n'; cat "$T/torus.obj"; } >"$T/piped.obj"
         check "a pipe for a picture" bounded draw piped.obj a.ppm $flat
-        check "is left out, too" grep "is no regular file; /dev/zero: it lies outside" "$T/err"
+        check "is left out, too" grep "is no regular file (left out); /dev/zero: it lies outside" "$T/err"
         check "and /dev/zero for a model" bounded refused "zero: is no regular file" "$THUMBNAIL" \
             /dev/zero "$T/none.ppm"
     fi
@@ -633,6 +633,9 @@ points() {
     check "of OBJ" draw cloud.obj b.ppm --up y
     check "is told as well" grep "cloud.obj: 1000 points have no faces" "$T/err"
     check "looks the same" "$T/look" same "$T/a.ppm" "$T/b.ppm" 3
+    sed 's/vertex 1000/vertex 1001/; $s/$/\nnan 0 0 9 9 9/' "$T/cloud.ply" >"$T/lost.ply"
+    check "one of which is no number" draw lost.ply b.ppm --up y
+    check "is told both" grep "lost.ply: 1 points have coordinates that are no finite numbers (left out); 1000 points have no faces: .*[0-9]$" "$T/err"
     check "quietly" draw cloud.obj b.ppm --up y --quiet
     check "no line" test ! -s "$T/err"
     check "a picture of balls that are small" draw cloud.ply a.ppm --model emissive --background white --no-shadow

@@ -257,7 +257,7 @@ static inline int stl_read(mesh_reader *r, model *out)
             char text[80];
             snprintf(text, sizeof text, "%lu triangles beyond the %lu that it counts",
                      (unsigned long)s.behind, (unsigned long)(s.dropped + s.indices.count / 3));
-            model_warn(out, r->name, text);
+            model_leave_out(out, r->name, text);
         }
         failed = !m->positions || !m->normals || (s.colored && stl_paint(&s, out)) ||
                  mesh_fill_normals(m, !s.colored);

@@ -216,6 +216,6 @@ def load(path: Any, *, outside: bool = False, **options: Any) -> Mesh:
     if plain:
         found = {"up": found["up"]}
     if faces is None:
-        vertices, faces, options = cloud.balls(vertices, {**found, **options})
+        vertices, faces, options = cloud.balls(vertices, {**found, **options}, f"{name}: ")
         found = {}
     return Mesh(vertices, faces, **{**found, **options})
