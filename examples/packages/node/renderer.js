@@ -24,7 +24,6 @@ const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture",
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
 export function plainRecord() {
     const floats = new Float32Array(OBJECT), ints = new Int32Array(floats.buffer);
-    ints[AT.texture] = -1;
     floats.set([1, 0, 0, 0, 1, 0, 0, 0, 1], AT.turn);
     floats.fill(1, AT.rgba, AT.rgba + 4);
     floats[AT.shininess] = 32;
@@ -139,7 +138,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             ["texture", "relief", "glow_map"].forEach((name, i) => {
                 if (!maps[i]) return;
                 const number = this.#texture(maps[i], free(this.#textures), maps[i].wrap, name !== "relief");
-                ints[AT[name]] = number + (i ? 1 : 0);
+                ints[AT[name]] = 1 + number;
                 shape.textures.push(number);
                 this.#textures.get(number).owned = true;
             });
@@ -331,7 +330,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             if (got.texture !== undefined) {
                 this.#textureOf("texture", got.texture);
-                ints[AT.texture] = got.texture;
+                ints[AT.texture] = 1 + got.texture;
             }
             floats.set(check.vector("repeat", got.repeat ?? [1, 1], 2), AT.repeat);
             ints[AT.flags] |= (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
@@ -422,7 +421,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with it. */
         remove_texture(number) {
             const { owned } = this.#textureOf("number", number), s = this.#state;
-            const shown = this.objects.find((i) => this.#object(i).ints[AT.texture] === number);
+            const shown = this.objects.find((i) => this.#object(i).ints[AT.texture] === 1 + number);
             const who = shown !== undefined ? `object ${shown}` : owned ? "a shape"
                 : s.sky === 2 && s.skyTexture === number ? "the sky" : null;
             if (who) throw new ShadeError(`number: ${who} has texture ${number}`);

@@ -23,7 +23,7 @@ _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cyl
 _HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED, _HEIGHTS = 1, 2, 4, 8, 16
 _LAMPS = 8
 _PLAIN = np.zeros(1, SOLID)    # white, without a texture
-_PLAIN["texture"], _PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = -1, 1, 32, np.eye(3)
+_PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = 1, 32, np.eye(3)
 
 
 class Frame(NamedTuple):
@@ -224,7 +224,7 @@ class Renderer:
             key = picture.shape, picture.tobytes(), surface.wrap, surface.squares, colors
             if key not in known:
                 known[key] = self._make_texture(picture, surface.wrap, surface.squares, None, colors)
-            record[name] = known[key] + (name != "texture")
+            record[name] = 1 + known[key]
         def shown(rgb: Any) -> Any:
             return rgb if self.srgb else display(rgb)
 
@@ -236,7 +236,7 @@ class Renderer:
             record["rgba"][:3] = shown(color)
         if surface.blend:
             record["rgba"][3] = surface.opacity
-            record["flags"] |= _BLENDED if record["texture"] >= 0 else 0
+            record["flags"] |= _BLENDED if record["texture"] else 0
         record["cutoff"] = surface.cutoff
         record["strength"], record["glow_factor"] = piece.strength, shown(piece.glow_factor)
         record["flags"] |= _HEIGHTS if piece.heights else 0
@@ -445,7 +445,7 @@ class Renderer:
             elif value is not None:
                 records[name] = arguments.number(name, value, 0, 1e6)
         if "texture" in options:
-            records["texture"] = self._texture_number("texture", options["texture"])
+            records["texture"] = 1 + self._texture_number("texture", options["texture"])
         records["repeat"] = arguments.floats("repeat", options.get("repeat", (1, 1)), (2,), True)
         if arguments.flag("two_sided", options.get("two_sided", False)):
             records["flags"] |= _TWO_SIDED
@@ -542,7 +542,7 @@ class Renderer:
         it."""
         self._texture_number("number", number)
         whole = self._scene.records()
-        shown = whole["id"][whole["texture"] == number]
+        shown = whole["id"][whole["texture"] == 1 + number]
         if len(shown) or number in self._owned or self._sky[:2] == (2, number):
             who = f"object {shown[0]}" if len(shown) else \
                 "a shape" if number in self._owned else "the sky"

@@ -877,9 +877,9 @@ class OffscreenRenderer:
         known = self._shapes.get(id(primitive))
         if known is None:
             m, uv = primitive.material, primitive.texcoord_0
-            texture = -1
+            texture = 0
             if m.baseColorTexture is not None and uv is not None:
-                texture = base.texture(m.baseColorTexture)
+                texture = 1 + base.texture(m.baseColorTexture)
             if uv is not None:
                 uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
             shape = base._keep_mesh(None, primitive.positions, primitive.normals, uv,
@@ -901,7 +901,7 @@ class OffscreenRenderer:
             if flags & RenderFlags.FLAT:
                 o["emission"] = 1
             else:
-                _reflect(o, primitive, known[2] >= 0, ambient)
+                _reflect(o, primitive, known[2] > 0, ambient)
         return made
 
     def _points(self, primitive: Primitive, pose: Array, eye: tuple[Node, Array]) -> Array:
@@ -916,7 +916,7 @@ class OffscreenRenderer:
             radius = 0.71 * max(self.point_size, 1.0) * 2 / self.viewport_height * depth / p[1, 1]
             o = np.zeros(len(at), SOLID)
             made.append(o)
-            o["kind"], o["texture"], o["place"], o["turn"] = _BALL, -1, at, np.eye(3)
+            o["kind"], o["place"], o["turn"] = _BALL, at, np.eye(3)
             o["size"] = np.broadcast_to(np.reshape(radius, (-1, 1)), (len(at), 3))
             o["flags"] = _NO_SHADOW
             factor = np.asarray(primitive.material.baseColorFactor)
