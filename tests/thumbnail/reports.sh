@@ -87,6 +87,12 @@ gltf_reports() {
         printf '%s' "$k" >"$T/wrong.gltf"
         bad_model "$k" wrong.gltf "wrong.gltf:1: its JSON is wrong: expected"
     done
+    for k in "solid a" "<html>" "  version https://git-lfs" ""; do
+        printf '%s\n' "$k" >"$T/wrong.glb"
+        bad_model "$k" wrong.glb "wrong.glb:[12]: expected glTF or its JSON, found "
+    done
+    cp "$T/torus.gltf" "$T/text.glb"
+    same "text named as GLB" torus.gltf text.glb 0
     sed 's/"mesh":0/&,"scale":[1,null,1]/' "$T/torus.gltf" >"$T/scale.gltf"
     bad_model "a scale that is no number" scale.gltf "scale must be 3 numbers"
     awk 'BEGIN { for (i = 0; i < 200; i++) printf "["; for (i = 0; i < 200; i++) printf "]" }' \
@@ -495,6 +501,15 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
     done
     { echo solid a; facets | sed 's/endloop/end loop/; s/endfacet/END FACET/'; echo end solid a; } >"$T/ends.stl"
     same "ends in two words" wedge.obj ends.stl 0 "--up y"
+    facets | tr '\n' ' ' >"$T/one.txt"
+    for k in "solid $(cat "$T/one.txt")" "solid my facet $(cat "$T/one.txt")endsolid my facet" \
+        "solid a $(cut -d ' ' -f -42 "$T/one.txt") endsolid a solid b facet normal $(cut -d ' ' -f 43- "$T/one.txt")" \
+        "solid a facet normal
+$(cat "$T/one.txt")"; do
+        printf '%s' "$k" >"$T/one.stl"
+        same "text STL in few lines: $k" wedge.obj one.stl 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
     for k in '\032' '\000\000\000' '\r\n\032\000'; do
         { cat "$T/ends.stl"; printf "$k"; } >"$T/fill.stl"
         same "text STL that ends in $k" wedge.obj fill.stl 0 "--up y"

@@ -74,12 +74,9 @@ static inline int mesh_is_off(const char *name, const unsigned char *bytes, size
 static inline int mesh_is_gltf(const char *name, const unsigned char *bytes, size_t size)
 {
     const model_kind kind = model_kind_of(name);
-    size_t at = 0;
     if (size >= 4 && !memcmp(bytes, "glTF", 4)) return 1;
     if (!strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb")) return 1;
-    if (kind.text[0]) return 0;
-    while (at < size && mesh_is_blank(bytes[at])) at++;
-    return at < size && bytes[at] == '{';
+    return !kind.text[0] && gltf_is_text(bytes, bytes + size);
 }
 
 /* 1: the file is 3MF, by its extension or, where that is none of ours, by its contents. */

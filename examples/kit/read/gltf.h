@@ -1240,6 +1240,13 @@ static inline int gltf_build(gltf *g)
     return 0;
 }
 
+/* 1: it begins as JSON does. */
+static inline int gltf_is_text(const unsigned char *at, const unsigned char *end)
+{
+    while (at < end && mesh_is_blank(*at)) at++;
+    return at < end && (*at == '{' || *at == '[');
+}
+
 static inline int gltf_read(mesh_reader *r, model *m)
 {
     static const gltf empty;
@@ -1249,7 +1256,10 @@ static inline int gltf_read(mesh_reader *r, model *m)
     g.m = m;
     g.plain = -1;
     model_place(m, &g.all.origin);
-    failed = r->end - r->begin >= 4 && !memcmp(r->begin, "glTF", 4) && gltf_chunks(&g);
+    if (r->end - r->begin >= 4 && !memcmp(r->begin, "glTF", 4))
+        failed = gltf_chunks(&g);
+    else if ((failed = !gltf_is_text(r->at, r->end)) != 0)
+        mesh_fail(r, "expected glTF or its JSON, found %s", mesh_here(r).text);
     if (!failed) failed = json_read(r, &g.j);
     r->line = 0;
     if (!failed) failed = gltf_build(&g);
