@@ -319,8 +319,10 @@ bad_options() {
         "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra" "-v" "--png=1"; do
         check "$k" refused "${k%% *}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
-    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256"; do
-        check "$k" refused "$k" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
+    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: a whole number: 1 .. 256" \
+        "--max-seconds 0.0: a whole number: gives up" "--rotate 0x10: turns" "--view 0x10,0: from where" \
+        "--section x=0x0: x, y or z" "--color red --material gold:--color does not go with --material"; do
+        check "$k" refused "${k##*gold:}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
     done
     check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
         "$T/torus.obj" "$T/none.ppm" --material x
