@@ -1,6 +1,7 @@
 // Cameras for simulators, learners and graders: one scene, many pictures of colour, depth, numbers of
 // objects and normals.  Names and bytes are those of the package for Python.
 import * as check from "./arguments.js";
+import { rotationOf } from "./camera.js";
 
 const { ShadeError } = check;
 
@@ -368,6 +369,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                     : Array(3).fill(check.number("size", size, -3e38, 3e38));
             }
             if (size === undefined && shape === "plane") return [0, 0, 0];
+            if (size === undefined) throw new ShadeError(`size of a ${shape} is missing`);
             const count = Math.max(...SIZES[shape]) + 1;
             const got = check.vector("size", check.isArray(size) ? size : [size], count);
             if (!got.every((x) => x > 0)) throw new ShadeError(`size of a ${shape} must be positive`);
@@ -386,6 +388,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
          *  where one is refused. */
         poses(poses, numbers = this.objects) {
+            if (!check.isArray(numbers)) throw new ShadeError("numbers must be an array");
             numbers.forEach((number) => this.#object(number));
             this.#move((i) => `poses[${i}]`, numbers, poses);
         }
@@ -461,6 +464,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
          *  shadows. */
         light(lights, ambient = [0, 0, 0], shadow = []) {
             void this.#scene;    // a renderer that was freed is refused
+            if (!Array.isArray(lights)) throw new ShadeError("lights must be an array");
             if (lights.length > LAMPS) throw new ShadeError(`lights: at most ${LAMPS} lamps are drawn, not ${lights.length}`);
             const { lights: rows } = check.lighting("light", { lights });
             const lamps = new Float32Array(Math.max(1, rows.length) * LIGHT);
@@ -529,6 +533,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #seen(name, camera) {
             const view = check.vector(`${name}.view`, camera?.view, 16);
             const projection = check.vector(`${name}.projection`, camera?.projection, 16);
+            rotationOf(`${name}.view`, view);
             return { view, projection, ...rangeOf(projection) };
         }
 

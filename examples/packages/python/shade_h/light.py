@@ -137,7 +137,7 @@ class Light:
 def lamps_of(lights: object) -> list[Light]:
     """A list of lamps, and nothing else"""
     try:
-        lamps = list(lights)  # type: ignore[call-overload]
+        lamps: list[Light] = list(lights)  # type: ignore[call-overload]
     except TypeError:
         raise Error(f"lights must be a sequence, not {arguments.shown(lights)}") from None
     for i, lamp in enumerate(lamps):
