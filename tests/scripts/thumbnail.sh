@@ -637,7 +637,7 @@ points() {
     check "looks the same" "$T/look" same "$T/a.ppm" "$T/b.ppm" 3
     sed 's/vertex 1000/vertex 1001/; $s/$/\nnan 0 0 9 9 9/' "$T/cloud.ply" >"$T/lost.ply"
     check "one of which is no number" draw lost.ply b.ppm --up y
-    check "is told both" grep "lost.ply: 1 points have coordinates that are no finite numbers (left out); 1000 points have no faces: .*[0-9]$" "$T/err"
+    check "is told both" grep "lost.ply: 1 points have coordinates that are no finite numbers (left out); 1000 points have no faces: .* or so$" "$T/err"
     check "quietly" draw cloud.obj b.ppm --up y --quiet
     check "no line" test ! -s "$T/err"
     check "a picture of balls that are small" draw cloud.ply a.ppm --model emissive --background white --no-shadow
