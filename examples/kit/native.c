@@ -676,9 +676,9 @@ const double *python_origin(const model *m) { return m->origin; }
 SHADEDEF int python_normals(const model *m);
 int python_normals(const model *m) { return m->normals_given && m->physical; }
 
-/* What the file lacks, or "" */
+/* What the picture lacks or shows otherwise than the file, with names before; "": nothing */
 SHADEDEF const char *python_warning(const model *m);
-const char *python_warning(const model *m) { return m->warning[0] ? m->warning : m->note; }
+const char *python_warning(const model *m) { return m->warning; }
 
 /* The upright axis, 0 .. 5 for x y z -x -y -z: that of the format, or a guess as in the programs */
 SHADEDEF int python_upright(const model *m);

@@ -273,7 +273,7 @@ check "half a model" refused "half.obj:3" "$BATCH" half.obj --frames 2
 check "a folder for a model" refused "directory" "$BATCH" one --frames 2
 check "nothing to make" refused "what shall it make? --frames" "$BATCH" y.obj
 check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
-for bad in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256 (one a core)" \
+for bad in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: a whole number: 1 .. 256 (one a core)" \
     "--frames 0: one turn in N pictures"; do
     # the option and its value end at the colon
     check "$bad" refused "$bad" "$BATCH" ${bad%%:*}
@@ -287,7 +287,10 @@ check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3
 check "strips and frames" refused "frames does not go with --strips" "$BATCH" --strips 2 --frames 2
 check "frames and strips" refused "frames does not go with --strips" "$BATCH" --frames 2 --strips 2
 check "a pipe into a folder" refused "pipe does not go with --out" "$BATCH" --frames 2 --pipe --out a
-check "a film into a folder" refused "does not go with" "$BATCH" --film a.webp --out a
+check "a film into a folder" refused "film does not go with --out" "$BATCH" --film a.webp --out a
+check "numbers into a pipe" refused "pipe does not go with --missing" "$BATCH" --frames 2 --pipe --missing
+check "the rate of no film" refused "rate needs --film" "$BATCH" --frames 2 --rate 25 --out a
+check "a view that is none" refused "view 1,2,99: from where it is seen" "$BATCH" --frames 2 --view 1,2,99
 check "more strips than rows" refused "more strips than rows" "$BATCH" --size 9x9 --strips 10
 check "an unknown option" refused "unknown option --frob" "$BATCH" --frob
 check "an option without its value" refused "size needs a value" "$BATCH" --size
@@ -353,6 +356,14 @@ if command -v parallel >/dev/null; then
     rm parts/half.obj sheets/inner/x.obj.png
     touch -d '2001-01-01' parts/*.obj parts/inner/*.obj
     sleep 1.1; : >before; sleep 1.1
+    for k in "nowhere made:nowhere: is no folder" "parts half.obj:half.obj: is no folder" \
+        "parts made --json=x.json:--json=x.json names one file, for many models"; do
+        check "$k" refused_by shade-sheets "${k##*:}" sh "$HERE/examples/programs/batch/sheets.sh" ${k%%:*}
+    done
+    check "no folder is made" test ! -e made
+    mkdir bare_parts
+    THUMBNAIL=$BATCH sh "$HERE/examples/programs/batch/sheets.sh" bare_parts made 2>sheets.err
+    check "no models" grep -q "^shade-sheets: bare_parts has no models" sheets.err
     check "resumed" sheets --edges
     check "the missing one is drawn" test sheets/inner/x.obj.png -nt before
     check "the other stays" no test "sheets/a part.obj.png" -nt before

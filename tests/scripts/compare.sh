@@ -202,6 +202,9 @@ check "three pictures" refused "one file too many" "$compare" "$T/a.ppm" "$T/b.p
 check "standard input twice" refused "only one picture" "$compare" - -
 check "one picture: how to call it" status 2 "$compare" "$T/a.ppm"
 check "that is printed" grep -q '^usage: compare' "$T/err"
+for k in "--limit 0x2" "--limit inf" "--limit 256" "--count 0x10" "--count 0x10%" "--count inf" "--count 101%"; do
+    check "$k" refused "$k: " "$compare" "$T/a.ppm" "$T/a.ppm" $k
+done
 check "help" status 0 "$compare" --help
 check "that too" grep -q '^usage: compare' "$T/out"
 

@@ -224,7 +224,7 @@ break.obj" "is no OBJ"
         printf 'newmtl m\nmap_Kd pipe.obj\nmap_Ke /dev/zero\n' >"$T/piped.mtl"
         { printf 'mtllib piped.mtl\nusemtl m\n'; cat "$T/torus.obj"; } >"$T/piped.obj"
         check "a pipe for a picture" bounded draw piped.obj a.ppm $flat
-        check "is left out, too" grep "is no regular file; /dev/zero: it lies outside" "$T/err"
+        check "is left out, too" grep "is no regular file (left out); /dev/zero: it lies outside" "$T/err"
         check "and /dev/zero for a model" bounded refused "zero: is no regular file" "$THUMBNAIL" \
             /dev/zero "$T/none.ppm"
     fi
@@ -319,8 +319,10 @@ bad_options() {
         "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra" "-v" "--png=1"; do
         check "$k" refused "${k%% *}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
-    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256"; do
-        check "$k" refused "$k" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
+    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: a whole number: 1 .. 256" \
+        "--max-seconds 0.0: a whole number: gives up" "--rotate 0x10: turns" "--view 0x10,0: from where" \
+        "--section x=0x0: x, y or z" "--color red --material gold:--color does not go with --material"; do
+        check "$k" refused "${k##*gold:}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
     done
     check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
         "$T/torus.obj" "$T/none.ppm" --material x
@@ -633,6 +635,9 @@ points() {
     check "of OBJ" draw cloud.obj b.ppm --up y
     check "is told as well" grep "cloud.obj: 1000 points have no faces" "$T/err"
     check "looks the same" "$T/look" same "$T/a.ppm" "$T/b.ppm" 3
+    sed 's/vertex 1000/vertex 1001/; $s/$/\nnan 0 0 9 9 9/' "$T/cloud.ply" >"$T/lost.ply"
+    check "one of which is no number" draw lost.ply b.ppm --up y
+    check "is told both" grep "lost.ply: 1 points have coordinates that are no finite numbers (left out); 1000 points have no faces: .* or so$" "$T/err"
     check "quietly" draw cloud.obj b.ppm --up y --quiet
     check "no line" test ! -s "$T/err"
     check "a picture of balls that are small" draw cloud.ply a.ppm --model emissive --background white --no-shadow

@@ -28,12 +28,15 @@ check "standard input is no terminal" refused "standard input is no terminal" "$
 check "nothing is printed then" test ! -s "$T/out"
 check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicate
 check "option without a value" refused "rate needs a value" "$VIEW" --rate
-for bad in "--frames 0" "--rate 241" "--colors 16: true or 256" "--threads 0: 1 .. 256" "--threads 257" \
-    "--up w: x, y, z, -x, -y or -z" "--show x: halves, quadrants, sextants, kitty, iterm2 or sixel" \
+for bad in "--frames 0" "--rate 241" "--colors 16: true or 256" "--threads 0: a whole number: 1 .. 256" "--threads 257" "--frames 1.5: a whole number: ends" \
+    "--view 1,2,99: from where it is seen" "--up w: x, y, z, -x, -y or -z" "--show x: halves, quadrants, sextants, kitty, iterm2 or sixel" \
     "--again 1,2" "--again 1,2,1,0" "--again 1,2,1,0,2" "--again 1,91,1,0,0" "--again 1,2,1,0,0,q" "--again x" \
     "--color redd" "--material x" "--model x" "--shading x" \
     "--max-triangles -1" "--max-memory 31"; do
     check "$bad" refused "$bad" "$VIEW" ${bad%%:*}
+done
+for bad in "--ascii --colors=256" "--ascii --window" "--show=kitty --window" "--color=red --material=gold"; do
+    check "$bad" refused "${bad%%[ =]*} does not go with --" "$VIEW" $bad
 done
 check "two models" refused "one file too many: b.obj" "$VIEW" a.obj b.obj
 check "help" sh -c "'$VIEW' --help | grep -q '^usage: view'"

@@ -39,7 +39,7 @@ check "red is cut out" pixel 0.28 0.75 0 0 0
 check "the same alpha, which no map_d asks for" draw whole.obj a.ppm $quarters
 check "cuts nothing out" pixel 0.28 0.75 0.3200 0.0143 0.00302
 check "map_d with a picture of its own" draw other.obj a.ppm $quarters
-check "is a warning" grep "mask.tga.*map_d counts only" "$T/err"
+check "is a warning" grep "mask.tga.*map_d counts only where it is the picture of map_Kd$" "$T/err"
 check "a lost texture" draw lost.obj a.ppm $quarters
 check "is a warning" grep "no such file.png.*No such file" "$T/err"
 check "and the plain color" pixel 0.5 0.5 0.448 0.1329 0.0331

@@ -12,8 +12,9 @@ facets() {
     facet "0 0 0" "0 1.5 0" "2 0 0"; facet "0 0 0" "2 0 0" "0 0 1"
     facet "2 0 0" "0 1.5 0" "0 0 1"; facet "0 0 0" "0 0 1" "0 1.5 0"
 }
-# A file says one thing that is left out, and no more.
-said() { [ "$(wc -l <"$T/err")" -eq 1 ] && grep "$1 (left out)" "$T/err"; }
+# A file says one thing, and no more; said: that this is left out.
+told() { [ "$(wc -l <"$T/err")" -eq 1 ] && grep -e "$1\$" "$T/err"; }
+said() { told "$1 (left out)"; }
 
 reports() {
     printf "$wedge$faces" >"$T/wedge.obj"
@@ -61,7 +62,7 @@ f 1 3 4\nf 2 3 4\n" >"$T/hole.obj"
 
     sed 's/^f \([0-9]\) \([0-9]\) \([0-9]\)/f \1\/1 \2\/2 \3\/3/' "$T/wedge.obj" >"$T/bare.obj"
     same "faces that name a vt where there is none" wedge.obj bare.obj 0 "--up y"
-    check "which is told" said "faces name a vt, and the file has none"
+    check "which is told" told "bare.obj: faces name a vt, and the file has none: they do without"
 }
 
 # glTF as text; the fourth corner is moved by what a file adds
@@ -80,12 +81,18 @@ gltf_reports() {
     same "no name" torus.obj mark 0 "--up y"
     sed 's/"asset"/"extensionsUsed":["EXT_made_up"],&/' "$T/torus.gltf" >"$T/used.gltf"
     same "an extension that is used" torus.obj used.gltf 0 "--up y"
-    check "and not read is told" said "used.gltf: it has EXT_made_up, which is not read"
+    check "and not read is told" told "used.gltf: it has EXT_made_up, which is not read"
     for k in '{' '{"asset":{"version":"2.0"},}' '{"asset":{"version":"2.0"}} 1' "{'asset':1}" \
         '{"asset":{"version":02}}' '{"asset":"\x"}' '{"asset":nul}'; do
         printf '%s' "$k" >"$T/wrong.gltf"
         bad_model "$k" wrong.gltf "wrong.gltf:1: its JSON is wrong: expected"
     done
+    for k in "solid a" "<html>" "  version https://git-lfs" ""; do
+        printf '%s\n' "$k" >"$T/wrong.glb"
+        bad_model "$k" wrong.glb "wrong.glb:[12]: expected glTF or its JSON, found "
+    done
+    cp "$T/torus.gltf" "$T/text.glb"
+    same "text named as GLB" torus.gltf text.glb 0
     sed 's/"mesh":0/&,"scale":[1,null,1]/' "$T/torus.gltf" >"$T/scale.gltf"
     bad_model "a scale that is no number" scale.gltf "scale must be 3 numbers"
     awk 'BEGIN { for (i = 0; i < 200; i++) printf "["; for (i = 0; i < 200; i++) printf "]" }' \
@@ -310,7 +317,7 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
             >"$T/bytes$k.gltf"
     done
     same "colours of bytes, which are fractions" 'bytes,"normalized":true.gltf' bytes.gltf 0
-    check "whose alpha is told" said "the alpha of its COLOR_0 does not count"
+    check "whose alpha is told" told "the alpha of its COLOR_0 does not count"
     printf '\377\376v\000 \0001\000' >"$T/wide.obj"
     bad_model "UTF-16" wide.obj "wide.obj:1: its text is UTF-16, which is not read"
     printf 'OFF\n4 4\n6\n0\n0 0 2\n0 0 0\n1.5 0 0\n0 1\n3 0 1 2\n3 0 1 3\n' >"$T/flows.off"
@@ -333,10 +340,10 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     same "of two materials of one name the first counts" red.obj library.obj 0 "--up y"
     sed -i 's/usemtl r/usemtl R/' "$T/library.obj"
     check "a material that is in no library" draw library.obj a.ppm
-    check "is told" said "no library has its material R"
+    check "is told" told "no library has its material R"
     printf "mtllib\nusemtl r\n$wedge$faces" >"$T/alone.obj"
     same "materials without a library" wedge.obj alone.obj 0 "--up y"
-    check "are told" said "alone.obj: it names materials, and no library of them"
+    check "are told" told "alone.obj: it names materials, and no library of them"
     for k in "-clamp on" "-mm 0.2 0.5"; do
         library library.mtl "map_Bump $k none.png"
         check "$k is drawn without" draw library.obj a.ppm
@@ -344,7 +351,7 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     done
     library library.mtl "map_Kd a.png\nmap_Bump -s 2 2 b.png"
     check "pictures that differ in their places" draw library.obj a.ppm
-    check "are told" grep "its -o and -s are not those of the other pictures" "$T/err"
+    check "are told" grep "a.png: the -o and -s of the other pictures are not its own, and do not count" "$T/err"
     plain="--up y --model lambert --no-shadow"
     rows() { printf "$wedge" | sed "s/^v //; s/\$/ $1/"; }
     faces_of() { printf "$ply_faces" | sed "s/\$/ $1/"; }
@@ -401,13 +408,16 @@ property $2 green\nproperty $2 blue/"; rows "$3 0 0"; printf "$ply_faces"; } >"$
     check "which is told" said "more.ply: bytes behind the elements that its header counts"
     sed 's/property list/property float what\n&/; s/^3/0 3/' "$T/more.ply" >"$T/both.ply"
     same "two things that are left out" four.obj both.ply 0 "$plain"
-    check "are told both" said "both.ply: bytes behind the .*; it has what, which is not read"
+    check "are told both" told "both.ply: bytes behind the .* (left out); it has what, which is not read"
+    { printf 'mtllib '; seq -s ' ' 100 400; printf "usemtl r\n$wedge$faces"; } >"$T/many.obj"
+    check "more than a line holds" draw many.obj a.ppm
+    check "ends by saying so" told "many.obj: 100: .* (left out); 101: .*; and more"
     sed 's/vertex_indices/vertices/' "$T/wide.ply" >"$T/named.ply"
     bad_model "corners by another name" named.ply "no face of it has three corners, but vertices, which is not read"
     sed 's/"materials"/"extensionsUsed":["KHR_materials_transmission"],&/' "$T/bytes.gltf" \
         >"$T/glass.gltf"
     check "a material of glass" draw glass.gltf a.ppm
-    check "is told" said "glass.*COLOR_0 does not count; it has KHR_materials_transmission, which is not read"
+    check "is told" told "glass.*COLOR_0 does not count; it has KHR_materials_transmission, which is not read"
 }
 
 # Numbers of another kind than a reader expects: the picture is that of the plain file.
@@ -445,7 +455,7 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
     check "without a word" test ! -s "$T/err"
     { printf "$wedge$paint#MRGB ffffffff\n$faces"; } >"$T/zbrush.obj"
     same "more than there are vertices" wedge.obj zbrush.obj 0 "$plain"
-    check "are told" said "zbrush.obj: it has #MRGB, which is not read"
+    check "are told" told "zbrush.obj: it has #MRGB, which is not read"
     sed '1s/ 1 1 0$//' "$T/parts.obj" >"$T/some.obj"
     sed '1s/ 1 1 0$/ 1 1 1/' "$T/parts.obj" >"$T/two.obj"
     same "and a vertex without one is white" two.obj some.obj 0 "$plain"
@@ -478,12 +488,12 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
         same "an alpha of 1" clear1.obj clear1$k 0 "$plain"
         check "is no word worth" test ! -s "$T/err"
         same "of half" clear1.obj clear0.5$k 0 "$plain"
-        check "is told of" said "clear0.5.*: it has alpha, which is not read"
+        check "is told of" told "clear0.5.*: it has alpha, which is not read"
     done
     { printf "$ply_head" | sed 's/vertex 5/vertex 4/; s/double z/&\nproperty double x/'
         rows 9; printf "$ply_faces"; } >"$T/twice.ply"
     same "a property that PLY has twice" wedge.obj twice.ply 0 "--up y"
-    check "is told" said "twice.ply: it has x, which is not read"
+    check "is told" told "twice.ply: it has x, which is not read"
     for k in -4 3.5; do
         { printf "$ply_head" | sed "s/vertex 5/vertex 4/; s/face 4/face $k/"; rows
             printf "$ply_faces"; } >"$T/count.ply"
@@ -491,6 +501,15 @@ property double ny\nproperty double nz/'; printf "$wedge" | sed "s/^v //; s/\$/ 
     done
     { echo solid a; facets | sed 's/endloop/end loop/; s/endfacet/END FACET/'; echo end solid a; } >"$T/ends.stl"
     same "ends in two words" wedge.obj ends.stl 0 "--up y"
+    facets | tr '\n' ' ' >"$T/one.txt"
+    for k in "solid $(cat "$T/one.txt")" "solid my facet $(cat "$T/one.txt")endsolid my facet" \
+        "solid a $(cut -d ' ' -f -42 "$T/one.txt") endsolid a solid b facet normal $(cut -d ' ' -f 43- "$T/one.txt")" \
+        "solid a facet normal
+$(cat "$T/one.txt")"; do
+        printf '%s' "$k" >"$T/one.stl"
+        same "text STL in few lines: $k" wedge.obj one.stl 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
     for k in '\032' '\000\000\000' '\r\n\032\000'; do
         { cat "$T/ends.stl"; printf "$k"; } >"$T/fill.stl"
         same "text STL that ends in $k" wedge.obj fill.stl 0 "--up y"

@@ -7,7 +7,7 @@
            { "--quiet", NULL, offsetof(settings, quiet), 1, 0 },
            { NULL, NULL, 0, 0, 0 }
        };
-       static const option_group groups[] = { { own, 0 }, { NULL, 0 } };
+       static const option_group groups[] = { { own, 0, NULL }, { NULL, 0, NULL } };
        const command c = { "view", usage, groups, offsetof(settings, files), 2, 2, "", NULL };
        int end = options_read(&c, &settings, argc, argv);
        if (end) return end == OPTIONS_WRONG;
@@ -45,10 +45,19 @@ typedef struct option {
     int least, most;
 } option;
 
-/* Options up to one without a name, and where their settings lie in those of the program */
+/* Two options of which the first says nothing beside the other, or, where needed is set, without
+   it */
+typedef struct option_pair {
+    const char *one, *other;
+    int needed;
+} option_pair;
+
+/* Options up to one without a name, where their settings lie in those of the program, and pairs
+   of them up to one without names, or NULL */
 typedef struct option_group {
     const option *options;
     size_t at;
+    const option_pair *pairs;
 } option_group;
 
 typedef struct command {
@@ -95,6 +104,17 @@ static inline int option_digits(const char **text, int lowest, int highest, int 
 static inline int option_integer(const char *text, int lowest, int highest, int *out)
 {
     return option_digits(&text, lowest, highest, out) && !*text;
+}
+
+/* Reads a decimal number at *text, which moves behind it.  1: it is within lowest .. highest. */
+static inline int option_number(const char **text, double lowest, double highest, double *out)
+{
+    const size_t decimal = strspn(*text, "+-.0123456789eE"); /* no blank, 0x1F, inf */
+    char *end;
+    *out = strtod(*text, &end);
+    if (end == *text || (size_t)(end - *text) > decimal) return 0;
+    *text = end;
+    return *out >= lowest && *out <= highest;
 }
 
 /* WIDTHxHEIGHT, each from 1 to most */
@@ -151,12 +171,13 @@ static inline const option *options_find(const command *c, const char *name, voi
    does not begin with more blanks than an option's. */
 static inline void option_said(const char *usage, const char *name, char *out, size_t room)
 {
-    size_t n = strlen(name), used = 0;
-    const char *at = strstr(usage, name), *bar, *end;
-    while (at && (at[-1] != ' ' || at[n] != ' ')) at = strstr(at + n, name);
+    char line[48];
+    size_t used = 0;
+    const int n = snprintf(line, sizeof line, "\n  %s ", name);
+    const char *at = strstr(usage, line), *bar, *end;
     *out = 0;
     if (!at) return;
-    at += n + 1;
+    at += n;
     for (end = at + strcspn(at, " "); *at < 'A' || *at > 'Z'; at = bar + 1) {
         bar = at + strcspn(at, "| ");
         used += (size_t)snprintf(out + used, room - used, "%s%.*s",
@@ -197,8 +218,26 @@ static inline int options_answered(void)
     return OPTIONS_WRONG;
 }
 
+/* The names of the options that were there, each once */
+typedef struct options_seen {
+    const char *name[65];
+} options_seen;
+
+/* Returns OPTIONS_WRONG where options do not go together; a line on stderr has said which. */
+static inline int options_check(const command *c, const options_seen *seen)
+{
+    for (const option_group *g = c->groups; g->options; g++)
+        for (const option_pair *p = g->pairs; p && p->one; p++)
+            if (option_among(seen->name, p->one) &&
+                (option_among(seen->name, p->other) != NULL) == !p->needed)
+                return complain(p->needed ? "%s needs %s" : "%s does not go with %s", p->one,
+                                p->other);
+    return OPTIONS_READ;
+}
+
 /* Takes the option at argv[*i].  Moves *i onto the last word that belongs to it. */
-static inline int options_take(const command *c, void *to, int argc, char **argv, int *i)
+static inline int options_take(const command *c, void *to, int argc, char **argv, int *i,
+                               options_seen *seen)
 {
     const char *equals = strchr(argv[*i], '='), *value = equals ? equals + 1 : NULL;
     const size_t n = equals ? (size_t)(equals - argv[*i]) : strlen(argv[*i]);
@@ -217,11 +256,13 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
         *(int *)at = o->least;
     else
         taken = o->take ? o->take(at, value) : option_integer(value, o->least, o->most, (int *)at);
+    for (int k = 0; k < 64 && (!k || seen->name[k - 1] != o->name); k++)
+        if (!seen->name[k]) seen->name[k] = o->name;
     if (c->notice) c->notice(to, o->name);
     if (taken == OPTIONS_ANSWERED) return options_answered();
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
     option_said(c->usage, o->name, said, sizeof said);
-    return complain("%s %s: %s", o->name, value, said);
+    return complain("%s %s: %s%s", o->name, value, o->take ? "" : "a whole number: ", said);
 }
 
 /* Answers --help and --version.  Returns 0 where the word is neither. */
@@ -240,19 +281,21 @@ static inline int options_answer(const command *c, const char *word)
 static inline int options_read(const command *c, void *to, int argc, char **argv)
 {
     int files = 0, end = OPTIONS_READ, rest = 0;
+    options_seen seen = { { NULL } };
     program_name = options_name(c, argv[0]);
     for (int i = 1; i < argc && end == OPTIONS_READ; i++) {
         if (!rest && options_answer(c, argv[i])) return options_answered();
         if (!rest && !strcmp(argv[i], "--")) {
             rest = 1;
         } else if (!rest && argv[i][0] == '-' && argv[i][1]) {
-            end = options_take(c, to, argc, argv, &i);
+            end = options_take(c, to, argc, argv, &i, &seen);
         } else if (files == c->most_files) {
             return complain("one file too many: %s%s", argv[i], c->many);
         } else {
             ((const char **)(void *)((char *)to + c->files))[files++] = argv[i];
         }
     }
+    if (end == OPTIONS_READ) end = options_check(c, &seen);
     if (end != OPTIONS_READ || files >= c->least_files) return end;
     fprintf(stderr, "usage: %s%.*s\n%s: --help lists the options\n", program_name,
             (int)strcspn(options_words(c), "\n"), options_words(c), program_name);

@@ -187,11 +187,8 @@ static inline int model_take_shading(void *to, const char *value)
 /* Reads a number of lowest .. highest at *text, which moves behind it and a comma. */
 static inline int view_number(const char **text, double lowest, double highest, double *out)
 {
-    char *end;
-    *out = strtod(*text, &end);
-    if (end == *text || !(*out >= lowest && *out <= highest)) return 0;
-    if (*end == ',' && end[1]) end++;
-    *text = end;
+    if (!option_number(text, lowest, highest, out)) return 0;
+    *text += **text == ',' && (*text)[1];
     return 1;
 }
 
@@ -221,15 +218,15 @@ static inline int model_take_view(void *to, const char *value)
 static inline int model_take_section(void *to, const char *value)
 {
     model_options *o = (model_options *)to;
-    char *end = NULL;
     if (*value < 'x' || *value > 'z') return OPTION_BAD;
     o->section = *value - 'x' + 1;
     o->section_placed = value[1] == '=';
     if (!value[1]) return OPTION_TAKEN;
-    o->section_at = strtod(value + 2, &end);
-    return o->section_placed && end > value + 2 && !*end && fabs(o->section_at) <= 1e30;
+    value += 2;
+    return o->section_placed && option_number(&value, -1e30, 1e30, &o->section_at) && !*value;
 }
 
+static const option_pair model_pair[] = { { "--color", "--material", 0 }, { NULL, NULL, 0 } };
 static const option model_option[] = {
     { "--color", model_take_color, 0, 0, 0 },
     { "--material", model_take_material, 0, 0, 0 },

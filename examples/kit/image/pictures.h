@@ -123,9 +123,9 @@ static void picture_load(model *m, int number, const char *path, int outside)
     }
     if (!failed) {
         const char *wrong = picture_decode(&m->picture[number], bytes, size);
-        if (wrong) model_warn(m, name, wrong);
+        if (wrong) model_leave_out(m, name, wrong);
     } else {
-        model_warn(m, path, error);
+        model_leave_out(m, path, error);
     }
     free(bytes);
 }
@@ -136,7 +136,7 @@ static void decode_pictures(model *m)
     for (int i = 0; i < m->picture_count; i++) {
         model_picture *p = &m->picture[i];
         const char *wrong = p->bytes ? picture_decode(p, p->bytes, p->size) : NULL;
-        if (wrong) model_warn(m, p->name, wrong);
+        if (wrong) model_leave_out(m, p->name, wrong);
         free(p->bytes);
         p->bytes = NULL;
     }

@@ -74,7 +74,7 @@ static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
     int mirrored = shade_mat3_determinant(shade_mat3_from_mat4(at)) < 0;
     if (!mesh->mNumFaces) return 0;
     if (!(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON))) {
-        model_warn(t->model, t->reader->name, "its points and lines");
+        model_leave_out(t->model, t->reader->name, "its points and lines");
         return 0;
     }
     if (first + mesh->mNumVertices >= INT_MAX) return mesh_fail(t->reader, "too many vertices");
@@ -104,7 +104,7 @@ static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
     int failed = 0, object;
     if (t->depth > 1000) return mesh_fail(t->reader, "nodes more than 1000 deep");
     if (t->depth == 2 && t->model->z_up) /* assimp 5 leaves out where AMF's instances are */
-        model_warn(t->model, t->reader->name, "the places of its constellations");
+        model_leave_out(t->model, t->reader->name, "the places of its constellations");
     if (node->mNumMeshes) {
         object = model_add_object(t->model, node->mName.data, strlen(node->mName.data));
         if (object < 0 || faces_object(&t->all.faces, object))
@@ -270,7 +270,7 @@ static int embedded_picture(model *m, const char *name, const struct aiTexture *
     p = &m->picture[number];
     if (!t->mHeight) {
         const char *wrong = picture_decode(p, (const unsigned char *)t->pcData, t->mWidth);
-        if (wrong) model_warn(m, name, wrong);
+        if (wrong) model_leave_out(m, name, wrong);
     } else if (t->mWidth && t->mWidth <= 16384 && t->mHeight <= 16384) {
         size_t n = (size_t)t->mWidth * t->mHeight;
         uint8_t *pixels = (uint8_t *)malloc(4 * n);

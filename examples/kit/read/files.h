@@ -74,12 +74,9 @@ static inline int mesh_is_off(const char *name, const unsigned char *bytes, size
 static inline int mesh_is_gltf(const char *name, const unsigned char *bytes, size_t size)
 {
     const model_kind kind = model_kind_of(name);
-    size_t at = 0;
     if (size >= 4 && !memcmp(bytes, "glTF", 4)) return 1;
     if (!strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb")) return 1;
-    if (kind.text[0]) return 0;
-    while (at < size && mesh_is_blank(bytes[at])) at++;
-    return at < size && bytes[at] == '{';
+    return !kind.text[0] && gltf_is_text(bytes, bytes + size);
 }
 
 /* 1: the file is 3MF, by its extension or, where that is none of ours, by its contents. */
@@ -298,7 +295,7 @@ static inline int model_read_library(const char *path, const char *name, model *
         const unsigned char *begin = model_text_of(bytes, &size);
         mesh_reader r = mesh_of(begin, size, name, error, room);
         r.line = 1;
-        if (mtl_read(&r, m)) model_warn(m, path, error);
+        if (mtl_read(&r, m)) model_leave_out(m, path, error);
     }
     free(bytes);
     free(where);
@@ -338,27 +335,27 @@ static inline void model_read_libraries(const char *path, model *m)
         const char *last = model_last(name);
         if (!model_read_library(path, name, m, error, sizeof error)) continue;
         if (last > name && !model_read_library(path, last, m, unheard, sizeof unheard)) continue;
-        if (!blank) model_warn(m, path, error);
+        if (!blank) model_leave_out(m, path, error);
         while (blank) {
             *blank = 0;
             if (*name && model_read_library(path, name, m, error, sizeof error))
-                model_warn(m, path, error);
+                model_leave_out(m, path, error);
             name = blank + 1;
             blank = strchr(name, ' ');
             if (!blank && *name && model_read_library(path, name, m, error, sizeof error))
-                model_warn(m, path, error);
+                model_leave_out(m, path, error);
         }
     }
     if (strlen(m->warning) == before) model_tell_missing(path, m);
     for (int i = 0; i < m->part_count && m->surface_count && !m->mesh.texcoords && !m->physical;
          i++)
         if (m->surface[m->part[i].surface].map)
-            model_warn(m, path, "a picture has no texture coordinates");
+            model_leave_out(m, path, "a picture has no texture coordinates");
     known_tell(m, path);
     for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
         const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;
         if (!move || (move[0] == 0 && move[1] == 0 && move[2] == 1 && move[3] == 1)) continue;
-        if (model_move_part(m, &m->part[i], move)) model_warn(m, path, "out of memory");
+        if (model_move_part(m, &m->part[i], move)) model_leave_out(m, path, "out of memory");
     }
 }
 

@@ -538,7 +538,7 @@ static inline int gltf_image(gltf *g, uint32_t image, uint32_t sampler, int what
         return mesh_fail(g->r, "out of memory");
     }
     if (failed) {
-        model_warn(g->m, g->r->name, error);
+        model_leave_out(g->m, g->r->name, error);
         free(bytes.owned);
         free(path);
     } else {
@@ -591,7 +591,7 @@ static inline int gltf_texture(gltf *g, gltf_place *place, uint32_t material, co
     uint32_t texture, source, image, sampler = 0, at;
     if (!info) return 0;
     if (place->used > 0 && memcmp(place, &own, sizeof own) != 0) {
-        model_warn(g->m, name, "it has other texture coordinates than the pictures before it");
+        model_leave_out(g->m, name, "it has other texture coordinates than the pictures before it");
         return 0;
     }
     if (gltf_item(g, GLTF_TEXTURES, json_member(&g->j, info, "index"), &texture)) return 1;
@@ -1006,11 +1006,11 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     }
     place = surface == g->plain ? NULL : &g->place[surface];
     if (place && place->used > 0 && g->cloud)
-        model_warn(g->m, g->r->name, "the pictures of its points");
+        model_leave_out(g->m, g->r->name, "the pictures of its points");
     v.tint = gltf_tint(g, surface);
     failed = gltf_load(g, primitive, surface, &v);
     if (!failed && place && place->used > 0 && !v.uv.width && !g->cloud)
-        model_warn(g->m, g->r->name, "a picture has no texture coordinates");
+        model_leave_out(g->m, g->r->name, "a picture has no texture coordinates");
     if (!failed)
         failed = gltf_morph(g, primitive, mesh, node, &v) ||
                  gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
@@ -1229,15 +1229,22 @@ static inline int gltf_build(gltf *g)
         return mesh_fail(g->r, g->lines ? "lines alone are not drawn" : "no faces in it");
     if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
     if (g->lines || (g->points > 0 && !g->cloud))
-        model_warn(g->m, g->r->name, g->cloud ? "its lines" : "its points and lines");
+        model_leave_out(g->m, g->r->name, g->cloud ? "its lines" : "its points and lines");
     if (g->cut && !(g->cloud ? g->all.positions.count : g->all.faces.triangles))
         return mesh_fail(g->r, "nothing of it can be seen: its alpha is below its alphaCutoff");
-    if (g->cut) model_warn(g->m, g->r->name, "faces whose alpha is below their alphaCutoff");
+    if (g->cut) model_leave_out(g->m, g->r->name, "faces whose alpha is below their alphaCutoff");
     if (gltf_extensions(g, "extensionsUsed", 0)) return 1;
     if (!g->cloud) return gather_finish(g->r, &g->all, g->m);
     if (gltf_plain(g, &plain) || gather_points(g->r, &g->all, g->m)) return 1;
     if (g->m->part) g->m->part->surface = plain;
     return 0;
+}
+
+/* 1: it begins as JSON does. */
+static inline int gltf_is_text(const unsigned char *at, const unsigned char *end)
+{
+    while (at < end && mesh_is_blank(*at)) at++;
+    return at < end && (*at == '{' || *at == '[');
 }
 
 static inline int gltf_read(mesh_reader *r, model *m)
@@ -1249,7 +1256,10 @@ static inline int gltf_read(mesh_reader *r, model *m)
     g.m = m;
     g.plain = -1;
     model_place(m, &g.all.origin);
-    failed = r->end - r->begin >= 4 && !memcmp(r->begin, "glTF", 4) && gltf_chunks(&g);
+    if (r->end - r->begin >= 4 && !memcmp(r->begin, "glTF", 4))
+        failed = gltf_chunks(&g);
+    else if ((failed = !gltf_is_text(r->at, r->end)) != 0)
+        mesh_fail(r, "expected glTF or its JSON, found %s", mesh_here(r).text);
     if (!failed) failed = json_read(r, &g.j);
     r->line = 0;
     if (!failed) failed = gltf_build(&g);

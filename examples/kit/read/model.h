@@ -99,9 +99,9 @@ typedef struct model {
     int movable;          /* the file has more digits than floats: read again, about another
                                   origin, the positions are more exact */
     char unread[200];     /* names of what is left out, with commas between (known.h) */
-    char warning[600];    /* what the picture lacks; "": nothing */
+    char warning[900];    /* what the picture lacks or shows otherwise than the file; "": nothing */
     size_t warned;        /* where the last line of the warning begins, with whom it is about */
-    char note[200];       /* what it shows otherwise than the file has it; "": nothing */
+    int warned_more;      /* there was more than fits into the warning, which says so at its end */
 } model;
 
 static inline void model_free(model *m)
@@ -150,18 +150,32 @@ static inline int model_is_section(const model *m, int part)
     return m->surface_count && m->surface[m->part[part].surface].section;
 }
 
-/* Adds to the warning, once.  What does not fit any more is left out. */
+/* Adds a statement to the warning, once, or that there are more where it does not fit. */
 static inline void model_warn(model *m, const char *about, const char *what)
 {
-    const size_t there = strlen(m->warning), room = sizeof m->warning, n = strlen(about);
+    static const char more[] = "; and more";
+    const size_t there = strlen(m->warning), room = sizeof m->warning - sizeof more + 1;
+    const size_t n = strlen(about);
     const char *last = m->warning + m->warned, *before = there ? "; " : "";
     const int same = there && !strncmp(last, about, n) && last[n] == ':';
-    if (same && strstr(last, what)) return;
-    if (there && there + (same ? 0 : n) + strlen(what) + 5 >= room) return;
+    if (m->warned_more || (same && strstr(last, what))) return;
+    m->warned_more = there && there + (same ? 0 : n) + strlen(what) + 5 >= room;
+    if (m->warned_more) {
+        memcpy(m->warning + there, more, sizeof more);
+        return;
+    }
     if (!same) m->warned = there + strlen(before);
     snprintf(m->warning + there, room - there, "%s%s%s%s", before, same ? "" : about,
              same ? "" : ": ", what);
     mesh_plain(m->warning + there);
+}
+
+/* The same of what is left out */
+static inline void model_leave_out(model *m, const char *about, const char *what)
+{
+    char text[400];
+    snprintf(text, sizeof text, "%.380s (left out)", what);
+    model_warn(m, about, text);
 }
 
 /* Warns of what is left out because it has a position that is not finite. */
@@ -170,7 +184,7 @@ static inline void model_warn_dropped(model *m, const char *about, size_t n, con
     char text[80];
     if (!n) return;
     snprintf(text, sizeof text, "%lu %s that are no finite numbers", (unsigned long)n, what);
-    model_warn(m, about, text);
+    model_leave_out(m, about, text);
 }
 
 /* The origin that a reader begins with */

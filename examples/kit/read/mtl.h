@@ -174,7 +174,8 @@ static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
     const float white = c->white;
     if (s && c->others && !s->map) memcpy(s->move, c->move, sizeof s->move);
     if (s && c->others && memcmp(c->move, s->move, sizeof s->move) != 0)
-        model_warn(m, s->map, "its -o and -s are not those of the other pictures");
+        model_warn(m, s->map,
+                   "the -o and -s of the other pictures are not its own, and do not count");
     if (s && s->map && !c->has_kd) s->material.diffuse = shade_v3(0, 0, 0);
     if (s && s->map) s->opaque = !c->mapped && s->transparency <= 0;
     if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))

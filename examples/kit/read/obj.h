@@ -297,8 +297,8 @@ static inline int obj_forget(obj_data *o, int kind, size_t count, model *out, co
     for (size_t i = 0; i < o->corners.count; i++) o->corners.triple[i].k[kind] = 0;
     o->highest[kind] = 0;
     model_warn(out, name,
-               kind == OBJ_VT ? "faces name a vt, and the file has none"
-                              : "faces name a vn, and the file has none");
+               kind == OBJ_VT ? "faces name a vt, and the file has none: they do without"
+                              : "faces name a vn, and the file has none: they do without");
     return 1;
 }
 

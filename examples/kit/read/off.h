@@ -250,7 +250,7 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
     mesh_set_free(&made);
     if (failed) return mesh_fail(r, "out of memory");
     if (o->others && !out->unread[0])
-        model_warn(out, r->name, "numbers behind its vertices or faces that are no colours");
+        model_leave_out(out, r->name, "numbers behind its vertices or faces that are no colours");
     if (o->clearest < off_white(o)) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
@@ -276,7 +276,7 @@ static inline int off_read(mesh_reader *r, model *m)
             failed = i < vertices ? off_vertex(r, &o) : off_face(r, &o, vertices);
     }
     if (!failed && !off_line(r))
-        model_warn(m, r->name, "lines behind the vertices and faces that it counts");
+        model_leave_out(m, r->name, "lines behind the vertices and faces that it counts");
     if (!failed) failed = off_finish(r, &o, m);
     free(o.position.v);
     free(o.color.v);

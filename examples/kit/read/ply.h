@@ -444,7 +444,8 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p, model *m)
         }
     }
     mesh_skip_lines(r);
-    if (r->at < r->end) model_warn(m, r->name, "bytes behind the elements that its header counts");
+    if (r->at < r->end)
+        model_leave_out(m, r->name, "bytes behind the elements that its header counts");
     return 0;
 }
 

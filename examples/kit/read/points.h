@@ -144,7 +144,7 @@ static inline size_t points_keep(mesh_reader *r, model *m, size_t n)
 }
 
 /* Makes n points, whose positions and colours, or NULL, the mesh of a model holds, a model of one
-   part, and says so in its note.  Non-zero: a message of the reader says why not. */
+   part, and warns of it.  Non-zero: a message of the reader says why not. */
 static inline int points_show(mesh_reader *r, model *m, size_t n)
 {
     static const uint32_t face[8][3] = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
@@ -162,6 +162,7 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
                       .colors = from.colors ? (float *)malloc(kept * 18 * sizeof(float)) : NULL,
                       .indices = (uint32_t *)malloc(kept * sizeof face) };
     const double radius = spread.order && spread.apart ? points_radii(&spread) : 0;
+    char text[160], every[40] = "";
     const int enough = radius > 0 && to.positions && to.normals && to.indices;
     m->mesh = to;
     m->part = (model_part *)calloc(1, sizeof *m->part);
@@ -188,13 +189,11 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
     mesh_link(&m->mesh, 6 * (int)kept, 24 * (int)kept);
     m->part->count = 24 * (int)kept;
     m->part_count = m->normals_given = 1;
-    snprintf(m->note, sizeof m->note,
-             "%lu points have no faces: they are drawn as small balls of "
-             "radius %.3g or so",
-             (unsigned long)n, radius);
-    if (step > 1)
-        snprintf(m->note + strlen(m->note), sizeof m->note - strlen(m->note), ", one of %lu",
-                 (unsigned long)step);
+    if (step > 1) snprintf(every, sizeof every, ", one of %lu", (unsigned long)step);
+    snprintf(text, sizeof text,
+             "%lu points have no faces: they are drawn as small balls of radius %.3g or so%s",
+             (unsigned long)n, radius, every);
+    model_warn(m, r->name, text);
     return 0;
 }
 

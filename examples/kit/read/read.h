@@ -233,8 +233,7 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     guard_reading(NULL);
     guard_doing = "ending";
     if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
-    if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
-    if (m->note[0] && !o->quiet) complain("%s: %s", path, m->note);
+    if (m->warning[0] && !o->quiet) complain("%s", m->warning);
     m->path = path;
     return 0;
 }

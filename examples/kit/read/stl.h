@@ -150,6 +150,24 @@ static inline int stl_facet(mesh_reader *r, stl_data *s)
     return stl_expect(r, "endloop") || stl_expect(r, "endfacet");
 }
 
+/* Skips a name, which ends with its line or where a facet with a normal begins: some files are one
+   line. */
+static inline void stl_name(mesh_reader *r)
+{
+    for (; r->at < r->end && !mesh_line_end(r, r->at); r->at++) {
+        mesh_reader ahead = *r;
+        char unheard[4];
+        float number;
+        ahead.error = unheard;
+        ahead.error_size = sizeof unheard;
+        if (!mesh_is_blank(r->at[-1]) || !mesh_take_word(&ahead, "facet")) continue;
+        mesh_skip_blanks(&ahead, 0);
+        if (!mesh_take_word(&ahead, "normal")) continue;
+        mesh_skip_blanks(&ahead, 0);
+        if (!mesh_take_number(&ahead, &number)) return;
+    }
+}
+
 static inline int stl_read_text(mesh_reader *r, stl_data *s)
 {
     for (size_t facets = 0;;) {
@@ -158,7 +176,7 @@ static inline int stl_read_text(mesh_reader *r, stl_data *s)
         if (mesh_take_word(r, "facet")) {
             if (mesh_tell(r, facets++) || stl_facet(r, s)) return 1;
         } else if (mesh_take_word(r, "solid") || stl_take(r, "endsolid")) {
-            mesh_next_line(r, 0);
+            stl_name(r);
         } else {
             return mesh_fail(r, "expected facet, found %s", mesh_here(r).text);
         }
@@ -257,7 +275,7 @@ static inline int stl_read(mesh_reader *r, model *out)
             char text[80];
             snprintf(text, sizeof text, "%lu triangles beyond the %lu that it counts",
                      (unsigned long)s.behind, (unsigned long)(s.dropped + s.indices.count / 3));
-            model_warn(out, r->name, text);
+            model_leave_out(out, r->name, text);
         }
         failed = !m->positions || !m->normals || (s.colored && stl_paint(&s, out)) ||
                  mesh_fill_normals(m, !s.colored);

@@ -816,7 +816,7 @@ static inline int threemf_picture(threemf *t, threemf_texture *texture)
     if (!e) mesh_fail(&quiet, "it is not in the archive");
     bytes = e ? zip_unpack(&quiet, &t->z, e) : NULL;
     if (!bytes) {
-        model_warn(t->m, t->r->name, error);
+        model_leave_out(t->m, t->r->name, error);
         return -1;
     }
     snprintf(name, sizeof name, "%.200s, %d, %d", texture->path, texture->wrap[0],
@@ -898,7 +898,8 @@ static inline int threemf_dress(threemf *t, threemf_object *o)
     o->corners = made ? made->count : 0;
     if (made) mesh_set_free(made);
     free(made);
-    if (missing) model_warn(t->m, t->r->name, "it has colours by numbers that it does not have");
+    if (missing)
+        model_leave_out(t->m, t->r->name, "it has colours by numbers that it does not have");
     return failed ? threemf_out(t) : 0;
 }
 
@@ -922,7 +923,7 @@ static inline int threemf_place(threemf *t, threemf_object *o, const gather_matr
     const int colored = t->groups.count > 0;
     int number, surface = 0;
     if (!colored && o->faces && threemf_face_at(t, o->face)->pid != UINT32_MAX)
-        model_warn(t->m, t->r->name, "it has colours by numbers that it does not have");
+        model_leave_out(t->m, t->r->name, "it has colours by numbers that it does not have");
     if (t->groups.count && !o->ready && threemf_dress(t, o)) return 1;
     o->ready = 1;
     t->all.colors_kept = t->all.texcoords_kept = colored;

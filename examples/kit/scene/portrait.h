@@ -49,11 +49,11 @@ static inline int portrait_take_size(void *to, const char *value)
 static inline int portrait_take_rotate(void *to, const char *value)
 {
     portrait *p = (portrait *)to;
-    char *end;
-    double degrees = strtod(value, &end);
+    double degrees;
+    const int taken = option_number(&value, -36000, 36000, &degrees) && !*value;
     p->rotated = 1;
     p->rotate = (float)(degrees * 0.017453292519943295);
-    return end != value && !*end && degrees >= -36000 && degrees <= 36000;
+    return taken;
 }
 
 static inline int portrait_take_background(void *to, const char *value)
@@ -63,6 +63,7 @@ static inline int portrait_take_background(void *to, const char *value)
     return p->background == PORTRAIT_NONE || take_color(value, &p->background_color);
 }
 
+static const option_pair portrait_pair[] = { { "--rotate", "--view", 0 }, { NULL, NULL, 0 } };
 static const option portrait_option[] = { { "--size", portrait_take_size, 0, 0, 0 },
                                           { "--rotate", portrait_take_rotate, 0, 0, 0 },
                                           { "--samples", option_samples,
@@ -78,10 +79,9 @@ static inline int portrait_samples(const portrait *p)
 }
 
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
-static inline int portrait_check(const portrait *p, const model_options *how)
+static inline int portrait_check(const portrait *p)
 {
     const int samples = portrait_samples(p);
-    if (p->rotated && how->viewed) return complain("--rotate does not go with --view");
     if (p->width * samples <= 16384 && p->height * samples <= 16384) return 0;
     return complain("size times samples must stay within 16384");
 }

@@ -43,7 +43,7 @@ enum { /* renderer_object.flags */
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
 typedef struct renderer_object {
-    int32_t kind, mesh, texture, flags; /* texture -1: none */
+    int32_t kind, mesh, texture, flags; /* of textures 1 + numbers; 0: none */
     int32_t id;                         /* what ids hold: surfaces of one object share it */
     int32_t first, count;               /* the triangles of its mesh that it shows; count 0: all */
     float size[3];
@@ -56,7 +56,7 @@ typedef struct renderer_object {
     float repeat[2];   /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
     float metal, tint; /* k_d is 1 - metal times the colour, k_s specular + tint times the colour */
     float cutoff;      /* where texture and colour have less alpha are holes; 0: nowhere */
-    int32_t relief, glow_map; /* of a mesh with texcoords: 1 + numbers of textures; 0: none */
+    int32_t relief, glow_map; /* of a mesh with texcoords */
     float strength;           /* of the relief, as in a model_relief */
     float glow_factor[3];     /* of the light that glow_map has */
 } renderer_object;
@@ -873,7 +873,7 @@ static inline int renderer_is_blended(const renderer_picture *p, const renderer_
 
 static inline int renderer_has_holes(const renderer_object *o)
 {
-    return o->cutoff > 0 && o->texture >= 0;
+    return o->cutoff > 0 && o->texture;
 }
 
 /* Fills in an entry.  0: the object cannot be seen */
@@ -908,13 +908,12 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
     if (v->shadows) {
         const int closed = o->kind != RENDERER_MESH && o->kind != RENDERER_PLANE;
         e->key = closed && v->parallel ? 0 : RENDERER_KEY_TWO_SIDED;
-        if (holes)
-            e->key = RENDERER_KEY_TWO_SIDED + holes + (1 + o->texture) * RENDERER_KEY_TEXTURE;
+        if (holes) e->key = RENDERER_KEY_TWO_SIDED + holes + o->texture * RENDERER_KEY_TEXTURE;
         return 1;
     }
     e->key = (e->shape->colors ? RENDERER_KEY_COLORS : 0) + holes +
              (o->flags & RENDERER_TWO_SIDED ? RENDERER_KEY_TWO_SIDED : 0) +
-             (1 + o->texture) * RENDERER_KEY_TEXTURE;
+             o->texture * RENDERER_KEY_TEXTURE;
     return 1;
 }
 
@@ -1639,12 +1638,12 @@ static inline const shade_texture *renderer_find_maps(renderer_batch *b, const r
 static inline shade_result renderer_draw_batch(renderer *r, const shade_target *target,
                                                renderer_batch *b, renderer_entry *e, int count)
 {
-    const int key = e->key, texture = key / RENDERER_KEY_TEXTURE - 1;
+    const int key = e->key, texture = key / RENDERER_KEY_TEXTURE;
     shade_pipeline pipeline = { renderer_shade_vertices, renderer_shade, b, .varyings = 6 };
     int vertex_count, index_count;
     b->entry = e;
     b->holes = (key & RENDERER_KEY_HOLES) != 0;
-    b->texture = (b->lighting || b->holes) && texture >= 0 ? b->v->scene->textures + texture : NULL;
+    b->texture = (b->lighting || b->holes) && texture ? b->v->scene->textures + texture - 1 : NULL;
     if (b->texture && !b->texture->memory) b->texture = NULL; /* it was taken away */
     b->holes &= b->texture != NULL;
     b->uv = b->texture ? 6 : 0;

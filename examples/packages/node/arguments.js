@@ -204,6 +204,13 @@ export function wraps(name, { wrap = ["repeat", "repeat"], squares = false }) {
     return [...wrap.map((how) => WRAPS.indexOf(choice(`${name}wrap`, how, WRAPS))), flag(`${name}squares`, squares) ? 1 : 0];
 }
 
+/** A copy of numbers that are bytes */
+export function bytesOf(name, data) {
+    const bytes = Uint8ClampedArray.from(data);
+    if (!bytes.every((x, i) => x === data[i])) throw new ShadeError(`${name} must hold bytes, 0 to 255`);
+    return bytes;
+}
+
 /** A picture of RGB or RGBA bytes, as RGBA; wrap and squares become numbers. */
 export function texture(name, value) {
     const got = record(name, value, ["data", "width", "height", "wrap", "squares"]), { data, width, height } = got;
@@ -214,8 +221,7 @@ export function texture(name, value) {
     if (channels !== 3 && channels !== 4) {
         throw new ShadeError(`${name}.data must hold 3 or 4 bytes a pixel, not ${data.length} in all`);
     }
-    const bytes = Uint8ClampedArray.from(data);
-    if (!bytes.every((x, i) => x === data[i])) throw new ShadeError(`${name}.data must hold bytes, 0 to 255`);
+    const bytes = bytesOf(`${name}.data`, data);
     if (channels === 4) return { data: bytes, width, height, wrap };
     const rgba = new Uint8ClampedArray(4 * width * height).fill(255);
     for (let i = 0; i < width * height; i++) rgba.set(bytes.subarray(3 * i, 3 * i + 3), 4 * i);
@@ -240,7 +246,8 @@ function lamp(name, value) {
     put(7, "diffuse", got.diffuse ?? own);
     put(10, "specular", got.specular ?? own);
     ["constant", "linear", "quadratic", "spotExponent", "spotCosCutoff"].forEach((key, i) => {
-        row[i < 3 ? 13 + i : 16 + i] = number(`${name}.${key}`, got[key] ?? 0, -3e38, 3e38);
+        const cosine = key === "spotCosCutoff";
+        row[i < 3 ? 13 + i : 16 + i] = number(`${name}.${key}`, got[key] ?? 0, cosine ? -1 : 0, cosine ? 1 : 3e38);
     });
     put(16, "spotDirection", spotDirection);
     return row;

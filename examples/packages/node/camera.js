@@ -202,17 +202,21 @@ export function studio(meshes, { view }, up) {
     return rigid(turn, turn.map((row) => -dot(row, middle)));
 }
 
+/** The rows of the rotation of a matrix by columns, which has a translation besides, and no more */
+export function rotationOf(name, view) {
+    const rows = [0, 1, 2].map((k) => [view[k], view[4 + k], view[8 + k]]);
+    const last = [3, 7, 11].every((k) => view[k] === 0) && view[15] === 1;
+    const apart = rows.map((a, i) => rows.map((b, k) => Math.abs(dot(a, b) - (i === k ? 1 : 0))));
+    if (last && Math.max(...apart.flat()) <= 1e-3) return rows;
+    throw new ShadeError(`${name} must be a rotation and a translation, without scale`);
+}
+
 /** The camera that a caller describes by its matrices, in a world that counts from an origin. */
 export function given(value, origin) {
     const { view, projection } = record("view", value, ["view", "projection"]);
     const camera = { view: matrix("view.view", view),
                      projection: vector("view.projection", projection, 16) };
-    const rows = [0, 1, 2].map((k) => [camera.view[k], camera.view[4 + k], camera.view[8 + k]]);
-    const last = [3, 7, 11].every((k) => camera.view[k] === 0) && camera.view[15] === 1;
-    const apart = rows.map((a, i) => rows.map((b, k) => Math.abs(dot(a, b) - (i === k ? 1 : 0))));
-    if (!last || Math.max(...apart.flat()) > 1e-3) {
-        throw new ShadeError("view.view must be a rotation and a translation, without scale");
-    }
+    const rows = rotationOf("view.view", camera.view);
     for (let k = 0; k < 3; k++) camera.view[12 + k] += dot(rows[k], origin);
     camera.view = Float32Array.from(camera.view);
     return camera;

@@ -29,7 +29,7 @@ export interface Texture { data: Numbers; width: number; height: number; wrap?: 
 /** What a mesh is made of.  Arrays are copied. */
 export interface MeshSource {
     /** x, y, z of each vertex; in double they may lie anywhere.  Triangles with NaN or infinity are left
-        out. */
+        out, and told. */
     positions: Numbers;
     /** Three a triangle, counter-clockwise from outside; default 0, 1, 2, ... */
     indices?: Numbers;

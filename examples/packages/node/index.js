@@ -105,19 +105,25 @@ function material(value) {
     const got = check.record("material", value,
                              ["emission", "ambient", "diffuse", "specular", "shininess"]);
     const { emission = [0, 0, 0], diffuse = [1, 1, 1], specular = [0, 0, 0], shininess = 0 } = got;
-    const colors = Object.entries({ emission, ambient: got.ambient ?? diffuse, diffuse, specular });
     const row = new Float32Array(13);
+    const colors = Object.entries({ emission, ambient: got.ambient ?? check.vector("material.diffuse", diffuse, 3),
+                                    diffuse, specular });
     colors.forEach(([name, color], k) => row.set(check.vector(`material.${name}`, color, 3), 3 * k));
     row[12] = check.number("material.shininess", shininess, 0, 1e9);
     return row;
 }
 
-/** Says why a mesh cannot be seen: a white page would not. */
+/** Says which triangles are left out, and why a mesh cannot be seen: a white page would not. */
 function warn({ positions, indices }) {
-    const seen = (i) => [0, 1, 2].every((k) => Math.abs(positions[3 * indices[i] + k]) <= 1e8);
-    for (let i = 0; i < indices.length; i += 3) if (seen(i) && seen(i + 1) && seen(i + 2)) return;
-    console.warn(indices.length ? "shade-h: positions: no triangle has three corners within 1e8: nothing is drawn"
-                                : "shade-h: indices: there are no triangles: nothing is drawn");
+    const corners = (i, good) => [0, 1, 2].every((c) => [0, 1, 2].every((k) => good(positions[3 * indices[i + c] + k])));
+    let lost = 0, seen = false;
+    for (let i = 0; i < indices.length && !seen; i += 3) seen = corners(i, (x) => Math.abs(x) <= 1e8);
+    if (seen && positions.every(Number.isFinite)) return;
+    for (let i = 0; i < indices.length; i += 3) lost += !corners(i, Number.isFinite);
+    if (seen && !lost) return;
+    console.warn(seen ? `shade-h: positions: ${lost} triangles have corners that are no finite numbers (left out)`
+               : indices.length ? "shade-h: positions: no triangle has three corners within 1e8: nothing is drawn"
+               : "shade-h: indices: there are no triangles: nothing is drawn");
 }
 
 /** A little gloss on a colour */
@@ -191,6 +197,8 @@ export class Mesh {
             throw new ShadeError(`uv and ${pictured ?? "texture"} belong together: one of them is missing`);
         }
         const shown = colors === undefined ? null : check.displayed("colors", colors, 3);
+        const lost = uv ? check.rows("uv", uv, 2).reduce((n, x) => n + !Number.isFinite(x), 0) : 0;
+        if (lost) console.warn(`shade-h: uv: ${lost} of its numbers are not finite: they count as 0`);
         const maps = PICTURES.map((name) =>
             (rest[name] === undefined ? null : check.texture(name, rest[name])));
         this.maps = maps;

@@ -129,7 +129,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
     }
 
     /** The name under which the module reads has the format, which messages leave out. */
-    const unnamed = (words) => words.replace(/^model\.\w+/, "model");
+    const unnamed = (words) => words.replace(/(^|; )model\.\w+(?=:)/g, "$1model");
 
     function checked(bytes, options, names) {
         const { format, ...given } = record("options", options, names);

@@ -108,7 +108,7 @@ class Stage {
         const mapped = shape && g.type === MESH && g.texcoord;
         ints[AT.kind] = KINDS[g.type];
         if (shape) ints[AT.mesh] = this.#mesh(g.type, g.type === MESH ? g.dataid >> 1 : g.dataid);
-        ints[AT.texture] = g.texid >= 0 ? this.#texture(g.texid) : -1;
+        ints[AT.texture] = g.texid >= 0 ? 1 + this.#texture(g.texid) : 0;
         floats.set(shape ? [1, 1, 1] : g.size, AT.size);
         if (g.type === 0) floats[AT.size + 2] = 0;
         floats.set(g.mat, AT.turn);

@@ -1,6 +1,7 @@
 // Cameras for simulators, learners and graders: one scene, many pictures of colour, depth, numbers of
 // objects and normals.  Names and bytes are those of the package for Python.
 import * as check from "./arguments.js";
+import { rotationOf } from "./camera.js";
 
 const { ShadeError } = check;
 
@@ -19,12 +20,18 @@ const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, LAMPS = 8;
 export const AT = { kind: 0, mesh: 1, texture: 2, flags: 3, id: 4, first: 5, count: 6, size: 7, turn: 10, place: 19,
                     rgba: 22, specular: 26, shininess: 29, emission: 30, glow: 31, repeat: 34, metal: 36, tint: 37,
                     cutoff: 38, relief: 39, glow_map: 40, strength: 41, glow_factor: 42 };
+const FRAME = ["color", "depth", "ids", "normals"];
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
+
+function pictured(value) {
+    const got = check.record("picture", value, ["data", "width", "height", "wrap", "squares", "faces"]);
+    if (got !== value) throw new ShadeError("picture must be an object with data, width and height");
+    return got;
+}
 
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
 export function plainRecord() {
     const floats = new Float32Array(OBJECT), ints = new Int32Array(floats.buffer);
-    ints[AT.texture] = -1;
     floats.set([1, 0, 0, 0, 1, 0, 0, 0, 1], AT.turn);
     floats.fill(1, AT.rgba, AT.rgba + 4);
     floats[AT.shininess] = 32;
@@ -139,7 +146,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             ["texture", "relief", "glow_map"].forEach((name, i) => {
                 if (!maps[i]) return;
                 const number = this.#texture(maps[i], free(this.#textures), maps[i].wrap, name !== "relief");
-                ints[AT[name]] = number + (i ? 1 : 0);
+                ints[AT[name]] = 1 + number;
                 shape.textures.push(number);
                 this.#textures.get(number).owned = true;
             });
@@ -205,9 +212,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         #ground(heights, rows, columns, half, number) {
+            for (const [name, count] of Object.entries({ rows, columns })) check.integer(name, count, 2, 1e6);
             const z = check.vector("heights", heights, rows * columns);
-            const [a, b] = Array.from(half), positions = new Float32Array(3 * rows * columns), indices = [];
-            if (Math.min(rows, columns) < 2) throw new ShadeError("heights must have two rows and columns at least");
+            const [a, b] = check.vector("half", half, 2), positions = new Float32Array(3 * rows * columns), indices = [];
+            if (!(a > 0 && b > 0)) throw new ShadeError("half must be positive");
             for (let i = 0, k = 0; i < rows; i++) {
                 for (let j = 0; j < columns; j++, k++) {
                     positions.set([2 * a * j / (columns - 1) - a, 2 * b * i / (rows - 1) - b, z[k]], 3 * k);
@@ -221,7 +229,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
          *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
          *  Texture. */
-        texture(picture) { return this.#texture(picture, free(this.#textures)); }
+        texture(picture) { return this.#texture(pictured(picture), free(this.#textures)); }
 
         /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
         update_texture(number, picture) {
@@ -229,7 +237,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (cube !== (picture?.faces === 6)) {
                 throw new ShadeError(`picture: texture ${number} is ${cube ? "" : "no "}cube, and the picture is not`);
             }
-            this.#texture(picture, number);
+            this.#texture(pictured(picture), number);
             this.#textures.get(number).owned = owned;
         }
 
@@ -250,7 +258,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 throw new ShadeError(`data must hold ${4 * width * height} bytes`);
             }
             const made = withMemory((room) => {
-                const bytes = put(room(data.length), Uint8Array.from(data));
+                const bytes = put(room(data.length), check.bytesOf("data", data));
                 const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb && colors ? 1 : 0, ...wrap);
                 return library.scene_texture(this.#scene, number, put(room(4 * IMAGE), image));
             });
@@ -279,6 +287,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (typeof shape === "string") check.choice("shape", shape, Object.keys(KINDS));
             else this.#known(shape);
             const { floats } = this.#record(shape, looks);
+            if (got.at && pose !== undefined) throw new ShadeError("at does not go with pose, which has a place");
             floats.set(this.#size(shape, size), AT.size);
             floats.set(check.vector("at", at, 3), AT.place);
             const number = withMemory((room) => library.scene_add(this.#scene, put(room(4 * OBJECT), floats), 1));
@@ -331,9 +340,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             if (got.texture !== undefined) {
                 this.#textureOf("texture", got.texture);
-                ints[AT.texture] = got.texture;
+                ints[AT.texture] = 1 + got.texture;
             }
             floats.set(check.vector("repeat", got.repeat ?? [1, 1], 2), AT.repeat);
+            for (const name of ["two_sided", "casts_shadow"]) if (got[name] !== undefined) check.flag(name, got[name]);
             ints[AT.flags] |= (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
             return { floats, ints };
         }
@@ -359,6 +369,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                     : Array(3).fill(check.number("size", size, -3e38, 3e38));
             }
             if (size === undefined && shape === "plane") return [0, 0, 0];
+            if (size === undefined) throw new ShadeError(`size of a ${shape} is missing`);
             const count = Math.max(...SIZES[shape]) + 1;
             const got = check.vector("size", check.isArray(size) ? size : [size], count);
             if (!got.every((x) => x > 0)) throw new ShadeError(`size of a ${shape} must be positive`);
@@ -377,6 +388,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
          *  where one is refused. */
         poses(poses, numbers = this.objects) {
+            if (!check.isArray(numbers)) throw new ShadeError("numbers must be an array");
             numbers.forEach((number) => this.#object(number));
             this.#move((i) => `poses[${i}]`, numbers, poses);
         }
@@ -398,6 +410,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Hides an object, or shows it again. */
         show(number, visible = true) {
             const { ints } = this.#object(number);
+            check.flag("visible", visible);
             ints[AT.flags] = (ints[AT.flags] & ~HIDDEN) | (visible ? 0 : HIDDEN);
         }
 
@@ -422,7 +435,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with it. */
         remove_texture(number) {
             const { owned } = this.#textureOf("number", number), s = this.#state;
-            const shown = this.objects.find((i) => this.#object(i).ints[AT.texture] === number);
+            const shown = this.objects.find((i) => this.#object(i).ints[AT.texture] === 1 + number);
             const who = shown !== undefined ? `object ${shown}` : owned ? "a shape"
                 : s.sky === 2 && s.skyTexture === number ? "the sky" : null;
             if (who) throw new ShadeError(`number: ${who} has texture ${number}`);
@@ -451,6 +464,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
          *  shadows. */
         light(lights, ambient = [0, 0, 0], shadow = []) {
             void this.#scene;    // a renderer that was freed is refused
+            if (!Array.isArray(lights)) throw new ShadeError("lights must be an array");
             if (lights.length > LAMPS) throw new ShadeError(`lights: at most ${LAMPS} lamps are drawn, not ${lights.length}`);
             const { lights: rows } = check.lighting("light", { lights });
             const lamps = new Float32Array(Math.max(1, rows.length) * LIGHT);
@@ -488,7 +502,11 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         // ---- pictures
 
         /** New arrays for render(), or for so many pictures of render_batch(). */
-        frame({ color = true, depth = true, ids = true, normals = false, pictures = 1 } = {}) {
+        frame(wanted = undefined) {
+            const { color = true, depth = true, ids = true, normals = false, pictures = 1 } =
+                check.record("wanted", wanted, [...FRAME, "pictures"]);
+            Object.entries({ color, depth, ids, normals }).forEach((one) => check.flag(...one));
+            check.integer("pictures", pictures, 0, 1e6);
             const pixels = pictures * this.height * this.width;
             return { color: color ? new Uint8Array(3 * pixels) : null, depth: depth ? new Float32Array(pixels) : null,
                      ids: ids ? new Int32Array(2 * pixels) : null, normals: normals ? new Float32Array(3 * pixels) : null };
@@ -515,6 +533,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #seen(name, camera) {
             const view = check.vector(`${name}.view`, camera?.view, 16);
             const projection = check.vector(`${name}.projection`, camera?.projection, 16);
+            rotationOf(`${name}.view`, view);
             return { view, projection, ...rangeOf(projection) };
         }
 
@@ -532,11 +551,20 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
          *  added. */
         _draw(out, shots, options) {
             const got = check.record("options", options, ["solid", "empty_depth"]);
+            const { solid = false, empty_depth = Infinity } = got;
+            check.flag("solid", solid);
+            if (typeof empty_depth !== "number") throw new ShadeError("empty_depth must be a number");
+            check.record("out", out, FRAME);
             const pixels = this.height * this.width, s = this.#state, scene = this.#scene, at = {};
             const channels = out.color?.length === 4 * shots.length * pixels ? 4 : 3;
             const arrays = [["color", channels, 1], ["depth", 1, 4], ["ids", 2, 4], ["normals", 3, 4]];
+            const Kinds = { color: [Uint8Array, Uint8ClampedArray], depth: [Float32Array, Float64Array],
+                            ids: [Int32Array], normals: [Float32Array, Float64Array] };
             for (const [name, width, bytes] of arrays) {
                 const wanted = shots.length * width * pixels;
+                if (out[name] && !Kinds[name].some((Kind) => out[name] instanceof Kind)) {
+                    throw new ShadeError(`out.${name} must be ${Kinds[name].map((Kind) => Kind.name).join(" or ")}`);
+                }
                 if (out[name] && out[name].length !== wanted) {
                     throw new ShadeError(`out.${name} must hold ${wanted} numbers, not ${out[name].length}`);
                 }
@@ -549,9 +577,9 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 const shot = kept("shot", 4 * SHOT);
                 const ints = new Int32Array(library.memory.buffer, shot, SHOT);
                 const floats = new Float32Array(library.memory.buffer, shot, SHOT);
-                ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, got.solid ? 1 : 0, parallel,
+                ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, solid ? 1 : 0, parallel,
                           records ? records.length / OBJECT : 0, s.count, s.shadows, s.sky, s.skyTexture]);
-                floats.set([near, far, got.empty_depth ?? Infinity, this.tolerance, ...view, ...projection,
+                floats.set([near, far, empty_depth, this.tolerance, ...view, ...projection,
                             ...s.background, ...s.low, ...s.high, ...s.ambient], 12);
                 ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);
                 succeed("camera", library.renderer_draw(scratch, scene, shot));

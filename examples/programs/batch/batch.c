@@ -37,7 +37,6 @@ typedef struct batch {
     const char *out, *film;
     int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
     int piece, pipe, missing, rate;            /* piece -1: all; count 0: not said */
-    int both;                                  /* strips and frames are wanted */
     FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
     float begin;    /* the yaw of the first piece */
@@ -68,14 +67,12 @@ static int take_size(void *to, const char *value)
 static int take_frames(void *to, const char *value)
 {
     batch *b = (batch *)to;
-    b->both |= b->strips;
     return option_integer(value, 1, 99999, &b->count);
 }
 
 static int take_strips(void *to, const char *value)
 {
     batch *b = (batch *)to;
-    b->both |= b->count && !b->strips;
     b->strips = 1;
     return option_integer(value, 1, 99999, &b->count);
 }
@@ -96,9 +93,17 @@ static int read_options(batch *b, int argc, char **argv)
                                   { "--pipe", NULL, offsetof(batch, pipe), 1, 0 },
                                   { "--missing", NULL, offsetof(batch, missing), 1, 0 },
                                   { NULL, NULL, 0, 0, 0 } };
-    static const option_group groups[] = { { model_option, offsetof(batch, request.how) },
-                                           { own, 0 },
-                                           { NULL, 0 } };
+    static const option_pair pairs[] = {
+        { "--frames", "--strips", 0 }, { "--film", "--strips", 0 },
+        { "--film", "--pipe", 0 },     { "--film", "--missing", 0 },
+        { "--film", "--piece", 0 },    { "--film", "--out", 0 },
+        { "--pipe", "--out", 0 },      { "--pipe", "--missing", 0 },
+        { "--rate", "--film", 1 },     { NULL, NULL, 0 }
+    };
+    static const option_group groups[] = { { model_option, offsetof(batch, request.how),
+                                             model_pair },
+                                           { own, 0, pairs },
+                                           { NULL, 0, NULL } };
     static const command c = { "batch", usage, groups, offsetof(batch, request.model),
                                0,       1,     "",     NULL };
     int end = options_read(&c, b, argc, argv);
@@ -106,10 +111,6 @@ static int read_options(batch *b, int argc, char **argv)
 
     if (!b->count && !b->film)
         return complain("what shall it make? --frames 360, --strips N or --film FILE");
-    if (b->both) return complain("--frames does not go with --strips");
-    if (b->film && (b->strips || b->pipe || b->missing || b->piece >= 0 || b->out))
-        return complain("--film does not go with --strips, --pipe, --missing, --piece or --out");
-    if (b->pipe && b->out) return complain("--pipe does not go with --out");
     if (!b->count) b->count = 360;
     if (!b->out) b->out = b->strips ? "strips" : "frames";
     if (b->piece >= b->count)

@@ -27,10 +27,16 @@ case $1 in
 esac
 [ $# -ge 2 ] || { usage >&2; exit 1; }
 models=$1 sheets=$2; shift 2
-command -v parallel >/dev/null || { echo "shade-sheets: this needs GNU parallel" >&2; exit 1; }
+wrong() { echo "shade-sheets: $*" >&2; exit 1; }
+[ -d "$models" ] || wrong "$models: is no folder"
+[ ! -e "$sheets" ] || [ -d "$sheets" ] || wrong "$sheets: is no folder"
+for word; do
+    case $word in --json* | --depth* | --id-map*) wrong "$word names one file, for many models" ;; esac
+done
+command -v parallel >/dev/null || wrong "this needs GNU parallel"
 mkdir -p "$sheets" || exit 1
 sheets=$(cd "$sheets" && pwd)
-command -v "$THUMBNAIL" >/dev/null || { echo "shade-sheets: there is no $THUMBNAIL" >&2; exit 1; }
+command -v "$THUMBNAIL" >/dev/null || wrong "there is no $THUMBNAIL"
 case $THUMBNAIL in */*) THUMBNAIL=$(cd "${THUMBNAIL%/*}" && pwd)/${THUMBNAIL##*/};; esac
 export sheets THUMBNAIL
 one() {                         # model, options
@@ -42,7 +48,11 @@ one() {                         # model, options
 if [ "$1" = --one ]; then shift; cd "$models" && one "$@"; exit; fi
 script=$(cd "$(dirname "$0")" && pwd)/${0##*/}
 cd "$models" || exit 1
-find . -type f \( -iname '*.stl' -o -iname '*.obj' -o -iname '*.ply' -o -iname '*.3mf' \
-    -o -iname '*.gltf' -o -iname '*.glb' -o -iname '*.fbx' -o -iname '*.dae' -o -iname '*.3ds' \
-    -o -iname '*.off' -o -iname '*.amf' \) -print0 | sort -z |
+every() {
+    find . -type f \( -iname '*.stl' -o -iname '*.obj' -o -iname '*.ply' -o -iname '*.3mf' \
+        -o -iname '*.gltf' -o -iname '*.glb' -o -iname '*.fbx' -o -iname '*.dae' -o -iname '*.3ds' \
+        -o -iname '*.off' -o -iname '*.amf' \) "$@"
+}
+[ "$(every -print | head -n 1)" ] || echo "shade-sheets: $models has no models" >&2
+every -print0 | sort -z |
     parallel -0 ${JOBS:+-j "$JOBS"} sh "$script" . "$sheets" --one {} "$@"

@@ -224,19 +224,15 @@ typedef struct options {
 
 static int take_limit(void *to, const char *value)
 {
-    char *end;
-    *(double *)to = strtod(value, &end);
-    return end > value && *(double *)to >= 0 && *(double *)to <= 255 && !*end;
+    return option_number(&value, 0, 255, (double *)to) && !*value;
 }
 
 static int take_count(void *to, const char *value)
 {
     options *all = (options *)to;
-    char *end;
-    all->count = strtod(value, &end);
-    all->percent = *end == '%';
-    return end > value && all->count >= 0 && (!all->percent || all->count <= 100) &&
-           !end[all->percent];
+    if (!option_number(&value, 0, 1e18, &all->count)) return OPTION_BAD;
+    all->percent = *value == '%';
+    return (!all->percent || all->count <= 100) && !value[all->percent];
 }
 
 static int take_difference(void *to, const char *value)
@@ -257,10 +253,11 @@ static int read_options(options *o, int argc, char **argv)
         { "--max-seconds", NULL, offsetof(options, max_seconds), 0, 1000000000 },
         { NULL, NULL, 0, 0, 0 }
     };
-    static const option_group groups[] = { { model_option, offsetof(options, how) },
-                                           { portrait_option, offsetof(options, portrait) },
-                                           { own, 0 },
-                                           { NULL, 0 } };
+    static const option_group groups[] = { { model_option, offsetof(options, how), model_pair },
+                                           { portrait_option, offsetof(options, portrait),
+                                             portrait_pair },
+                                           { own, 0, NULL },
+                                           { NULL, 0, NULL } };
     static const command c = { "compare", usage, groups, offsetof(options, names), 2, 2, "", NULL };
     const portrait *as = &o->portrait;
     int end = options_read(&c, o, argc, argv);
@@ -273,7 +270,7 @@ static int read_options(options *o, int argc, char **argv)
     for (int i = 0; o->difference && i < 2; i++)
         if (save_same(o->names[i], o->difference))
             return complain("%s is read: it cannot be written as well", o->difference);
-    return portrait_check(&o->portrait, &o->how) ? OPTIONS_WRONG : OPTIONS_READ;
+    return portrait_check(&o->portrait) ? OPTIONS_WRONG : OPTIONS_READ;
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
@@ -338,7 +335,7 @@ static int open_both(picture *p, const options *o)
         if (p[i].file) continue;
         if (as.width > 8192 || as.height > 8192)
             return fail(p[i].name, "models are drawn up to 8192x8192 pixels");
-        if (portrait_check(&as, &o->how) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
+        if (portrait_check(&as) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
             return ERROR;
     }
     return SAME;

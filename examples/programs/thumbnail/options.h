@@ -156,7 +156,7 @@ static void notice(void *to, const char *name) { drawing_notice(&((options *)to)
 static int check_options(options *o)
 {
     if (drawing_check(&o->drawing, o->output, o->picture.background == PORTRAIT_NONE)) return 1;
-    if (portrait_name(o->output, &o->png) || portrait_check(&o->picture, &o->how)) return 1;
+    if (portrait_name(o->output, &o->png) || portrait_check(&o->picture)) return 1;
     if (o->picture.background == PORTRAIT_NONE && !o->png)
         return complain("--background none needs PNG: PPM has no transparency");
     o->picture.samples = portrait_samples(&o->picture);
@@ -170,11 +170,12 @@ static int read_options(options *o, int argc, char **argv)
                                   { "--max-seconds", NULL, offsetof(options, max_seconds), 0,
                                     1000000000 },
                                   { NULL, NULL, 0, 0, 0 } };
-    static const option_group groups[] = { { drawing_option, offsetof(options, drawing) },
-                                           { model_option, offsetof(options, how) },
-                                           { portrait_option, offsetof(options, picture) },
-                                           { own, 0 },
-                                           { NULL, 0 } };
+    static const option_group groups[] = { { drawing_option, offsetof(options, drawing), NULL },
+                                           { model_option, offsetof(options, how), model_pair },
+                                           { portrait_option, offsetof(options, picture),
+                                             portrait_pair },
+                                           { own, 0, NULL },
+                                           { NULL, 0, NULL } };
     static const command c = { "thumbnail",
                                thumbnail_usage,
                                groups,

@@ -86,9 +86,14 @@ static inline int view_read_options(view_options *o, int argc, char **argv)
         { "--frames", NULL, offsetof(view_options, frames), 1, 1000000 },
         { NULL, NULL, 0, 0, 0 }
     };
-    static const option_group groups[] = { { model_option, offsetof(view_options, scene.how) },
-                                           { own, 0 },
-                                           { NULL, 0 } };
+    static const option_pair pairs[] = {
+        { "--ascii", "--colors", 0 },  { "--ascii", "--show", 0 },  { "--ascii", "--window", 0 },
+        { "--colors", "--window", 0 }, { "--show", "--window", 0 }, { NULL, NULL, 0 }
+    };
+    static const option_group groups[] = { { model_option, offsetof(view_options, scene.how),
+                                             model_pair },
+                                           { own, 0, pairs },
+                                           { NULL, 0, NULL } };
     static const command view = { "view", view_usage, groups, offsetof(view_options, scene.model),
                                   0,      1,          "",     NULL };
     int end = options_read(&view, o, argc, argv);

@@ -474,13 +474,15 @@ test("a model of any format", async () => {
         await read(obj, { beside });
         await read("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n");
         assert.equal((await read("v 0 0 0\nv 1 0 0\n"))[0].indices.length, 48);    // points are drawn as balls
+        await read("v 0 0 0\nv 1 0 0\nv nan 0 0\nl 1 2\n", { format: "obj" });
     } finally { console.warn = warn; }
+    const balls = "2 points have no faces: they are drawn as small balls of radius 0.03 or so";
     assert.deepEqual(said.map((line) => line.replace("shade-h: model: ", "")), [
-        "a.mtl: the option beside has no such file",
+        "a.mtl: the option beside has no such file (left out)",
         "a.png: the option beside has no such file; its faces are drawn without it",
         "it has pictures, which the option picture decodes; its faces are drawn without them",
-        "it has l, which is not read", said[4].replace("shade-h: model: ", "")]);
-    assert.match(said[4], /2 points have no faces/);
+        "it has l, which is not read", balls,
+        `1 points have coordinates that are no finite numbers (left out); ${balls}; it has l, which is not read`]);
     await bad(/^model:1: expected OFF/, obj, { format: "off" });
     await bad(/^model:4: index "4" is out of range|^model:4: there is no v number 4/, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     await bad(/^model:1: the file is empty/, "");
@@ -935,4 +937,48 @@ test("normals without a direction are made anew", () => {
     for (const value of [0, NaN, Infinity]) assert.deepEqual(given(value), smooth);
     assert.deepEqual(given(1e30), given(1e-30));
     assert.notDeepEqual(given(1e30), smooth);
+});
+
+test("what was taken in silence is refused by name, or told", (context) => {
+    const said = context.mock.method(console, "warn", () => {}).mock;
+    const lamp = { position: [0, 0, 1, 0] }, pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+    const picture = (fill, more) => ({ data: Array(16).fill(fill), width: 2, height: 2, ...more });
+    const made = new Renderer(8, 8), n = made.add("sphere", 1), seen = { view: pose, projection: [
+        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.2, 0] };
+    const lit = (more) => () => render(box(), { ...small, light: { lights: [{ ...lamp, ...more }] } });
+    for (const [words, call] of [
+        [/^light.lights\[0\].constant must be a number from 0/, lit({ constant: -1 })],
+        [/^light.lights\[0\].spotExponent must be a number from 0/, lit({ spotExponent: -1 })],
+        [/^light.lights\[0\].spotCosCutoff must be a number from -1 to 1, not 45/, lit({ spotCosCutoff: 45 })],
+        [/^light.flags must be a number from 0 to 63/, () => render(box(), { ...small, light: { flags: 64 } })],
+        [/^material.diffuse must hold 3/, () => render({ ...box(), material: { diffuse: [NaN, 0, 0] } }, small)],
+        ...[300, -1, 0.5, NaN].map((fill) => [/^data must hold bytes/, () => made.texture(picture(fill))]),
+        [/^picture.mipmaps is no option/, () => made.texture(picture(0, { mipmaps: 3 }))],
+        [/^picture must be an object/, () => made.texture()], [/^picture must be an object/, () => made.texture(7)],
+        [/^at does not go with pose/, () => made.add("sphere", 1, { at: [1, 0, 0], pose })],
+        [/^two_sided must be true or false/, () => made.add("sphere", 1, { two_sided: 1 })],
+        [/^casts_shadow must be true or false/, () => made.add("sphere", 1, { casts_shadow: null })],
+        [/^size of a sphere is missing/, () => made.add("sphere")],
+        [/^lights must be an array/, () => made.light()], [/^numbers must be an array/, () => made.poses([pose], 0)],
+        [/^camera.view must be a rotation/, () => made.render({ ...seen, view: pose.map((x) => 2 * x) })],
+        [/^cameras\[0\].view must be a rotation/, () => made.render_batch({ ...seen, view: Array(16).fill(0) })],
+        [/^visible must be true or false/, () => made.show(n, 1)],
+        [/^rows must be a whole number/, () => made.height_field([0, 0, 0], [1, 1])],
+        [/^half must be positive/, () => made.height_field([0, 0, 0, 0], 2, 2, [1, 0])],
+        [/^half must hold 2 finite/, () => made.height_field([0, 0, 0, 0], 2, 2, [1, NaN])],
+        [/^wanted must be an object/, () => made.frame(0)], [/^color must be true or/, () => made.frame({ color: 0 })],
+        [/^out.color must be Uint8Array/, () => made.render(seen, { color: new Float32Array(192) })],
+        [/^out.depth must be Float32Array/, () => made.render(seen, { depth: new Int32Array(64) })],
+        [/^out.colour is no option/, () => made.render(seen, { colour: new Uint8Array(192) })],
+        [/^solid must be true or false/, () => made.render(seen, undefined, { solid: 1 })],
+        [/^empty_depth must be a number/, () => made.render(seen, undefined, { empty_depth: "x" })]]) {
+        assert.throws(call, (error) => error instanceof ShadeError && words.test(error.message) || assert.fail(`${error}`));
+    }
+    assert.equal(said.callCount(), 0);
+    const positions = [0, 0, 0, 1, 0, 0, 0, 1, 0, NaN, 0, 1], indices = [0, 1, 2, 0, 1, 3];
+    render({ positions, indices }, small);
+    render({ ...box(), uv: Array(16).fill(Infinity), texture: picture(9) }, small);
+    assert.deepEqual(said.calls.map((call) => call.arguments[0]), [
+        "shade-h: positions: 1 triangles have corners that are no finite numbers (left out)",
+        "shade-h: uv: 16 of its numbers are not finite: they count as 0"]);
 });

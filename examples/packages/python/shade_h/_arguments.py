@@ -3,6 +3,7 @@ name."""
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from typing import Any, Sequence, Union
 
@@ -17,6 +18,7 @@ NAMES = {"white": 0xFFFFFF, "black": 0, "gray": 0x808080, "grey": 0x808080, "red
          "steel": 0x8FA3B5, "clay": 0xBFB2A4}
 MATERIALS = [library.shade_preset_name(i).decode().replace(" ", "_") for i in range(24)]
 MOST = 2**31 - 1
+WRAPS = ["repeat", "clamp", "mirror"]
 NOT_RIGID = "must be a rotation and a translation, without scale, with 0, 0, 0, 1 in the last row"
 
 
@@ -39,7 +41,7 @@ def array(name: str, value: object, shape: tuple[int | None, ...]) -> Array:
     if got.dtype.kind not in "fiub":
         raise Error(f"{name} must hold numbers, not {got.dtype} ({shown(value)})")
     if got.ndim != len(shape) or any(w is not None and w != g for w, g in zip(shape, got.shape)):
-        wanted = ", ".join("n" if n is None else str(n) for n in shape)
+        wanted = ", ".join("nmk"[i] if n is None else str(n) for i, n in enumerate(shape))
         raise Error(f"{name} must have the shape ({wanted}), not {got.shape}")
     if got.size > MOST:
         raise Error(f"{name} has {got.size} elements; at most {MOST} are drawn")
@@ -68,6 +70,8 @@ def doubles(name: str, value: object, shape: tuple[int | None, ...],
 def number(name: str, value: object, low: float = -math.inf, high: float = math.inf) -> float:
     """A finite number from low to high."""
     try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         got = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         raise Error(f"{name} must be a number, not {shown(value)}") from None
@@ -148,15 +152,10 @@ def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Float
 
 def hexadecimal(name: str, text: str) -> list[float]:
     """Red, green and blue of a name or of #RGB, #RRGGBB."""
-    digits = text.lstrip("#")
-    try:
-        value = NAMES[text] if text in NAMES else int(digits, 16)
-    except ValueError:
-        value = -1
-    if text not in NAMES and len(digits) == 3 and value >= 0:
+    digits = re.fullmatch("#?([0-9a-fA-F]{3}|[0-9a-fA-F]{6})", text)
+    value = NAMES.get(text, int(digits[1], 16) if digits else -1)
+    if digits and len(digits[1]) == 3:
         value = sum((value >> 4 * k & 15) * 17 << 8 * k for k in range(3))
-    elif text not in NAMES and len(digits) != 6:
-        value = -1
     if value < 0 and text.lower().replace(" ", "_").replace("-", "_") in MATERIALS:
         raise Error(f"{name}: {text} is a material: say material={text!r} instead")
     if value < 0:
@@ -218,8 +217,17 @@ def texture(name: str, value: object) -> Bytes:
     got = array(name, value, (None, None, None))
     if got.shape[2] not in (3, 4) or not 1 <= min(got.shape[:2]) <= max(got.shape[:2]) <= 16384:
         raise Error(f"{name} must have the shape (height, width, 3 or 4), not {got.shape}")
-    if got.dtype.kind == "f":
-        got = np.clip(np.nan_to_num(got), 0, 1) * 255 + 0.5
+    whole = got.dtype.kind in "iu"
+    if got.dtype.kind == "b" or not (got.min() >= 0 and got.max() <= (255 if whole else 1)):
+        raise Error(f"{name} must hold bytes, or numbers from 0 to 1, not {shown(got)}")
     rgba = np.full((*got.shape[:2], 4), 255, np.uint8)
-    rgba[:, :, :got.shape[2]] = np.clip(got, 0, 255).astype(np.uint8)
+    rgba[:, :, :got.shape[2]] = got if whole else got * 255 + 0.5
     return rgba
+
+
+def wraps(value: object) -> tuple[int, int]:
+    """How a texture goes on along u and v, as the library has it."""
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise Error(f"wrap must be two names, for u and v, not {shown(value)}")
+    u, v = (WRAPS.index(choice("wrap", how, WRAPS)) for how in value)
+    return u, v

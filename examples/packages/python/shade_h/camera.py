@@ -95,8 +95,10 @@ class Camera:
         width, height = arguments.size("size", size)
         k = arguments.doubles("K", K, (3, 3), finite=True)
         out = arguments.doubles("extrinsics", extrinsics, (None, 4), finite=True)
-        if len(out) not in (3, 4) or k[0, 0] == 0 or k[1, 1] == 0:
-            raise Error("extrinsics must be 3 x 4 or 4 x 4, and the focal lengths of K not 0")
+        if len(out) not in (3, 4):
+            raise Error(f"extrinsics must be 3 x 4 or 4 x 4, not {len(out)} x 4")
+        if k[0, 0] == 0 or k[1, 1] == 0 or np.abs(k[2] - (0, 0, 1)).max() > 1e-6:
+            raise Error("K must have focal lengths that are not 0, and 0, 0, 1 in the last row")
         if len(out) == 4:
             arguments.affine("extrinsics", out)
         view = np.eye(4)
@@ -116,7 +118,10 @@ class Camera:
         place = arguments.doubles("pose", pose, (4, 4), finite=True)
         if abs(np.linalg.det(place)) < 1e-6:
             raise Error("pose must be a rotation and a translation")
-        return Camera(np.linalg.inv(place), np.asarray(projection))
+        made = arguments.doubles("projection", projection, (4, 4), finite=True)
+        if np.linalg.det(made) == 0:
+            raise Error("projection must have an inverse")
+        return Camera(np.linalg.inv(place), made)
 
 
 def _range(near: float, far: float) -> tuple[float, float]:
@@ -173,6 +178,7 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     count.
     """
     turn, flat = _facing(*direction(view, up)), arguments.flag("ortho", ortho)
+    margin = arguments.number("margin", margin, 0.01, 100)
     with np.errstate(invalid="ignore"):
         good = (np.abs(points) <= MOST).all(1)
     finite = points if good.all() and len(points) else points[good]

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from . import cloud
+from . import _arguments as arguments, cloud
 from ._native import INFLATE, Bytes, Error, FilePicture, Run, interruptible, library, pointer
 from .annotate import display as _display
 from .light import Material
-from .mesh import WRAPS, Mesh, Surface
+from .mesh import Mesh, Surface
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
 MODEL_BYTES = 4_000_000_000
@@ -114,7 +114,7 @@ def _look(owned: Any, run: Any, images: list[Any]) -> Surface:
     holes = "texture" in shown and not run.opaque
     return Surface(material=material, blend=bool(run.blended) or run.transparency > 0,
                    opacity=1 - run.transparency, cutoff=run.alpha_cutoff if holes else 0.0,
-                   wrap=(WRAPS[wrap.wrap[0]], WRAPS[wrap.wrap[1]]), squares=bool(wrap.squares),
+                   wrap=(arguments.WRAPS[wrap.wrap[0]], arguments.WRAPS[wrap.wrap[1]]), squares=bool(wrap.squares),
                    metal=run.metal, roughness=run.rough, strength=run.relief_strength,
                    glow_factor=tuple(run.glow_factor[:]),
                    **{name: images[number] for name, number in shown.items()})
@@ -211,11 +211,11 @@ def load(path: Any, *, outside: bool = False, **options: Any) -> Mesh:
     else:
         data = read_file(path, MODEL_BYTES)
         name, beside = os.fsdecode(path), os.fsencode(path)
-    (vertices, faces), found = _read(data, name, beside, outside)
+    (vertices, faces), found = _read(data, name, beside, arguments.flag("outside", outside))
     plain = any(options.get(k) is not None for k in ("color", "texture", "surfaces"))
     if plain:
         found = {"up": found["up"]}
     if faces is None:
-        vertices, faces, options = cloud.balls(vertices, {**found, **options})
+        vertices, faces, options = cloud.balls(vertices, {**found, **options}, f"{name}: ")
         found = {}
     return Mesh(vertices, faces, **{**found, **options})

@@ -126,12 +126,24 @@ class Light:
         if w == 0 and math.hypot(*way) < 1e-18:
             raise Error("position must not be zero: with w = 0 it is a direction")
         colors = (_vector(k, getattr(self, k)) for k in ("ambient", "diffuse", "specular"))
-        numbers = (arguments.number(k, getattr(self, k), -3e38, 3e38)
+        numbers = (arguments.number(k, getattr(self, k), 0, 3e38)
                    for k in ("constant", "linear", "quadratic"))
         return NativeLight(_vector("position", self.position, 4), *colors, *numbers,
                            _vector("spot_direction", self.spot_direction),
-                           arguments.number("spot_exponent", self.spot_exponent, -3e38, 3e38),
-                           arguments.number("spot_cos_cutoff", self.spot_cos_cutoff, -3e38, 3e38))
+                           arguments.number("spot_exponent", self.spot_exponent, 0, 3e38),
+                           arguments.number("spot_cos_cutoff", self.spot_cos_cutoff, -1, 1))
+
+
+def lamps_of(lights: object) -> list[Light]:
+    """A list of lamps, and nothing else"""
+    try:
+        lamps: list[Light] = list(lights)  # type: ignore[call-overload]
+    except TypeError:
+        raise Error(f"lights must be a sequence, not {arguments.shown(lights)}") from None
+    for i, lamp in enumerate(lamps):
+        if not isinstance(lamp, Light):
+            raise Error(f"lights[{i}] must be a shade_h.Light, not {arguments.shown(lamp)}")
+    return lamps
 
 
 @dataclass(frozen=True)
@@ -148,13 +160,7 @@ class Lighting:
 
     def native(self) -> NativeLighting:
         """The struct of the library, which keeps its lamps alive."""
-        try:
-            lamps = list(self.lights)
-        except TypeError:
-            raise Error(f"lights must be a sequence, not {arguments.shown(self.lights)}") from None
-        for i, lamp in enumerate(lamps):
-            if not isinstance(lamp, Light):
-                raise Error(f"lights[{i}] must be a shade_h.Light, not {arguments.shown(lamp)}")
+        lamps = lamps_of(self.lights)
         out = NativeLighting()
         if lamps:
             out.lights = (NativeLight * len(lamps))(*(lamp.native() for lamp in lamps))
@@ -195,7 +201,7 @@ def lit(lighting: Lighting, material: Material, eye: Vector, points: object, nor
     p = arguments.floats("points", points, (None, 3))
     n = arguments.floats("normals", normals, (len(p), 3))
     a = None if albedo is None else arguments.floats("albedo", albedo, (len(p), 3))
-    at = arguments.floats("eye", eye, (3,))
+    at = arguments.floats("eye", eye, (3,), finite=True)
     rgb = np.empty_like(p)
     rows = (ctypes.c_void_p * 3)(pointer(p), pointer(n), pointer(a))
     light, surface = lighting.native(), material.native()

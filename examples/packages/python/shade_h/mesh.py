@@ -18,7 +18,6 @@ from .camera import UPRIGHT
 from .cloud import balls
 from .light import Material
 
-WRAPS = ["repeat", "clamp", "mirror"]
 CREASE_TRIANGLES = 200_000
 COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
 
@@ -76,6 +75,11 @@ class Surface:
         return any(one is not None for one in (self.texture, self.relief, self.glow))
 
 
+def _not_finite(rows: Floats) -> Array:
+    out: Array = ~np.isfinite(rows).all(1)
+    return out
+
+
 class Piece:
     """A run of a mesh's triangles with one surface, as the library has it."""
 
@@ -83,6 +87,9 @@ class Piece:
                  texture: Bytes | None) -> None:
         """Triangles first to first + count."""
         self.surface, self.first, self.count, self.texture = surface, first, count, texture
+        arguments.flag("blend", surface.blend)
+        arguments.number("opacity", surface.opacity, 0, 1)
+        arguments.number("cutoff", surface.cutoff, 0, 1e9)
         self.strength = arguments.number("strength", surface.strength, -1e9, 1e9)
         self.glow_factor = arguments.floats("glow_factor", surface.glow_factor, (3,), True)
         self.mesh = mesh.native(self)
@@ -126,8 +133,7 @@ class Piece:
             return None
         h, w = texture.shape[:2]
         out = Texture(pixels=pointer(texture), width=w, height=h, srgb=srgb)
-        out.wrap_u, out.wrap_v = (WRAPS.index(arguments.choice("wrap", how, WRAPS))
-                                  for how in self.surface.wrap)
+        out.wrap_u, out.wrap_v = arguments.wraps(self.surface.wrap)
         mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
         levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
         check(library.python_texture_levels(ctypes.byref(out), levels, pointer(mipmaps), mipmaps.size,
@@ -170,6 +176,10 @@ class Mesh:
             self.origin = origin_of(*_box(self._used(exact) if len(self.faces) else exact))
             exact = exact - self.origin if self.origin.any() else exact
         self.local = arguments.floats("vertices", exact, (None, 3))
+        lost = _not_finite(self.local)[self.faces].any(1).sum()
+        if lost:
+            warnings.warn(f"vertices: {lost} triangles have corners that are no finite numbers (left out)",
+                          stacklevel=3)
         self.up = None if up is None else arguments.choice("up", up, list(UPRIGHT))
         self.bar: Bar | None = None
         if scalars is not None:
@@ -178,6 +188,8 @@ class Mesh:
             color, uv, surfaces = self._take_scalars(scalars, len(np.asarray(_listed(faces))),
                                                      (cmap, clim, title))
             faces = self.faces
+        elif clim is not None or title or not isinstance(cmap, str) or cmap != "viridis":
+            raise Error("cmap, clim and title need scalars")
         order, runs, looks = self._sorted(surfaces, np.asarray(_listed(faces)), texture)
         if order is not None:
             self.faces = np.ascontiguousarray(self.faces[order])
@@ -199,6 +211,10 @@ class Mesh:
             raise Error("uv and texture belong together: one of them is missing")
         if uv is not None:
             self.uv = arguments.floats("uv", uv, (len(self.local), 2))
+            lost = _not_finite(self.uv).sum()
+            if lost:
+                warnings.warn(f"uv: {lost} rows are no finite numbers: they count as 0",
+                              stacklevel=3)
             self.uv = np.stack([self.uv[:, 0], 1 - self.uv[:, 1]], 1)
         maps = [None if look.texture is None else arguments.texture("texture", look.texture)
                 for look in looks]

@@ -200,7 +200,7 @@ class Renderer:
         o["kind"] = _KINDS[g.type]
         if shape:
             o["mesh"] = self._shape(g.type, g.dataid >> 1 if g.type == _MESH else g.dataid)
-        o["texture"] = self._texture(int(g.texid)) if g.texid >= 0 else -1
+        o["texture"] = 1 + self._texture(int(g.texid)) if g.texid >= 0 else 0
         o["size"] = (1, 1, 1) if shape else size
         if g.type == 0:
             o["size"][2] = 0

@@ -10,7 +10,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from ._arguments import array, shown
+from ._arguments import array, integer, shown
 from ._native import Bytes, Doubles, Error, Floats, Integers
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -35,6 +35,10 @@ class Picture:
             raise Error(f"rgba must hold bytes, at least one pixel, not {shown(rgba)}")
         self.rgba = rgba
         h, w = rgba.shape[:2]
+        for name, value, shape in (("depth", depth, (h, w)), ("ids", ids, (h, w)),
+                                   ("normals", normals, (h, w, 3))):
+            if value is not None:
+                array(name, value, shape)
         self.depth = np.full((h, w), np.inf, np.float32) if depth is None else depth
         self.ids = np.full((h, w), -1, np.int32) if ids is None else ids
         self.normals = np.zeros((h, w, 3), np.float32) if normals is None else normals
@@ -151,6 +155,8 @@ class Picture:
             os.replace(beside, target)
         except ValueError as why:
             raise Error(f"path: {why}") from None
+        except OSError as why:
+            raise type(why)(why.errno, why.strerror, str(target)) from None
         finally:
             if "\0" not in str(beside):
                 beside.unlink(missing_ok=True)
@@ -317,7 +323,7 @@ def assert_same(picture: Picture, golden: File, limit: int = 0) -> None:
     Then NAME.got.png and NAME.difference.png appear beside the golden file.  Where there is no
     golden file, the picture is written as NAME.got.png: look at it, and rename it.
     """
-    path = png_path("golden", golden)
+    path, limit = png_path("golden", golden), integer("limit", limit, 0, 255)
     got, shows = path.with_suffix(".got.png"), path.with_suffix(".difference.png")
     if not path.exists():
         picture.save(got)

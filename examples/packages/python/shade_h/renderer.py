@@ -13,8 +13,8 @@ from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Image, Integers,
                       Light as NativeLight, Mesh as NativeMesh, check, interruptible, library, pointer)
 from .annotate import display
 from .camera import Camera
-from .light import Light
-from .mesh import WRAPS, Mesh
+from .light import Light, lamps_of
+from .mesh import Mesh
 from .picture import Picture
 
 #: The shapes that are made once for all scenes, and the numbers that their size is.
@@ -23,7 +23,7 @@ _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cyl
 _HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED, _HEIGHTS = 1, 2, 4, 8, 16
 _LAMPS = 8
 _PLAIN = np.zeros(1, SOLID)    # white, without a texture
-_PLAIN["texture"], _PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = -1, 1, 32, np.eye(3)
+_PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = 1, 32, np.eye(3)
 
 
 class Frame(NamedTuple):
@@ -224,7 +224,7 @@ class Renderer:
             key = picture.shape, picture.tobytes(), surface.wrap, surface.squares, colors
             if key not in known:
                 known[key] = self._make_texture(picture, surface.wrap, surface.squares, None, colors)
-            record[name] = known[key] + (name != "texture")
+            record[name] = 1 + known[key]
         def shown(rgb: Any) -> Any:
             return rgb if self.srgb else display(rgb)
 
@@ -236,7 +236,7 @@ class Renderer:
             record["rgba"][:3] = shown(color)
         if surface.blend:
             record["rgba"][3] = surface.opacity
-            record["flags"] |= _BLENDED if record["texture"] >= 0 else 0
+            record["flags"] |= _BLENDED if record["texture"] else 0
         record["cutoff"] = surface.cutoff
         record["strength"], record["glow_factor"] = piece.strength, shown(piece.glow_factor)
         record["flags"] |= _HEIGHTS if piece.heights else 0
@@ -270,7 +270,8 @@ class Renderer:
         rows, columns = z.shape
         if min(rows, columns) < 2:
             raise Error(f"heights must have two rows and columns at least, not {z.shape}")
-        a, b = arguments.doubles("half", half, (2,), finite=True)
+        a, b = (arguments.number(f"half[{i}]", x, 1e-30, 1e30)
+                for i, x in enumerate(arguments.doubles("half", half, (2,))))
         y, x = np.meshgrid(2 * b * np.arange(rows) / (rows - 1) - b,
                            2 * a * np.arange(columns) / (columns - 1) - a, indexing="ij")
         i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
@@ -320,7 +321,7 @@ class Renderer:
                 raise Error(f"picture must have the shape (6, h, h, 3 or 4), not {given.shape}")
             given = given.reshape(-1, *given.shape[2:])
         rgba = arguments.texture("picture", given)
-        u, v = (WRAPS.index(arguments.choice("wrap", how, WRAPS)) for how in wrap)
+        u, v = arguments.wraps(wrap)
         return self._keep_texture(number, rgba, faces, u, v, arguments.flag("squares", squares), colors)
 
     def _keep_texture(self, number: int | None, rgba: Bytes, faces: int, u: int = 0,
@@ -395,6 +396,8 @@ class Renderer:
         records["size"] = self._size(shape, size)
         if pose is None:
             records["place"] = arguments.floats("at", at, (3,), True)
+        elif np.any(at):
+            raise Error("at does not go with pose, which has a place")
         else:
             m = arguments.rigid("pose", pose)
             records["place"], records["turn"] = m[:3, 3], m[:3, :3]
@@ -445,7 +448,7 @@ class Renderer:
             elif value is not None:
                 records[name] = arguments.number(name, value, 0, 1e6)
         if "texture" in options:
-            records["texture"] = self._texture_number("texture", options["texture"])
+            records["texture"] = 1 + self._texture_number("texture", options["texture"])
         records["repeat"] = arguments.floats("repeat", options.get("repeat", (1, 1)), (2,), True)
         if arguments.flag("two_sided", options.get("two_sided", False)):
             records["flags"] |= _TWO_SIDED
@@ -542,7 +545,7 @@ class Renderer:
         it."""
         self._texture_number("number", number)
         whole = self._scene.records()
-        shown = whole["id"][whole["texture"] == number]
+        shown = whole["id"][whole["texture"] == 1 + number]
         if len(shown) or number in self._owned or self._sky[:2] == (2, number):
             who = f"object {shown[0]}" if len(shown) else \
                 "a shape" if number in self._owned else "the sky"
@@ -580,12 +583,9 @@ class Renderer:
               shadow: int | Sequence[int] | None = None) -> None:
         """Up to 8 lamps, the ambient light, and the number or numbers of the lamps, directional or
         spots, that cast shadows."""
-        lamps = list(lights)
+        lamps = lamps_of(lights)
         if len(lamps) > _LAMPS:
             raise Error(f"lights: at most {_LAMPS} lamps are drawn, not {len(lamps)}")
-        for i, lamp in enumerate(lamps):
-            if not isinstance(lamp, Light):
-                raise Error(f"lights[{i}] must be a shade_h.Light, not {arguments.shown(lamp)}")
         shadows = 0
         one = shadow is None or not isinstance(shadow, (list, tuple, set, range, np.ndarray))
         for which in [shadow] * (shadow is not None) if one else list(shadow):  # type: ignore[arg-type]
@@ -621,6 +621,8 @@ class Renderer:
     def frame(self, color: bool = True, depth: bool = True, ids: bool = True,
               normals: bool = False, pictures: int | None = None) -> Frame:
         """New arrays for render(out=), or for so many pictures of render_batch(out=)."""
+        for name, wanted in (("color", color), ("depth", depth), ("ids", ids), ("normals", normals)):
+            arguments.flag(name, wanted)
         size = (*(() if pictures is None else (pictures,)), self.height, self.width)
         return Frame(np.empty((*size, 3), np.uint8) if color else None,
                      np.empty(size, np.float32) if depth else None,
@@ -695,7 +697,7 @@ class Renderer:
         sky, sky_texture, low, high = self._sky
         return SHOT.pack(
             self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
-            self.srgb, bool(solid), parallel, 0 if objects is None else len(objects),
+            self.srgb, arguments.flag("solid", solid), parallel, 0 if objects is None else len(objects),
             len(self._lights), self._shadows, sky, sky_texture, near, far,
             ctypes.c_float(empty_depth).value, self.tolerance,
             *view.T.ravel().tolist(), *projection.T.ravel().tolist(), *self._background, *low, *high,

@@ -14,7 +14,7 @@ from ._native import Array, Bytes, Doubles, Error, Floats, Integers, Item, View,
 from ._native import interruptible, library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
 from .camera import UPRIGHT, Camera, Viewpoint, at, direction, fitted, studio
-from .light import Flag, Light, Lighting, Material, Model, preset
+from .light import PRESETS, Flag, Light, Lighting, Material, Model, preset
 from .mesh import Like, Mesh, mesh as as_mesh, origin_of
 from .picture import Picture, png_path
 
@@ -111,7 +111,7 @@ class Scene:
         made = as_mesh(mesh, **options)
         place = arguments.affine("pose", IDENTITY if pose is None else pose)
         if isinstance(material, str):
-            material = preset(material)
+            material = preset(arguments.choice("material", material, PRESETS))
         flags = arguments.flag("edges", edges), arguments.flag("two_sided", two_sided)
         if material is not None and not isinstance(material, Material):
             raise Error(f"material must be a shade_h.Material or a name, "
@@ -134,6 +134,9 @@ class Scene:
         lines = [points] if single or not isinstance(points, (list, tuple)) else list(points)
         rows = [arguments.doubles(f"points[{i}]", line, (None, 3), finite=True)
                 for i, line in enumerate(lines)]
+        for i, row in enumerate(rows):
+            if len(row) == 1:
+                raise Error(f"points[{i}] must have two rows or more, not 1")
         ends = np.cumsum([0, *map(len, rows)])
         starts = [np.arange(a, b - 1) for a, b in zip(ends, ends[1:])]
         return self._add_stroke(rows, np.concatenate(starts) if starts else np.zeros(0, int), 1,

@@ -19,12 +19,85 @@ VERY = float("nan"), float("inf"), -1e30, 0, -1, 1e-30, 2**31, 2**63, 10**400, "
     ("color", {"color": np.zeros((5, 3))}), ("normals", {"normals": np.zeros((8, 2))}),
     ("normals", {"normals": "round"}), ("uv", {"uv": np.zeros((8, 2))}),
     ("background", {"background": (1, 2)}), ("threads", {"threads": -1}),
-    ("material", {"material": 7}), ("name", {"material": "wood"}), ("up", {"up": "w"}),
+    ("material", {"material": 7}), ("material must be one of", {"material": "wood"}), ("up", {"up": "w"}),
     ("light", {"light": "candle"}), ("samples", {"size": (9000, 10), "samples": 2})])
 def test_the_word_that_is_wrong_is_named(words, arguments):
     given = {"vertices": VERTICES, "faces": FACES, **arguments}
     with pytest.raises(shade.Error, match=words):
         shade.render(**given)
+
+
+NAN, LAMP, BYTES = float("nan"), shade.Light.directional((0, 0, -1)), np.zeros((4, 4, 3), np.uint8)
+EYE = shade.Camera.look_at((3, 3, 3))
+
+
+def made(**options):
+    return shade.Mesh(VERTICES, FACES, **options)
+
+
+def surface(**options):
+    return made(uv=VERTICES[:, :2], surfaces=(np.zeros(len(FACES), int), [shade.Surface(**options)]))
+
+
+def renderer(call):
+    return call(shade.Renderer(8, 8))
+
+
+@pytest.mark.parametrize("words, call", [
+    ("color must be #RRGGBB", lambda: made(color="##ff0000")), ("color must be #RRGGBB", lambda: made(color="+0x0ff")),
+    ("faces must have the shape (n, m)", lambda: shade.Mesh(VERTICES, FACES.ravel())),
+    ("cmap, clim and title need scalars", lambda: made(cmap="grey")),
+    ("cmap, clim and title need scalars", lambda: made(clim=(0, 1))),
+    ("cmap, clim and title need scalars", lambda: made(title="x")),
+    *(("texture must hold bytes, or numbers from 0 to 1", lambda fill=fill: surface(texture=np.full((4, 4, 3), fill)))
+      for fill in (300, -1, 2.0, NAN, True)),
+    ("wrap must be two names", lambda: surface(texture=BYTES, wrap="repeat")),
+    ("wrap must be two names", lambda: renderer(lambda r: r.texture(BYTES, wrap="repeat"))),
+    ("opacity must be from 0 to 1", lambda: surface(opacity=2.0)), ("opacity must be", lambda: surface(opacity=NAN)),
+    ("cutoff must be", lambda: surface(cutoff=NAN)), ("blend must be True or False", lambda: surface(blend="yes")),
+    ("shininess must be a number, not '32'", lambda: shade.Material(shininess="32").native()),
+    ("constant must be from 0", lambda: shade.Light((0, 0, 1, 1), constant=-1).native()),
+    ("spot_exponent must be from 0", lambda: shade.Light((0, 0, 1, 1), spot_exponent=-1).native()),
+    ("spot_cos_cutoff must be from -1 to 1", lambda: shade.Light((0, 0, 1, 1), spot_cos_cutoff=45).native()),
+    ("flags must be from 0 to 63, not 64", lambda: shade.Scene([LAMP], flags=64)),
+    ("flags must be a whole number", lambda: shade.Lighting([LAMP], flags="TWO_SIDED").native()),
+    ("lights must be a sequence", lambda: renderer(lambda r: r.light(LAMP))),
+    ("eye must hold finite", lambda: shade.lit(shade.Lighting([LAMP]), shade.Material(), (0, 0, NAN), VERTICES, VERTICES)),
+    ("K must have", lambda: shade.Camera.opencv(np.diag([100, 100, 2]), np.eye(4), (9, 9))),
+    ("K must have", lambda: shade.Camera.opencv(np.zeros((3, 3)), np.eye(4), (9, 9))),
+    ("extrinsics must be 3 x 4 or 4 x 4", lambda: shade.Camera.opencv(np.eye(3), np.zeros((5, 4)), (9, 9))),
+    ("projection must have an inverse", lambda: shade.Camera.opengl(np.zeros((4, 4)), np.eye(4))),
+    ("aspect must be a number", lambda: shade.Camera.look_at((3, 3, 3), aspect="1")),
+    ("margin must be from", lambda: shade.fitted(VERTICES, margin=-1)),
+    ("at does not go with pose", lambda: renderer(lambda r: r.add("sphere", 1, at=(1, 0, 0), pose=np.eye(4)))),
+    ("half[1] must be from", lambda: renderer(lambda r: r.height_field(np.zeros((4, 4)), (1, 0)))),
+    ("normals must be True or False", lambda: renderer(lambda r: r.render(EYE, normals=1))),
+    ("solid must be True or False", lambda: renderer(lambda r: r.render(EYE, solid="yes"))),
+    ("color must be True or False", lambda: renderer(lambda r: r.frame(color=0))),
+    ("points[0] must have two rows", lambda: shade.Scene().add_lines([(0, 0, 0)])),
+    ("material must be one of", lambda: shade.Scene().add((VERTICES, FACES), material="Gold")),
+    ("depth must have the shape (4, 4)", lambda: shade.Picture(np.zeros((4, 4, 4), np.uint8), np.zeros((3, 4)))),
+    ("limit must be", lambda: shade.assert_same(shade.render(VERTICES, FACES, size=9), "none.png", -1)),
+    ("outside must be True or False", lambda: shade.load(__file__, outside=1))])
+def test_what_was_taken_in_silence_is_refused_by_name(words, call):
+    with pytest.raises(shade.Error) as told:
+        call()
+    assert str(told.value).startswith(words)
+
+
+def test_numbers_that_are_none_are_told():
+    lost = np.where(np.arange(8)[:, None] == 7, NAN, VERTICES)
+    count = (made().faces == 7).any(1).sum()
+    with pytest.warns(UserWarning, match=f"^vertices: {count} triangles have corners that are no finite numbers"):
+        shade.Mesh(lost, FACES)
+    with pytest.warns(UserWarning, match="^uv: 1 rows are no finite numbers: they count as 0"):
+        made(uv=lost[:, :2], texture=BYTES)
+
+
+def test_a_folder_that_is_missing_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError) as told:
+        shade.render(VERTICES, FACES, size=9).save(tmp_path / "none" / "a.png")
+    assert told.value.filename == str(tmp_path / "none" / "a.png")
 
 
 def test_odd_arrays_are_drawn_right():

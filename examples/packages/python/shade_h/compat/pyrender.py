@@ -885,7 +885,8 @@ class OffscreenRenderer:
             m, uv = primitive.material, primitive.texcoord_0
             pictures = {"texture": m.baseColorTexture, "relief": m.normalTexture,
                         "glow_map": m.emissiveTexture}
-            numbers = {name: base._make_texture(picture, ("repeat", "repeat"), False, None, name != "relief")
+            numbers = {name: 1 + base._make_texture(picture, ("repeat", "repeat"), False, None,
+                                                    name != "relief")
                        for name, picture in pictures.items() if picture is not None and uv is not None}
             if uv is not None:
                 uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
@@ -898,7 +899,9 @@ class OffscreenRenderer:
         made = np.zeros(len(places), SOLID)
         for o, place in zip(made, places):
             size = np.maximum(np.linalg.norm(place[:3, :3], axis=0), 1e-30)
-            o["mesh"], o["texture"], o["size"] = known[1], known[2].get("texture", -1), size
+            o["mesh"], o["size"] = known[1], size
+            for name, number in known[2].items():
+                o[name] = number
             o["turn"], o["place"] = place[:3, :3] / size, place[:3, 3]
             two_sided = m.doubleSided or flags & RenderFlags.SKIP_CULL_FACES
             o["flags"] = 2 if two_sided else 0
@@ -909,8 +912,7 @@ class OffscreenRenderer:
                 o["emission"] = 1
                 continue
             _reflect(o, primitive, "texture" in known[2], ambient)
-            o["relief"], o["strength"] = 1 + known[2].get("relief", -1), 1
-            o["glow_map"], o["glow_factor"] = 1 + known[2].get("glow_map", -1), m.emissiveFactor ** 2
+            o["strength"], o["glow_factor"] = 1, m.emissiveFactor ** 2
             if not o["glow_map"]:
                 o["glow"] += m.emissiveFactor ** 2    # pyrender's shader multiplies by it twice
         return made
@@ -927,7 +929,7 @@ class OffscreenRenderer:
             radius = 0.71 * max(self.point_size, 1.0) * 2 / self.viewport_height * depth / p[1, 1]
             o = np.zeros(len(at), SOLID)
             made.append(o)
-            o["kind"], o["texture"], o["place"], o["turn"] = _BALL, -1, at, np.eye(3)
+            o["kind"], o["place"], o["turn"] = _BALL, at, np.eye(3)
             o["size"] = np.broadcast_to(np.reshape(radius, (-1, 1)), (len(at), 3))
             o["flags"] = _NO_SHADOW
             factor = np.asarray(primitive.material.baseColorFactor)
