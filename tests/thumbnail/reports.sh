@@ -28,6 +28,11 @@ reports() {
         --size 200x150
     check "one drawing" "$T/look" same "$T/a.ppm" "$T/b.ppm" 0
 
+    printf "${wedge}v 9e4 0 0\nv 9e4 0 0\nv 9e4 0 0\n${faces}f 5 6 7\nf 5 5 5\nf 7 7 1\n" >"$T/spare.obj"
+    same "faces with two corners at one place, far away" wedge.obj spare.obj 0 "--up y"
+    { echo solid a; facets; facet "9e4 9 9" "9e4 9 9" "9e4 9 9"; echo endsolid; } >"$T/spare.stl"
+    same "in STL" wedge.obj spare.stl 0 "--up y"
+
     printf "$mark$wedge$faces" >"$T/mark.obj"
     same "a byte order mark" wedge.obj mark.obj 0 "--up y"
     printf "$mark$wedge${faces}v 9 9 9\n" >"$T/mark.obj"
@@ -379,6 +384,9 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     stl_counts more.stl '\004' 2
     same "STL with more triangles than its count" wedge.obj more.stl 0 "--up y"
     check "which is told" said "more.stl: 2 triangles beyond the 4 that it counts"
+    stl_colors own.stl "made by hand" '\003\000own' '\000\000' '\001\000.' '\056\000%046d'
+    same "STL with bytes of its writer's behind triangles" wedge.obj own.stl 0 "--up y"
+    check "without a word" test ! -s "$T/err"
     stl_counts none.stl '\000' 0
     same "a count of 0, from a writer that did not know it yet" wedge.obj none.stl 0 "--up y"
     check "without a word" test ! -s "$T/err"

@@ -357,7 +357,7 @@ class Mesh:
         return out
 
     def box(self) -> tuple[Doubles, Doubles]:
-        """The least and greatest coordinates of vertices that faces have."""
+        """The least and greatest coordinates of the vertices of faces that can be seen."""
         low, high = _box(self.drawn_vertices().astype(np.float64))
         return low + self.origin, high + self.origin
 
@@ -370,13 +370,21 @@ class Mesh:
         return self._radius
 
     def drawn_vertices(self) -> Floats:
-        """The vertices that faces have, which count from the mesh's origin."""
+        """The vertices of faces that can be seen, which count from the mesh's origin."""
         out: Floats = self._used(self.local)
         return out
 
     def _used(self, rows: Array) -> Array:
-        used = np.zeros(len(rows), bool)
-        used[self.faces.reshape(-1)] = True
+        """The rows that faces have; not of those alone that have two corners at one place, which
+        cannot be seen."""
+        faces, used = self.faces, np.zeros(len(rows), bool)
+        x = rows[:, 0][faces]
+        doubt = np.nonzero((x == np.roll(x, 1, 1)).any(1))[0]    # few, so that all is fast
+        corner = rows[faces[doubt]]
+        hidden = doubt[(corner == np.roll(corner, 1, 1)).all(2).any(1)]
+        if 0 < len(hidden) < len(faces):
+            faces = np.delete(faces, hidden, 0)
+        used[faces.reshape(-1)] = True
         out: Array = rows if used.all() else rows[used]
         return out
 
