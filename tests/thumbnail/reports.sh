@@ -169,6 +169,9 @@ $ply_faces" >"$T/tint.off"
     painted half "1 0 0" "1 0 0" "0 1 0" "0 1 0"
     same "two names in mtllib" half.obj names.obj 0 "$plain"
     check "which is no fault" test ! -s "$T/err"
+    sed 's/red.mtl/"red.mtl"/' "$T/red.obj" >"$T/quoted.obj"
+    same "a name in quotes" red.obj quoted.obj 0 "$plain"
+    check "which is no fault" test ! -s "$T/err"
 }
 # a picture of four colours: red, green; blue, yellow
 map_reports() {
@@ -191,6 +194,11 @@ f 1/1 4/1 3/1\n" >"$T/moved.obj"
     sed 's/moved.mtl/still.mtl/; s/vt .25/vt .75/' "$T/moved.obj" >"$T/still.obj"
     same "-o moves the picture" still.obj moved.obj 0 "--up y"
     check "without a word" test ! -s "$T/err"
+    for k in 'quarters.ppm -s 1 1 1 -o .5 0 0' '-s 1 1 "quarters.ppm"  -o .5 0'; do
+        printf 'newmtl q\nmap_Kd %s\n' "$k" >"$T/moved.mtl"
+        same "$k" still.obj moved.obj 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
     sed 's/still.mtl/none.mtl/; s/usemtl q//' "$T/still.obj" >"$T/plain.obj"
     check "plain" draw plain.obj b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20

@@ -230,7 +230,7 @@ static inline int ply_take_comment(mesh_reader *r, model *m)
     if (m->surface_count || !mesh_take_word(r, "texturefile")) return 0;
     begin = mesh_take_line(r);
     if (model_find_surface(m, "", 0, 1) < 0) return mesh_fail(r, "out of memory");
-    m->surface->map = model_text(begin, (size_t)(r->at - begin));
+    m->surface->map = model_file_name(begin, (size_t)(r->at - begin));
     m->surface->set = 1;
     m->surface->material.diffuse = m->surface->material.ambient = shade_v3(1, 1, 1);
     return m->surface->map ? 0 : mesh_fail(r, "out of memory");
