@@ -155,6 +155,26 @@ color_reports() {
     same "floats to 255" tint.obj bytes.ply 0 "$plain"
     ply_colored diffuse.ply "diffuse_red diffuse_green diffuse_blue" 1
     same "diffuse_red" tint.obj diffuse.ply 0 "$plain"
+    faces_colored() {           # file, type, the greatest value, what else vertices have, and its value
+        { printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n'
+            printf 'property float z\n%belement face 4\nproperty %s red\n' "$4" $2
+            printf 'property list uchar int vertex_indices\nproperty %s green\n' $2
+            printf 'property %s blue\nend_header\n' $2
+            printf '0 0 0%s\n2 0 0%s\n0 1.5 0%s\n0 0 1%s\n' "$5" "$5" "$5" "$5"
+            printf '%s 3 0 2 1 0 0\n0 3 0 1 3 %s 0\n0 3 1 2 3 0 %s\n%s 3 0 3 2 %s 0\n' $3 $3 $3 $3 $3; } >"$T/$1"
+    }
+    { for k in "1 0 0" "0 1 0" "0 0 1" "1 1 0"; do
+        printf "$wedge" | sed "s/$/ $k/"
+    done; printf 'f 1 3 2\nf 5 6 8\nf 10 11 12\nf 13 16 15\n'; } >"$T/sides.obj"
+    for k in "uchar 255" "float 1" "float 255" "ushort 65535"; do
+        faces_colored sides.ply $k "" ""
+        same "colours of PLY's faces, $k" sides.obj sides.ply 0 "$plain"
+        check "without a word" test ! -s "$T/err"
+    done
+    faces_colored sides.ply uchar 255 "property uchar red\nproperty uchar green\nproperty uchar blue\n" " 255 0 0"
+    { printf "$wedge" | sed "s/$/ 1 0 0/"; printf "$faces"; } >"$T/sides.obj"
+    same "those of vertices count before them" sides.obj sides.ply 0 "$plain"
+    check "which is told" said "sides.ply: it has red, green, blue, which are not read"
 
     printf "COFF\n4 4 0\n0 0 0 255 0 0 1\n2 0 0 0 255 0 1\n0 1.5 0 0 0 255 1\n0 0 1 255 255 255 1
 $ply_faces" >"$T/tint.off"

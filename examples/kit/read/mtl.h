@@ -124,12 +124,15 @@ static inline void mtl_options(mesh_reader *r, model *m, float *strength, float 
 /* How much of a line is the name of a file: what stands before options, behind an extension */
 static inline size_t mtl_name(const unsigned char *line, size_t n)
 {
-    static const char *const options[7] = { "-bm ", "-o ", "-s ", "-t ", "-mm ", "-clamp ", "-blend" };
+    static const char *const options[7] = {
+        "-bm ", "-o ", "-s ", "-t ", "-mm ", "-clamp ", "-blend"
+    };
     int dot = 0;
     for (size_t i = 0; i < n; i++) {
         dot |= line[i] == '.';
         for (int k = 0; dot && mesh_is_blank(line[i]) && k < 7; k++)
-            if (n - i > strlen(options[k]) && !memcmp(line + i + 1, options[k], strlen(options[k]))) {
+            if (n - i > strlen(options[k]) &&
+                !memcmp(line + i + 1, options[k], strlen(options[k]))) {
                 while (i && mesh_is_blank(line[i - 1])) i--;
                 return i;
             }
