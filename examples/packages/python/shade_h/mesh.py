@@ -377,14 +377,9 @@ class Mesh:
     def _used(self, rows: Array) -> Array:
         """The rows that faces have; not of those alone that have two corners at one place, which
         cannot be seen."""
-        faces, used = self.faces, np.zeros(len(rows), bool)
-        x = rows[:, 0][faces]
-        doubt = np.nonzero((x == np.roll(x, 1, 1)).any(1))[0]    # few, so that all is fast
-        corner = rows[faces[doubt]]
-        hidden = doubt[(corner == np.roll(corner, 1, 1)).all(2).any(1)]
-        if 0 < len(hidden) < len(faces):
-            faces = np.delete(faces, hidden, 0)
-        used[faces.reshape(-1)] = True
+        used = np.zeros(len(rows), bool)
+        at = np.ascontiguousarray(rows, np.float64)
+        library.python_seen(pointer(at), pointer(self.faces), self.faces.size, pointer(used))
         out: Array = rows if used.all() else rows[used]
         return out
 
