@@ -529,12 +529,12 @@ void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t
     int any = 0;
     for (size_t i = 0; i < count; i += 3) {
         int hidden = 0;
-        for (int k = 0; k < 3; k++) {
+        for (size_t k = 0; k < 3; k++) {
             const double *p = at + 3 * (size_t)corner[i + k];
             const double *q = at + 3 * (size_t)corner[i + (k + 1) % 3];
             hidden |= p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
         }
-        for (int k = 0; k < 3 && !hidden; k++) seen[corner[i + k]] = 1;
+        for (size_t k = 0; k < 3 && !hidden; k++) seen[corner[i + k]] = 1;
         any |= !hidden;
     }
     for (size_t i = 0; i < count && !any; i++) seen[corner[i]] = 1;
