@@ -521,8 +521,8 @@ void python_linear(float *rgb, size_t count)
 
 /* ---- corners that are alike become one vertex ------------------------------------------------ */
 
-/* Marks the vertices of triangles, but not of those that have two corners at one place, which cannot
-   be seen, unless all are such. */
+/* Marks the vertices of triangles, but not of those that have two corners at one place, which
+   cannot be seen, unless all are such. */
 SHADEDEF void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t *seen);
 void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t *seen)
 {

@@ -420,6 +420,9 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     check "without a word" test ! -s "$T/err"
     stl_counts few.stl '\007' 0
     bad_model "a count of more than there are" few.stl "few.stl: ends after 4 of 7 triangles"
+    cp "$T/few.stl" "$T/few" && cp "$T/more.stl" "$T/more"
+    bad_model "in a file without a name" few "few: ends after 4 of 7 triangles"
+    same "STL without a name, with more triangles than its count" wedge.obj more 0 "--up y"
     { echo "; by hand"; echo solid; facets; } >"$T/note.stl"
     bad_model "a comment in STL" note.stl 'note.stl:1: expected facet, found ";"'
 

@@ -158,7 +158,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
         failed = off_read(&r, m);
     else if (mesh_is_ply(name, begin, size))
         failed = ply_read(&r, m);
-    else if (mesh_is_stl(name, begin, size))
+    else if (mesh_is_stl(name, begin, size) ||
+             (!model_kind_of(name).text[0] && stl_seems(begin, size)))
         failed = model_read_stl(&r, m);
     else
         failed = obj_read(&r, m);

@@ -193,6 +193,16 @@ static inline int stl_fits(const unsigned char *bytes, size_t size)
     return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == mesh_uint32(bytes + 80);
 }
 
+/* Whether bytes of which nobody says what they are may be a binary file that is cut off, or has
+   more behind its triangles: bytes that no text has, and a count that is near */
+static inline int stl_seems(const unsigned char *bytes, size_t size)
+{
+    const size_t there = size < 84 ? 0 : (size - 84) / 50;
+    const uint32_t count = there ? mesh_uint32(bytes + 80) : 0;
+    return count && memchr(bytes, 0, size < 1024 ? size : 1024) && count / 2 <= there &&
+           there / 2 <= count;
+}
+
 /* Binary where the size fits the count to the byte; then text where no zero byte is near.  Bytes
    that fill up the end of text, zeros and Ctrl-Z, are no longer the reader's then. */
 static inline int stl_is_text(mesh_reader *r)
