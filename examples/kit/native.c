@@ -521,6 +521,25 @@ void python_linear(float *rgb, size_t count)
 
 /* ---- corners that are alike become one vertex ------------------------------------------------ */
 
+/* Marks the vertices of triangles, but not of those that have two corners at one place, which
+   cannot be seen, unless all are such. */
+SHADEDEF void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t *seen);
+void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t *seen)
+{
+    int any = 0;
+    for (size_t i = 0; i < count; i += 3) {
+        int hidden = 0;
+        for (size_t k = 0; k < 3; k++) {
+            const double *p = at + 3 * (size_t)corner[i + k];
+            const double *q = at + 3 * (size_t)corner[i + (k + 1) % 3];
+            hidden |= p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+        }
+        for (size_t k = 0; k < 3 && !hidden; k++) seen[corner[i + k]] = 1;
+        any |= !hidden;
+    }
+    for (size_t i = 0; i < count && !any; i++) seen[corner[i]] = 1;
+}
+
 /* The unit normal of each corner's face */
 SHADEDEF void python_face_normals(const shade_mesh *mesh, float *normals);
 void python_face_normals(const shade_mesh *mesh, float *normals)

@@ -29,6 +29,11 @@ reports() {
         --size 200x150
     check "one drawing" "$T/look" same "$T/a.ppm" "$T/b.ppm" 0
 
+    printf "${wedge}v 9e4 0 0\nv 9e4 0 0\nv 9e4 0 0\n${faces}f 5 6 7\nf 5 5 5\nf 7 7 1\n" >"$T/spare.obj"
+    same "faces with two corners at one place, far away" wedge.obj spare.obj 0 "--up y"
+    { echo solid a; facets; facet "9e4 9 9" "9e4 9 9" "9e4 9 9"; echo endsolid; } >"$T/spare.stl"
+    same "in STL" wedge.obj spare.stl 0 "--up y"
+
     printf "$mark$wedge$faces" >"$T/mark.obj"
     same "a byte order mark" wedge.obj mark.obj 0 "--up y"
     printf "$mark$wedge${faces}v 9 9 9\n" >"$T/mark.obj"
@@ -157,6 +162,26 @@ color_reports() {
     same "floats to 255" tint.obj bytes.ply 0 "$plain"
     ply_colored diffuse.ply "diffuse_red diffuse_green diffuse_blue" 1
     same "diffuse_red" tint.obj diffuse.ply 0 "$plain"
+    faces_colored() {           # file, type, the greatest value, what else vertices have, and its value
+        { printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n'
+            printf 'property float z\n%belement face 4\nproperty %s red\n' "$4" $2
+            printf 'property list uchar int vertex_indices\nproperty %s green\n' $2
+            printf 'property %s blue\nend_header\n' $2
+            printf '0 0 0%s\n2 0 0%s\n0 1.5 0%s\n0 0 1%s\n' "$5" "$5" "$5" "$5"
+            printf '%s 3 0 2 1 0 0\n0 3 0 1 3 %s 0\n0 3 1 2 3 0 %s\n%s 3 0 3 2 %s 0\n' $3 $3 $3 $3 $3; } >"$T/$1"
+    }
+    { for k in "1 0 0" "0 1 0" "0 0 1" "1 1 0"; do
+        printf "$wedge" | sed "s/$/ $k/"
+    done; printf 'f 1 3 2\nf 5 6 8\nf 10 11 12\nf 13 16 15\n'; } >"$T/sides.obj"
+    for k in "uchar 255" "float 1" "float 255" "ushort 65535"; do
+        faces_colored sides.ply $k "" ""
+        same "colours of PLY's faces, $k" sides.obj sides.ply 0 "$plain"
+        check "without a word" test ! -s "$T/err"
+    done
+    faces_colored sides.ply uchar 255 "property uchar red\nproperty uchar green\nproperty uchar blue\n" " 255 0 0"
+    { printf "$wedge" | sed "s/$/ 1 0 0/"; printf "$faces"; } >"$T/sides.obj"
+    same "those of vertices count before them" sides.obj sides.ply 0 "$plain"
+    check "which is told" said "sides.ply: it has red, green, blue, which are not read"
 
     printf "COFF\n4 4 0\n0 0 0 255 0 0 1\n2 0 0 0 255 0 1\n0 1.5 0 0 0 255 1\n0 0 1 255 255 255 1
 $ply_faces" >"$T/tint.off"
@@ -170,6 +195,9 @@ $ply_faces" >"$T/tint.off"
         >"$T/names.obj"
     painted half "1 0 0" "1 0 0" "0 1 0" "0 1 0"
     same "two names in mtllib" half.obj names.obj 0 "$plain"
+    check "which is no fault" test ! -s "$T/err"
+    sed 's/red.mtl/"red.mtl"/' "$T/red.obj" >"$T/quoted.obj"
+    same "a name in quotes" red.obj quoted.obj 0 "$plain"
     check "which is no fault" test ! -s "$T/err"
 }
 # a picture of four colours: red, green; blue, yellow
@@ -193,6 +221,11 @@ f 1/1 4/1 3/1\n" >"$T/moved.obj"
     sed 's/moved.mtl/still.mtl/; s/vt .25/vt .75/' "$T/moved.obj" >"$T/still.obj"
     same "-o moves the picture" still.obj moved.obj 0 "--up y"
     check "without a word" test ! -s "$T/err"
+    for k in 'quarters.ppm -s 1 1 1 -o .5 0 0' '-s 1 1 "quarters.ppm"  -o .5 0'; do
+        printf 'newmtl q\nmap_Kd %s\n' "$k" >"$T/moved.mtl"
+        same "$k" still.obj moved.obj 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
     sed 's/still.mtl/none.mtl/; s/usemtl q//' "$T/still.obj" >"$T/plain.obj"
     check "plain" draw plain.obj b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
@@ -386,11 +419,17 @@ AAgD8AAAAA"},{"uri":"data:;base64,/4AAgP+AAID/gACA"}]}' "$gltf_head" "$k" | tr -
     stl_counts more.stl '\004' 2
     same "STL with more triangles than its count" wedge.obj more.stl 0 "--up y"
     check "which is told" said "more.stl: 2 triangles beyond the 4 that it counts"
+    stl_colors own.stl "made by hand" '\003\000own' '\000\000' '\001\000.' '\056\000%046d'
+    same "STL with bytes of its writer's behind triangles" wedge.obj own.stl 0 "--up y"
+    check "without a word" test ! -s "$T/err"
     stl_counts none.stl '\000' 0
     same "a count of 0, from a writer that did not know it yet" wedge.obj none.stl 0 "--up y"
     check "without a word" test ! -s "$T/err"
     stl_counts few.stl '\007' 0
     bad_model "a count of more than there are" few.stl "few.stl: ends after 4 of 7 triangles"
+    cp "$T/few.stl" "$T/few" && cp "$T/more.stl" "$T/more"
+    bad_model "in a file without a name" few "few: ends after 4 of 7 triangles"
+    same "STL without a name, with more triangles than its count" wedge.obj more 0 "--up y"
     { echo "; by hand"; echo solid; facets; } >"$T/note.stl"
     bad_model "a comment in STL" note.stl 'note.stl:1: expected facet, found ";"'
 

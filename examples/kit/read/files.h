@@ -44,7 +44,8 @@ static inline int mesh_is_stl(const char *name, const unsigned char *bytes, size
     model_kind kind = model_kind_of(name);
     if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "ply")) return 0;
     if (!strcmp(kind.text, "stl")) return 1;
-    return (size >= 5 && !memcmp(bytes, "solid", 5)) || stl_fits(bytes, size);
+    return (size >= 5 && !memcmp(bytes, "solid", 5)) || stl_fits(bytes, size) ||
+           stl_has_own(bytes, size);
 }
 
 static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size_t size)
@@ -154,7 +155,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
         failed = off_read(&r, m);
     else if (mesh_is_ply(name, begin, size))
         failed = ply_read(&r, m);
-    else if (mesh_is_stl(name, begin, size))
+    else if (mesh_is_stl(name, begin, size) ||
+             (!model_kind_of(name).text[0] && stl_seems(begin, size)))
         failed = model_read_stl(&r, m);
     else
         failed = obj_read(&r, m);

@@ -218,6 +218,13 @@ static inline char *model_text(const void *bytes, size_t n)
     return text;
 }
 
+/* The same of a file's name, without the quotes that some programs put around it */
+static inline char *model_file_name(const unsigned char *name, size_t n)
+{
+    const size_t quote = n > 2 && name[0] == '"' && name[n - 1] == '"';
+    return model_text(name + quote, n - 2 * quote);
+}
+
 /* The roughness whose highlight is as wide as that of an exponent; 1 without a highlight */
 static inline float model_roughness(float shininess)
 {
@@ -343,13 +350,13 @@ static inline int model_find_object(model *m, const void *name, size_t n)
     return model_add_object(m, name, n);
 }
 
-static inline int model_add_library(model *m, const void *name, size_t n)
+static inline int model_add_library(model *m, const unsigned char *name, size_t n)
 {
     char **grown =
         (char **)mesh_grow(m->library, (size_t)m->library_count, &m->library_room, sizeof *grown);
     if (!grown) return 1;
     m->library = grown;
-    grown[m->library_count] = model_text(name, n);
+    grown[m->library_count] = model_file_name(name, n);
     return !grown[m->library_count++];
 }
 

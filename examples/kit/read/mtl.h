@@ -81,15 +81,13 @@ typedef struct mtl_clear {
 } mtl_clear;
 static const mtl_clear mtl_fresh = { 0, 0, 0, 0, NULL, { 0, 0, 1, 1 }, 1 };
 
-/* The name of a picture behind options, which begin with a dash: the numbers after one are its
-   own, and of those that take a word the word.  What may be missing: *strength becomes the number
-   behind -bm, move the first two numbers behind -o and then those behind -s.  -clamp on and -mm are
-   told. */
-static inline int mtl_map(mesh_reader *r, model *m, char **map, float *strength, float *move)
+/* Options of a picture, which begin with a dash: the numbers after one are its own, and of those
+   that take a word the word.  *strength becomes the number behind -bm, move the first two numbers
+   behind -o and then those behind -s; both may be missing.  -clamp on and -mm are told. */
+static inline void mtl_options(mesh_reader *r, model *m, float *strength, float *move)
 {
     static const char *const worded[6] = { "-blendu", "-blendv",  "-cc",
                                            "-clamp",  "-imfchan", "-type" };
-    const unsigned char *begin;
     for (;;) {
         mesh_reader ahead;
         char unheard[4];
@@ -97,7 +95,7 @@ static inline int mtl_map(mesh_reader *r, model *m, char **map, float *strength,
         float *to = NULL; /* two numbers */
         int k = 0, bm, count = 0;
         mesh_skip_blanks(r, 0);
-        if (r->at == r->end || *r->at != '-') break;
+        if (r->at == r->end || *r->at != '-') return;
         bm = strength && r->end - r->at > 3 && !memcmp(r->at, "-bm", 3);
         ahead = *r;
         if (mesh_take_word(&ahead, "-mm")) known_take(r, m, KNOWN_TOLD, 0, "-mm", 3);
@@ -121,10 +119,40 @@ static inline int mtl_map(mesh_reader *r, model *m, char **map, float *strength,
             mesh_skip_blanks(&ahead, 0);
         }
     }
+}
+
+/* How much of a line is the name of a file: what stands before options, behind an extension */
+static inline size_t mtl_name(const unsigned char *line, size_t n)
+{
+    static const char *const options[7] = {
+        "-bm ", "-o ", "-s ", "-t ", "-mm ", "-clamp ", "-blend"
+    };
+    int dot = 0;
+    for (size_t i = 0; i < n; i++) {
+        dot |= line[i] == '.';
+        for (int k = 0; dot && mesh_is_blank(line[i]) && k < 7; k++)
+            if (n - i > strlen(options[k]) &&
+                !memcmp(line + i + 1, options[k], strlen(options[k]))) {
+                while (i && mesh_is_blank(line[i - 1])) i--;
+                return i;
+            }
+    }
+    return n;
+}
+
+/* The name of a picture, and options before or behind it */
+static inline int mtl_map(mesh_reader *r, model *m, char **map, float *strength, float *move)
+{
+    const unsigned char *begin;
+    size_t n;
+    mtl_options(r, m, strength, move);
     begin = mesh_take_line(r);
     if (r->at == begin || !*begin) return 0;
+    n = mtl_name(begin, (size_t)(r->at - begin));
     free(*map);
-    *map = model_text(begin, (size_t)(r->at - begin));
+    *map = model_file_name(begin, n);
+    r->at = begin + n;
+    mtl_options(r, m, strength, move);
     return *map ? 0 : mesh_fail(r, "out of memory");
 }
 

@@ -1,6 +1,7 @@
 /* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue (or r g
    b, diffuse_red ...), u v (or s t, texture_u texture_v) of vertices, lists of corners of faces and
-   of their texture coordinates, triangle strips, and the picture named by a comment TextureFile.
+   of their texture coordinates, red green blue of faces where vertices have none, triangle strips,
+   and the picture named by a comment TextureFile.
    Other elements and properties are skipped. */
 #ifndef MODEL_PLY_H
 #define MODEL_PLY_H
@@ -62,8 +63,8 @@ typedef struct ply_data {
     const char *alpha;  /* its name */
     int clear;          /* an alpha of bytes is less than all, or ... */
     double least, most; /* ... where it is of another type, the least and the greatest */
-    /* where faces have texture coordinates for their corners, as MeshLab writes them: */
-    int by_corner;
+    /* where faces have texture coordinates for their corners, as MeshLab writes them, or colours */
+    int by_corner, placed, tinted;
     mesh_uints corner;       /* the vertex of each corner, which becomes a vertex at the end */
     mesh_floats place, list; /* u and v of each corner; of the face that is read, as they come */
     size_t begin;            /* the first corner of that face */
@@ -116,9 +117,9 @@ static const known_name ply_of_face[] = { { "vertex_indices", KNOWN_DRAWN },
                                           { "nx", KNOWN_SILENT },
                                           { "ny", KNOWN_SILENT },
                                           { "nz", KNOWN_SILENT },
-                                          { "red", KNOWN_TOLD },
-                                          { "green", KNOWN_TOLD },
-                                          { "blue", KNOWN_TOLD },
+                                          { "red", KNOWN_DRAWN },
+                                          { "green", KNOWN_DRAWN },
+                                          { "blue", KNOWN_DRAWN },
                                           { "texnumber", KNOWN_TOLD },
                                           { NULL, KNOWN_TOLD } };
 
@@ -159,6 +160,8 @@ static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
     if (!is_list && kind == PLY_VERTEX && mesh_take_word(r, "a")) return PLY_A;
     for (size_t k = 0; kind == PLY_VERTEX && !is_list && k < sizeof names / sizeof *names; k++)
         if (mesh_take_word(r, names[k])) return meaning[k];
+    for (int k = PLY_RED; kind == PLY_FACE && !is_list && k < PLY_U; k++)
+        if (mesh_take_word(r, names[k])) return k;
     return PLY_UNUSED;
 }
 
@@ -186,6 +189,7 @@ static inline int ply_take_property(mesh_reader *r, ply_data *p, model *m)
         at->meaning = PLY_UNUSED;
         if (known_take(r, m, KNOWN_TOLD, 0, name, (size_t)(r->at - name))) return 1;
     }
+    p->tinted |= e->kind == PLY_FACE && at->meaning >= PLY_RED && at->meaning < PLY_U;
     p->properties++;
     e->properties++;
     return 0;
@@ -230,7 +234,7 @@ static inline int ply_take_comment(mesh_reader *r, model *m)
     if (m->surface_count || !mesh_take_word(r, "texturefile")) return 0;
     begin = mesh_take_line(r);
     if (model_find_surface(m, "", 0, 1) < 0) return mesh_fail(r, "out of memory");
-    m->surface->map = model_text(begin, (size_t)(r->at - begin));
+    m->surface->map = model_file_name(begin, (size_t)(r->at - begin));
     m->surface->set = 1;
     m->surface->material.diffuse = m->surface->material.ambient = shade_v3(1, 1, 1);
     return m->surface->map ? 0 : mesh_fail(r, "out of memory");
@@ -314,15 +318,19 @@ static inline int ply_corner(mesh_reader *r, ply_data *p, double value)
     return faces_corner(&p->faces, number) ? mesh_fail(r, "out of memory") : 0;
 }
 
-/* The face that was read gets its texture coordinates, wherever they stand in it. */
-static inline int ply_place(mesh_reader *r, ply_data *p)
+/* The face that was read gets its texture coordinates and its colour, wherever they stand in it. */
+static inline int ply_place(mesh_reader *r, ply_data *p, const double *rgb)
 {
-    const float none = 0;
-    for (size_t i = 2 * p->begin; i < 2 * p->corner.count; i++) {
+    const float none = 0,
+                color[3] = { mesh_or_zero(rgb[0]), mesh_or_zero(rgb[1]), mesh_or_zero(rgb[2]) };
+    int failed = 0;
+    for (size_t i = 2 * p->begin; i < 2 * p->corner.count && p->placed && !failed; i++) {
         const size_t at = i - 2 * p->begin;
-        if (mesh_push(&p->place, at < p->list.count ? &p->list.v[at] : &none, 1))
-            return mesh_fail(r, "out of memory");
+        failed = mesh_push(&p->place, at < p->list.count ? &p->list.v[at] : &none, 1);
     }
+    for (size_t i = p->begin; i < p->corner.count && p->tinted && !failed; i++)
+        failed = mesh_push(&p->column[PLY_COLOR], color, 3);
+    if (failed) return mesh_fail(r, "out of memory");
     p->begin = p->corner.count;
     p->list.count = 0;
     return 0;
@@ -416,7 +424,7 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
         if (at->meaning == PLY_ALPHA || at->meaning == PLY_A) ply_alpha(p, at, value);
         if (at->meaning < PLY_VALUES) v[at->meaning] = value;
     }
-    if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p)) return 1;
+    if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p, v + PLY_RED)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
     for (int k = PLY_RED; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
     mesh_normal(v + PLY_NX, single + PLY_NX);
@@ -425,7 +433,8 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
     if (p->column->count / 3 >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
     for (int k = 0; k < PLY_COLUMNS; k++) {
         const int first = ply_first[k], width = ply_first[k + 1] - first;
-        if (ply_has(p, k) && mesh_push(&p->column[k], single + first, (size_t)width))
+        if (ply_has(p, k) && !(k == PLY_COLOR && p->tinted) &&
+            mesh_push(&p->column[k], single + first, (size_t)width))
             return mesh_fail(r, "out of memory");
     }
     return 0;
@@ -435,8 +444,11 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p, model *m)
 {
     int strips = 0;
     for (int k = 0; k < p->elements; k++) strips |= p->element[k].kind == PLY_STRIP;
-    for (int k = 0; k < p->properties; k++)
-        if (p->property[k].meaning == PLY_TEXCOORD && !strips) p->by_corner = 1;
+    for (int k = 0; k < p->properties && !strips; k++)
+        p->placed |= p->property[k].meaning == PLY_TEXCOORD;
+    if (p->tinted && strips) known_take(r, m, KNOWN_TOLD, 0, "colours of faces", 16);
+    p->tinted &= !strips;
+    p->by_corner = p->placed || p->tinted;
     for (int k = 0; k < p->elements; k++) {
         const ply_element *e = &p->element[k];
         for (double i = 0; i < e->count && e->properties; i++) {
@@ -449,13 +461,15 @@ static inline int ply_read_body(mesh_reader *r, ply_data *p, model *m)
     return 0;
 }
 
-/* Makes a vertex of each corner, with its own place in the picture. */
+/* Makes a vertex of each corner, with its own place in the picture, or colour. */
 static inline int ply_spread(mesh_reader *r, ply_data *p)
 {
-    for (int k = 0; k < PLY_PLACE; k++) {
+    for (int k = 0; k < PLY_COLUMNS; k++) {
         mesh_floats spread = { NULL, 0, 0 }, *from = &p->column[k];
+        const size_t width = (size_t)(ply_first[k + 1] - ply_first[k]);
+        if ((k == PLY_COLOR && p->tinted) || (k == PLY_PLACE && p->placed)) continue;
         for (size_t i = 0; i < p->corner.count && from->count; i++) {
-            if (mesh_push(&spread, from->v + 3 * (size_t)p->corner.v[i], 3)) {
+            if (mesh_push(&spread, from->v + width * p->corner.v[i], width)) {
                 free(spread.v);
                 return mesh_fail(r, "out of memory");
             }
@@ -463,6 +477,7 @@ static inline int ply_spread(mesh_reader *r, ply_data *p)
         free(from->v);
         *from = spread;
     }
+    if (!p->placed) return 0;
     free(p->column[PLY_PLACE].v);
     p->column[PLY_PLACE] = p->place;
     memset(&p->place, 0, sizeof p->place);

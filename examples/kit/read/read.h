@@ -141,21 +141,39 @@ static int read_path(const char *path, model *m, const model_request *q)
     return failed;
 }
 
-/* Drops vertices that no triangle has: pictures and drawings show what has faces.  1: out of
-   memory. */
+/* Whether two corners of a triangle lie at one place, so that it cannot be seen */
+static int model_is_hidden(const model *m, const uint32_t *corner)
+{
+    for (int k = 0; k < 3; k++) {
+        const float *p = m->mesh.positions + 3 * (size_t)corner[k];
+        const float *q = m->mesh.positions + 3 * (size_t)corner[(k + 1) % 3];
+        if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) return 1;
+    }
+    return 0;
+}
+
+/* Drops vertices that no triangle has that can be seen: pictures and drawings show those alone.
+   Other triangles stay, and get one that is left for what they lose.  1: out of memory. */
 static int model_drop_unused(model *m)
 {
     const shade_mesh *v = &m->mesh.view;
-    uint32_t last = 0;
+    uint32_t last = 0, *corner = m->mesh.indices;
     char *used = (char *)calloc((size_t)v->vertex_count + 1, 1);
-    int count = 0, failed = !used;
-    for (int i = 0; i < v->index_count && !failed; i++) used[m->mesh.indices[i]] = 1;
+    int count = 0, first = 0, failed = !used;
+    for (int i = 0; i < v->index_count && !failed; i += 3)
+        if (!model_is_hidden(m, corner + i))
+            used[corner[i]] = used[corner[i + 1]] = used[corner[i + 2]] = 1;
+    while (first < v->vertex_count && !failed && !used[first]) first++;
+    for (int i = 0; i < v->index_count && !failed && first < v->vertex_count; i += 3)
+        if (!used[corner[i]] || !used[corner[i + 1]] || !used[corner[i + 2]])
+            corner[i] = corner[i + 1] = corner[i + 2] = (uint32_t)first;
+    for (int i = 0; i < v->index_count && !failed; i++) used[corner[i]] = 1;
     for (int i = 0; i < v->vertex_count && !failed; i++) count += used[i];
     free(used);
     if (failed || count == v->vertex_count) return failed;
     failed = mesh_renumber(&m->mesh);
     for (int i = 0; i < v->index_count && !failed; i++)
-        if (m->mesh.indices[i] > last) last = m->mesh.indices[i];
+        if (corner[i] > last) last = corner[i];
     mesh_link(&m->mesh, (int)last + 1, v->index_count);
     return failed;
 }

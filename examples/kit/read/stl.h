@@ -75,11 +75,27 @@ static inline int stl_block(mesh_reader *r, stl_data *s, size_t n)
     return failed;
 }
 
+/* Whether the last two bytes of each triangle say how many bytes of the writer's own follow it, as
+   the format once meant them: then the file ends behind the last of these. */
+static inline int stl_has_own(const unsigned char *bytes, size_t size)
+{
+    uint32_t left = size < 84 ? 0 : mesh_uint32(bytes + 80);
+    size_t at = 84;
+    if (!left || (size - 84) / 50 < left || size - 84 == (size_t)left * 50) return 0;
+    for (; left && size - at >= 50; left--) {
+        const uint32_t own = mesh_uint16(bytes + at + 48);
+        if (size - at - 50 < own) return 0;
+        at += 50 + own;
+    }
+    return !left && at == size;
+}
+
 /* 80 bytes of title, a count, then 50 bytes each: normal, three corners (little-endian floats),
-   two unused */
+   and two, see above */
 static inline int stl_read_binary(mesh_reader *r, stl_data *s)
 {
     uint64_t size = (uint64_t)(r->end - r->begin), count, there;
+    int own;
     r->line = 0;
     if (size < 84) return mesh_fail(r, "neither text nor binary STL");
     count = mesh_uint32(r->begin + 80);
@@ -88,12 +104,18 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
         return mesh_fail(r, "ends after %lld of %lld triangles", (long long)there,
                          (long long)count);
     if (!count && (size - 84) % 50 == 0) count = there; /* who writes as it goes, may leave 0 */
-    s->behind = (size_t)(there - count);
+    own = stl_has_own(r->begin, (size_t)size);
+    s->behind = own ? 0 : (size_t)(there - count);
     r->at = r->begin + 84;
     for (const unsigned char *p = r->begin; p < r->begin + 70 && !s->usual; p++)
         if (!memcmp(p, "COLOR=", 6)) s->usual = p + 6;
     if (mesh_set_reserve(&s->places, (size_t)count / 2 + 2)) return mesh_fail(r, "out of memory");
-    for (uint64_t i = 0; i < count; i += STL_BLOCK)
+    for (uint64_t i = 0; i < count && own; i++) {
+        if (mesh_tell(r, (size_t)i) || stl_block(r, s, 1)) return 1;
+        r->at += mesh_uint16(r->at - 2);
+    }
+    if (own) s->colored = 0; /* those bytes are no colours */
+    for (uint64_t i = 0; i < count && !own; i += STL_BLOCK)
         if (mesh_tell(r, (size_t)i) ||
             stl_block(r, s, count - i < STL_BLOCK ? (size_t)(count - i) : STL_BLOCK))
             return 1;
@@ -187,6 +209,16 @@ static inline int stl_read_text(mesh_reader *r, stl_data *s)
 static inline int stl_fits(const unsigned char *bytes, size_t size)
 {
     return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == mesh_uint32(bytes + 80);
+}
+
+/* Whether bytes of which nobody says what they are may be a binary file that is cut off, or has
+   more behind its triangles: bytes that no text has, and a count that is near */
+static inline int stl_seems(const unsigned char *bytes, size_t size)
+{
+    const size_t there = size < 84 ? 0 : (size - 84) / 50;
+    const uint32_t count = there ? mesh_uint32(bytes + 80) : 0;
+    return count && memchr(bytes, 0, size < 1024 ? size : 1024) && count / 2 <= there &&
+           there / 2 <= count;
 }
 
 /* Binary where the size fits the count to the byte; then text where no zero byte is near.  Bytes

@@ -118,10 +118,19 @@ function orthographic(width, height, turn, low, high, reach) {
     return { view: rigid(turn, [-middle[0], -middle[1], -middle[2] - 2 * reach]), projection: m };
 }
 
-/** Which vertices triangles use, 1 or 0 each */
-export function used({ positions, indices }) {
-    const marks = new Uint8Array(positions.length / 3);
-    for (const i of indices) marks[i] = 1;
+/** Which vertices triangles use, 1 or 0 each; not those alone that have two corners at one place, which
+    cannot be seen. */
+export function used({ positions: p, indices }) {
+    const marks = new Uint8Array(p.length / 3);
+    const one = (i, j) => p[3 * i] === p[3 * j] && p[3 * i + 1] === p[3 * j + 1] && p[3 * i + 2] === p[3 * j + 2];
+    let seen = false;
+    for (let i = 0; i < indices.length; i += 3) {
+        const [a, b, c] = [indices[i], indices[i + 1], indices[i + 2]];
+        if (one(a, b) || one(b, c) || one(c, a)) continue;
+        marks[a] = marks[b] = marks[c] = 1;
+        seen = true;
+    }
+    if (!seen) for (const i of indices) marks[i] = 1;
     return marks;
 }
 

@@ -11,6 +11,9 @@ function opaque(image) {
     return { ...image, data: Uint8ClampedArray.from(image.data, (x, i) => (step === 4 && i % 4 === 3 ? 255 : x)) };
 }
 
+/** A name as other machines than Windows understand it */
+const slashed = (name) => name.replaceAll("\\", "/");
+
 const displayed = (x) => Math.min(Math.max(encoded(x), 0), 1);
 
 /** The rows of the vertices at, of which all has so many numbers each */
@@ -50,7 +53,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
 
     /** A picture as the caller has decoded it; null: it is left out. */
     function decoded(name, at, size, kind, { picture, beside }, warn) {
-        const bytes = at ? new Uint8Array(library.memory.buffer, at, size).slice() : beside?.(name);
+        const bytes = at ? new Uint8Array(library.memory.buffer, at, size).slice() : beside?.(slashed(name));
         if (!bytes) warn(`${name}: the option beside has no such file; its faces are drawn without it`);
         const image = bytes ? picture(bytes, kind || undefined) : null;
         return image ? { data: image.data, width: image.width, height: image.height } : null;
@@ -142,17 +145,21 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         return { ...given, format: format === undefined ? "" : `.${choice("options.format", format, FORMATS)}` };
     }
 
-    /** Hands a file of the caller over to the module, which frees it. */
+    /** Hands a file of the caller over to the module, which frees it.  failures has what beside throws by the
+     *  name; a line of several names, or a name with folders, is tried as a whole before its parts. */
     function handed(options, failures) {
-        return (name, size) => {
+        return (at, size) => {
+            const name = slashed(text(at >>> 0));
             try {
-                const bytes = options.beside?.(text(name >>> 0));
+                const bytes = options.beside?.(name);
                 if (!(bytes instanceof Uint8Array)) return 0;
-                const at = put(take(bytes.length), bytes);
+                for (const whole of failures.keys()) {
+                    if (whole.endsWith(`/${name}`) || whole.split(" ").includes(name)) failures.delete(whole);
+                }
                 words(size >>> 0, 1)[0] = bytes.length;
-                return at;
+                return put(take(bytes.length), bytes);
             } catch (error) {    // it must not pass through the module
-                failures.push(error);
+                failures.set(name, error);
                 return 0;
             }
         };
@@ -160,11 +167,11 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
 
     function opened(at, length, options) {
         return withMemory((room) => {
-            const error = room(400), name = new TextEncoder().encode(`model${options.format}\0`), failures = [];
+            const error = room(400), name = new TextEncoder().encode(`model${options.format}\0`), failures = new Map();
             files.beside = handed(options, failures);
             const model = library.model_open(at, length, put(room(name.length), name), error, 400);
             try {
-                if (failures.length) throw failures[0];
+                for (const [, error] of failures) throw error;
                 if (!model) throw new ShadeError(unnamed(text(error)) || "model: out of memory");
                 return meshesOf(model, options);
             } finally {

@@ -492,6 +492,18 @@ test("a model of any format", async () => {
     await assert.rejects(readModel("a.obj"), /model: must be the bytes of a file/);
     await assert.rejects(read(obj, { beside: () => { throw new RangeError("mine"); } }), /RangeError: mine/);
     await read(obj, { beside, format: "obj", picture: () => null });
+    // what stands for several names, or has the folders of another machine, may throw before its parts are asked for
+    const held = { "b.mtl": "newmtl o\n", "a.mtl": "newmtl m\nmap_Kd sub\\a.png -bm 1\n", "sub/a.png": "is" }, shown = [];
+    const strict = (name) => {
+        if (!(name in held)) throw new RangeError(name);
+        return new TextEncoder().encode(held[name]);
+    };
+    const picture = (bytes) => { shown.push(bytes.length); return { data, width: 1, height: 1 }; };
+    for (const line of ["b.mtl a.mtl", "C:\\parts\\a.mtl", '"a.mtl"']) {
+        await read(obj.replace("a.mtl", () => line), { beside: strict, picture });
+    }
+    assert.deepEqual(shown, [2, 2, 2]);
+    await assert.rejects(read(obj.replace("a.mtl", "a.mtl c.mtl"), { beside: strict, picture }), /RangeError: c.mtl/);
 });
 
 test("mutants of a 3MF are read or refused", async () => {

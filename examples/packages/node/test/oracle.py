@@ -111,6 +111,9 @@ draw("one-sided", [{**ring, "faces": faces[::2], "two_sided": False}], samples=1
 hole = vertices.copy()
 hole[7], hole[300], hole[301] = np.nan, 3e38, -np.inf
 draw("bad", [{**ring, "vertices": np.where(np.isfinite(hole), hole, 1e30)}])
+n = len(vertices)    # faces with two corners at one place
+draw("hidden", [{"vertices": np.concatenate([vertices, np.full((3, 3), 5e6)]),
+                 "faces": np.concatenate([faces, [[n, n + 1, n + 2], [n, n, n], [0, 0, n]]])}])
 draw("camera", [ring], shade.Camera.look_at((4, -6, 5), fov=40, aspect=1.5, near=1, far=20),
      (180, 120))
 for side in ("iso", "top", (200, 15)):

@@ -177,6 +177,7 @@ def _open() -> Any:
             ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
             ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
             ("python_has_letter", c_int, [c_int]),
+            ("python_seen", None, [c_void_p, c_void_p, c_size_t, c_void_p]),
             ("python_face_normals", None, [c_void_p, c_void_p]),
             ("python_direct_normals", c_int, [c_void_p, c_void_p]),
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),

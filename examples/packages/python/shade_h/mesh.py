@@ -373,7 +373,7 @@ class Mesh:
         return out
 
     def box(self) -> tuple[Doubles, Doubles]:
-        """The least and greatest coordinates of vertices that faces have."""
+        """The least and greatest coordinates of the vertices of faces that can be seen."""
         low, high = _box(self.drawn_vertices().astype(np.float64))
         return low + self.origin, high + self.origin
 
@@ -386,13 +386,16 @@ class Mesh:
         return self._radius
 
     def drawn_vertices(self) -> Floats:
-        """The vertices that faces have, which count from the mesh's origin."""
+        """The vertices of faces that can be seen, which count from the mesh's origin."""
         out: Floats = self._used(self.local)
         return out
 
     def _used(self, rows: Array) -> Array:
+        """The rows that faces have; not of those alone that have two corners at one place, which
+        cannot be seen."""
         used = np.zeros(len(rows), bool)
-        used[self.faces.reshape(-1)] = True
+        at = np.ascontiguousarray(rows, np.float64)
+        library.python_seen(pointer(at), pointer(self.faces), self.faces.size, pointer(used))
         out: Array = rows if used.all() else rows[used]
         return out
 

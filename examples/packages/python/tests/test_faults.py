@@ -213,6 +213,16 @@ def test_a_mesh_far_from_the_origin_has_the_same_picture(shift, ortho):
     assert (one.difference(far) > 8).mean() < 0.01
 
 
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_faces_that_cannot_be_seen_do_not_shrink_the_picture(kind):
+    vertices, faces, _ = torus(24)
+    n = len(vertices)
+    more = np.concatenate([vertices, np.full((3, 3), 5e6)]).astype(kind)
+    hidden = [[n, n + 1, n + 2, n], [n, n, n, n], [0, 0, n, n]]
+    got = shade.render(more, np.concatenate([faces, hidden]), size=(160, 120))
+    assert got == shade.render(vertices.astype(kind), faces, size=(160, 120))
+
+
 def test_cameras_lamps_and_poses_speak_the_callers_coordinates():
     vertices, faces, _ = torus(24)
     shift = np.array([1e8, -1e8, 3e7])

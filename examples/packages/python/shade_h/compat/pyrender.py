@@ -820,18 +820,26 @@ class OffscreenRenderer:
         self.viewport_width, self.viewport_height = viewport_width, viewport_height
         self.point_size = point_size
         self._shapes: dict[int, tuple[Any, int, dict[str, int]]] = {}
+        self._srgb = True
+        self._flat: OffscreenRenderer | None = None
         self._made()
 
     def _made(self) -> _Renderer:
         base, size = self._base, (self.viewport_height, self.viewport_width)
         if base is None or (base.height, base.width) != size:
-            base = self._base = _Renderer(*size)
+            base = self._base = _Renderer(*size, srgb=self._srgb)
             self._shapes = {}
         return base
 
     def render(self, scene: Scene, flags: int = 0, seg_node_map: Any = None) -> Any:
         """color, (h, w, 3) bytes (4 with RGBA), and depth, (h, w) float32, 0 where there is nothing;
-        depth alone with DEPTH_ONLY.  With SEG color has the colours of seg_node_map."""
+        depth alone with DEPTH_ONLY.  With SEG color has the colours of seg_node_map.  With FLAT colours
+        and textures are written as they are, without the coding of sRGB, as pyrender's shader does."""
+        if flags & RenderFlags.FLAT and self._srgb:
+            flat = self._flat = self._flat or OffscreenRenderer(1, 1)
+            flat._srgb, flat.point_size = False, self.point_size
+            flat.viewport_width, flat.viewport_height = self.viewport_width, self.viewport_height
+            return flat.render(scene, flags, seg_node_map)
         lamps, cameras = [], []
         used: list[Node] = []
         drawn = [p for n in scene.mesh_nodes if n.mesh.is_visible for p in n.mesh.primitives]
@@ -965,7 +973,7 @@ class OffscreenRenderer:
 
     def delete(self) -> None:
         """Gives the memory back."""
-        self._base, self._shapes = None, {}
+        self._base, self._shapes, self._flat = None, {}, None
 
 
 class Viewer:
