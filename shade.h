@@ -2071,11 +2071,10 @@ SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, fl
     return shade__perspective(fovy, aspect, near_z > 0, 0, (double)near_z);
 }
 
-/* The projection of a box in eye space, or of the frustum on the box's near face. */
-static shade_mat4 shade__box_projection(int frustum, float left, float right, float bottom,
-                                        float top, float near_z, float far_z)
+/* The projection of a box in eye space, or of the frustum on the box's near face.  side: left,
+   right, bottom, top, near, far. */
+static shade_mat4 shade__box_projection(int frustum, const float side[6])
 {
-    const float side[6] = { left, right, bottom, top, near_z, far_z };
     double v[6], e[16] = { 0 };
     shade__doubles(side, 6, v);
     const double w = v[1] - v[0], h = v[3] - v[2], n = v[4], f = v[5], d = n - f;
@@ -2094,12 +2093,14 @@ static shade_mat4 shade__box_projection(int frustum, float left, float right, fl
 
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
 {
-    return shade__box_projection(1, l, r, b, t, n, f);
+    const float side[6] = { l, r, b, t, n, f };
+    return shade__box_projection(1, side);
 }
 
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f)
 {
-    return shade__box_projection(0, l, r, b, t, n, f);
+    const float side[6] = { l, r, b, t, n, f };
+    return shade__box_projection(0, side);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -4352,16 +4353,19 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 
 /* ---- edges in rectangles */
 
-/* Edge k at pixel (x, y), and its least value in the rectangle that begins there.
-   pre: it begins in the picture and is at most 2^14 wide and high   post: both within 2^45 */
-SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int y, int columns,
-                                     int rows, int64_t *least)
+/* Edge k at pixel (x, y).   pre: the pixel is in the picture   post: within 2^45 */
+SHADE__INLINE int64_t shade__edge_at(const shade__triangle *t, int k, int64_t x, int64_t y)
 {
-    const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
-    const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
-    const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
-    *least = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
-    return e;
+    return t->e[k] + (x - t->x0) * t->edges.ex[k] + (y - t->y0) * t->edges.ey[k];
+}
+
+/* How far edge k falls in a rectangle, from its first pixel to the least one: 0 or negative.
+   pre: the rectangle is at most 2^14 wide and high   post: within 2^40 */
+SHADE__INLINE int64_t shade__edge_fall(const shade__triangle *t, int k, int64_t columns,
+                                       int64_t rows)
+{
+    const int64_t across = (columns - 1) * t->edges.ex[k], down = (rows - 1) * t->edges.ey[k];
+    return (across < 0 ? across : 0) + (down < 0 ? down : 0);
 }
 
 /* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in at least
@@ -4392,9 +4396,8 @@ SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile 
     edges->x = tile->x;
     edges->y = tile->y;
     for (int k = 0; k < 3; k++) {
-        int64_t least;
-        const int64_t e = shade__edge_in(t, k, tile->x, tile->y, SHADE__TILE, tile->rows, &least);
-        const int crosses = least < 0;
+        const int64_t e = shade__edge_at(t, k, tile->x, tile->y);
+        const int crosses = e + shade__edge_fall(t, k, SHADE__TILE, tile->rows) < 0;
         edges->e[k] = crosses ? (int32_t)e : 0;
         edges->ex[k] = crosses ? t->edges.ex[k] : 0;
         edges->ey[k] = crosses ? t->edges.ey[k] : 0;
@@ -4698,7 +4701,8 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__
     int64_t least[3];
 
     for (int k = 0; k < 3; k++)
-        shade__edge_in(t, k, t->x0, s->y, size, s->bottom - s->y + 1, &least[k]);
+        least[k] = shade__edge_at(t, k, t->x0, s->y) +
+                   shade__edge_fall(t, k, size, s->bottom - s->y + 1);
     for (int from = s->x; from <= s->end; from = s->last + 1) {
         const int cell = (from - plan->x0) >> b->log_width, first = plan->x0 + cell * size;
         const int to = shade__min(first + size - 1, s->end);
@@ -4958,11 +4962,13 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
 }
 
 /* Appends the squared length, in texels, of the longer step of (u, v) to the next pixel, in 8
-   lanes. With u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
+   lanes.  With u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
 SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
-                                      const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
-                                      int back, shade__in rw, shade__out step)
+                                      const shade__planes *SHADE_RESTRICT t, shade__in value,
+                                      shade__piece p, shade__queue *q)
 {
+    shade__in rw = q->rw + p.lane;
+    shade__out step = q->step + p.lane;
     const int k = plan->lod;
     const float w = (float)plan->pipe->lod_texture->width;
     const float h = (float)plan->pipe->lod_texture->height;
@@ -4970,13 +4976,13 @@ SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
     const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
     SHADE__FOR(i, 8) {
-        float px = (float)(x + i) + x_ref, r = 1 / rw[i];
+        float px = (float)(p.x + i) + x_ref, r = 1 / rw[i];
         float u = (u0 + ux * px) * r, v = (v0 + vx * px) * r;
         float a = (ux - u * qx) * r * w, b = (vx - v * qx) * r * h;
         float c = (uy - u * qy) * r * w, e = (vy - v * qy) * r * h;
         float right = a * a + b * b, below = c * c + e * e;
         float longer = shade__select(right, below, shade__mask(below > right));
-        step[i] = shade__select(longer, step[i], shade__mask(i < back));
+        step[i] = shade__select(longer, step[i], shade__mask(i < p.back));
     }
 }
 
@@ -5073,9 +5079,8 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
         if (wide) shade__append(d, t, value, p, SHADE__WIDE);
         else shade__append(d, t, value, p, 8);
         if (plan->lod)
-            for (int i = 0; i < width; i += 8)
-                shade__append_step(plan, t, value, p.x + i, back, q->rw + p.lane + i,
-                                   q->step + p.lane + i);
+            for (int i = 0; i < width; i += 8, p.x += 8, p.lane += 8)
+                shade__append_step(plan, t, value, p, q);
         x += take;
         n -= take;
         q->f.count += take;
@@ -5311,10 +5316,11 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, con
 
 /* Fetches a block of pairs that may lie apart, from lane i on; p is the first texel. */
 SHADE__INLINE void shade__fetch_apart(const shade__reader *r, const uint8_t *p, int line, int i,
-                                      const int bytes, const int swapped, shade__word *to)
+                                      const int bytes, shade__word *to)
 {
     const uint32_t *row = r->y.i[line], *left = r->x.i[0], *right = r->x.i[1];
     const size_t y_bytes = r->y_bytes;
+    const int swapped = r->layout->swapped;
     for (const int end = i + SHADE__BLOCK; i < end; i++) {
         const uint8_t *at = p + row[i] * y_bytes;
         to[2 * i] = shade__load_packed(at + left[i], bytes, swapped);
@@ -5334,7 +5340,7 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
 {
     const uint8_t *p = r->pixels + 4 * k;
     const uint32_t *pair = r->pair[line];
-    const shade__layout l = *r->layout;
+    const int bytes = r->layout->bytes;
     for (int first = 0; first < r->blocks * SHADE__BLOCK; first += SHADE__BLOCK) {
         if (!r->apart[first / SHADE__BLOCK]) {
             for (int i = first; i < first + SHADE__BLOCK; i += 4) {
@@ -5343,9 +5349,9 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
                 shade__fetch_pair(p + pair[i + 2], to + 2 * i + 4);
                 shade__fetch_pair(p + pair[i + 3], to + 2 * i + 6);
             }
-        } else if (l.bytes == 2) shade__fetch_apart(r, p, line, first, 2, l.swapped, to);
-        else if (l.bytes == 1) shade__fetch_apart(r, p, line, first, 1, 0, to);
-        else shade__fetch_apart(r, p, line, first, 4, 0, to);
+        } else if (bytes == 2) shade__fetch_apart(r, p, line, first, 2, to);
+        else if (bytes == 1) shade__fetch_apart(r, p, line, first, 1, to);
+        else shade__fetch_apart(r, p, line, first, 4, to);
     }
 }
 
@@ -9785,18 +9791,20 @@ typedef struct shade__halving {
 /* The linear light of packed pixels: of[k] is indexed by the value of channel k. */
 typedef struct shade__decoder {
     const shade_target *from;
+    int factor;                 /* each side becomes shorter by this factor, or about */
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *of[4];
     float value[512];    /* of colours, then of alpha; channels of equal size share values */
 } shade__decoder;
 
-static void shade__open_decoder(const shade_target *t, shade__decoder *d)
+static void shade__open_decoder(const shade_target *t, int factor, shade__decoder *d)
 {
     const shade__layout l = d->layout = shade__layouts[t->format];
     const int encoded = shade__is_encoded(t->srgb, &l);
     float *at = d->value;
     d->from = t;
+    d->factor = factor;
     d->halving = NULL;
     for (int k = 0; k < 4; k++) {
         d->of[k] = at;
@@ -9825,11 +9833,18 @@ SHADE__INLINE float shade__light_of(const shade__decoder *d, const shade__layout
     return d->of[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
 }
 
+/* The bytes from row to row of the picture that is read. */
+static size_t shade__pitch(const shade__decoder *d)
+{
+    return (size_t)shade__stride_of(d->from) * d->layout.bytes;
+}
+
 /* The means of factor x factor pixels, for n pixels of a smaller picture. */
-SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_t pitch,
-                                const int factor, int n, const int bytes, float *mean)
+SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, const int factor, int n,
+                                const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
+    const size_t pitch = shade__pitch(d);
     const float count = (float)(factor * factor);
     for (int i = 0; i < n; i++, p += factor * bytes) {
         const uint8_t *at = p;
@@ -9861,10 +9876,10 @@ static shade__cut shade__cut_of(int size, int smaller, int i)
 }
 
 /* The means of 2 x 2 pixels of 4 bytes.  Their sums are exact in double. */
-SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, size_t pitch, int n,
-                                float *mean)
+SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, int n, float *mean)
 {
     const shade__layout l = d->layout;
+    const size_t pitch = shade__pitch(d);
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < n; i++) {
             const uint8_t *a = p + 8 * i, *b = a + pitch;
@@ -9876,9 +9891,10 @@ SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, size_
 
 /* The same for any format and size. */
 SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows, const uint8_t *p,
-                                 size_t pitch, int n, const int bytes, float *mean)
+                                 int n, const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
+    const size_t pitch = shade__pitch(d);
     const shade__cut *column = d->halving->column;
     const int columns = column->pixels, lines = rows->pixels;
     for (int i = 0; i < n; i++, p += 2 * bytes) {
@@ -9902,28 +9918,27 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows
 
 /* The light of pixels x .. x + n - 1 of row y of a smaller picture: means of factor x factor
    pixels, or of the pixels that the texels of a mipmap cover. */
-static void shade__reduce(const shade__decoder *d, const shade_target *to, int factor, int x, int y,
-                          int n, float *mean)
+static void shade__reduce(const shade__decoder *d, const shade_target *to, int x, int y, int n,
+                          float *mean)
 {
     const shade_target *from = d->from;
-    const int bytes = d->layout.bytes;
-    const size_t pitch = (size_t)shade__stride_of(from) * (size_t)bytes;
+    const int bytes = d->layout.bytes, factor = d->factor;
     const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
     if (d->halving) {
         const shade__cut rows = shade__cut_of(from->height, to->height, y);
         const int even = rows.pixels == 2 && d->halving->column[0].pixels == 2;
-        if (bytes == 4 && even) shade__halve(d, p, pitch, n, mean);
-        else if (bytes == 4) shade__shrink(d, &rows, p, pitch, n, 4, mean);
-        else shade__shrink(d, &rows, p, pitch, n, bytes, mean);
-    } else if (bytes == 4 && factor == 2) shade__means(d, p, pitch, 2, n, 4, mean);
-    else if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
-    else if (bytes == 16) shade__means(d, p, pitch, factor, n, 16, mean);
-    else shade__means(d, p, pitch, factor, n, bytes, mean);
+        if (bytes == 4 && even) shade__halve(d, p, n, mean);
+        else if (bytes == 4) shade__shrink(d, &rows, p, n, 4, mean);
+        else shade__shrink(d, &rows, p, n, bytes, mean);
+    } else if (bytes == 4 && factor == 2) shade__means(d, p, 2, n, 4, mean);
+    else if (bytes == 4) shade__means(d, p, factor, n, 4, mean);
+    else if (bytes == 16) shade__means(d, p, factor, n, 16, mean);
+    else shade__means(d, p, factor, n, bytes, mean);
 }
 
 /* Makes the clip rectangle of a picture from the decoder's.  With a sink, the picture is one row of
    RGBA8, and the sink gets it as R, G, B bytes. */
-static shade_result shade__convert(const shade__decoder *d, const shade_target *to, int factor,
+static shade_result shade__convert(const shade__decoder *d, const shade_target *to,
                                    shade_write_fn *sink, void *user)
 {
     shade__halving *h = d->halving;
@@ -9937,7 +9952,7 @@ static shade_result shade__convert(const shade__decoder *d, const shade_target *
             for (int i = 0; i < n; i++)
                 h->column[i] = shade__cut_of(d->from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
-            shade__reduce(d, to, factor, x, y, n, rgba);
+            shade__reduce(d, to, x, y, n, rgba);
             shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
             if (!sink) continue;
 
@@ -9961,8 +9976,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
         shade__rows_held(in) != shade__rows_held(out) * factor)
         return SHADE_ERROR_ARGUMENT;
 
-    shade__open_decoder(in, &decoder);
-    return shade__convert(&decoder, out, factor, NULL, NULL);
+    shade__open_decoder(in, factor, &decoder);
+    return shade__convert(&decoder, out, NULL, NULL);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
@@ -10004,7 +10019,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     from.format = texture->format;
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
-    shade__open_decoder(&from, &decoder);
+    shade__open_decoder(&from, 2, &decoder);
     decoder.halving = &halving;
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     for (int n = 0; n < count; n++, from = to) {
@@ -10013,7 +10028,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        shade__convert(&decoder, &to, 2, NULL, NULL);
+        shade__convert(&decoder, &to, NULL, NULL);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -10056,10 +10071,10 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const s
     to.clip_x = 0;
     to.clip_width = to.width;
     to.clip_height = 1;
-    shade__open_decoder(&from, &decoder);
+    shade__open_decoder(&from, 1, &decoder);
     for (int y = 0; y < shade__rows_held(target) && !result; y++) {
         to.clip_y = to.row_offset + y;
-        result = shade__convert(&decoder, &to, 1, sink, user);
+        result = shade__convert(&decoder, &to, sink, user);
     }
     return result;
 }
