@@ -59,29 +59,29 @@
        >>math      1030  vectors and matrices
      Inside: the vocabulary of the rest
        >>machine   1391  processors            >>base      1626  bits, masks, rows of vectors
-       >>matrix    1823  cameras, inverses     >>power     2105  x^n
-       >>pixels    2171  formats, sRGB
+       >>matrix    1823  cameras, inverses     >>power     2106  x^n
+       >>pixels    2172  formats, sRGB
      Inside: light
-       >>lamps     2479  attenuation, cones    >>terms     2731  one term at one point
-       >>surface   2806  material and lights   >>lit       2923  the whole sum, at many points
+       >>lamps     2480  attenuation, cones    >>terms     2732  one term at one point
+       >>surface   2807  material and lights   >>lit       2924  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3312  fields by owner       >>vertices  3524  shading, projection
+       >>state     3313  fields by owner       >>vertices  3524  shading, projection
        >>triangles 3726  culling, edge setup   >>clip      4079  near, far, guard band
-       >>tiles     4265  edges and depth test  >>cover     4623  triangles, tile by tile
-       >>fragments 4889  interpolation, lod    >>texture   5162  texels, filters
-       >>store     5611  blending, packing
+       >>tiles     4265  edges and depth test  >>cover     4625  triangles, tile by tile
+       >>fragments 4893  interpolation, lod    >>texture   5167  texels, filters
+       >>store     5617  blending, packing
      Inside: calls of the renderer
-       >>check     5861  refusals              >>seen      6068  view volume, chunks
-       >>drive     6188  shade_draw            >>mesh      6377  shade_draw_mesh
+       >>check     5867  refusals              >>seen      6074  view volume, chunks
+       >>drive     6194  shade_draw            >>mesh      6384  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6781  shade_draw_lines      >>camera    6973  eye and line of sight
-       >>shape     7067  normals, edges        >>chunks    7433  sorting and boxes
-       >>rays      7602  shade_pick            >>survey    7790  experiments on a draw
-       >>explain   8251  why nothing is seen   >>replay    9427  the same for lines, pipelines
-       >>image     9754  makes mipmaps, PPM    >>presets  10086  classic materials
+       >>lines     6788  shade_draw_lines      >>camera    6980  eye and line of sight
+       >>shape     7074  normals, edges        >>chunks    7440  sorting and boxes
+       >>rays      7609  shade_pick            >>survey    7797  experiments on a draw
+       >>explain   8258  why nothing is seen   >>replay    9434  the same for lines, pipelines
+       >>image     9761  makes mipmaps, PPM    >>presets  10103  classic materials
      Sources
-       >>refs     10171                        >>history  10201
-       >>license  10207
+       >>refs     10188                        >>history  10218
+       >>license  10224
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3372,8 +3372,7 @@ enum {
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
      queued          the fragment shader's result is used             >>tiles (sends runs)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
-     inputs_unread   the shader is ours, early is set, no dither      >>fragments
-     lod             lod_texture is set: the value of u, else 0       >>fragments */
+     inputs_unread   a library_shader, early is set, no dither        >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
     const shade_pipeline *pipe;
@@ -3384,8 +3383,8 @@ typedef struct shade__plan {
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      values, value_stride;    /* floats of a vertex; its stride, a multiple of 8 */
-    int      divided;                 /* values from this one on are kept divided by w */
-    int      lod;                     /* u / w is this value, v / w the next; 0: no lod */
+    int      first_divided;           /* values from this one on are kept divided by w */
+    int      lod_u;                   /* u / w is this value, v / w the next; 0: no lod_texture */
     int      varyings;
     int      zero_to_one;
     int      early;                   /* depth is tested by >>tiles */
@@ -3468,7 +3467,7 @@ typedef struct shade__bounds {
 typedef struct shade__queue {
     shade_fragments f;                /* with perspective, varyings are over w until the flush */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
-    float    step[SHADE_LANES];       /* to the next pixel, in texels, squared: for lod */
+    float    step_square[SHADE_LANES];    /* |step to the next pixel|^2, in texels: for lod */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
@@ -3644,7 +3643,7 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
         const float *from = v->varying[again < 0 ? k - SHADE__FIRST
                                                  : plan->pipe->lod_varying + again];
         float *to = b->value + k;
-        if (k < plan->divided)
+        if (k < plan->first_divided)
             for (int i = 0; i < n; i++) to[i * stride] = from[i];
         else
             for (int i = 0; i < n; i++) to[i * stride] = from[i] * p->rw[i];
@@ -4144,7 +4143,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     for (int k = 0; k < 4; k++) p->vertex[v].clip[k] = shade__between(from[k], to[k], t);
     for (int k = SHADE__FIRST; k < plan->values; k++) {
         const float a = p->value[in * stride + k], b = p->value[out * stride + k];
-        p->value[v * stride + k] = shade__between(a, b, k < plan->divided ? s : t);
+        p->value[v * stride + k] = shade__between(a, b, k < plan->first_divided ? s : t);
     }
     return (uint8_t)v;
 }
@@ -4195,7 +4194,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
         p->vertex[i] = *v;
         p->corner[i] = (uint8_t)i;
         for (int k = SHADE__FIRST; k < plan->values; k++)
-            p->value[i * stride + k] = value[k] * (k < plan->divided ? 1 : w);
+            p->value[i * stride + k] = value[k] * (k < plan->first_divided ? 1 : w);
         out |= v->out;
         p->in_front &= v->clip[3] > 0;
     }
@@ -4218,7 +4217,7 @@ static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
         v->y = shade__snap(v->clip[1], w, -half_height, half_height);
         value[0] = shade__window_depth(v->clip[2], w, zero_to_one ? 1 : 0.5, zero_to_one ? 0 : 0.5);
         value[1] = rw;
-        for (int k = plan->divided; k < plan->values; k++) value[k] *= rw;
+        for (int k = plan->first_divided; k < plan->values; k++) value[k] *= rw;
     }
 }
 
@@ -4288,7 +4287,7 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
     SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves one for each row */
-    SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
+    SHADE__SKIPPED = -(1 << 30)    /* e of a skipped pixel: it stays negative in all rows */
 };
 
 /* Edge functions in 32 bits: e at pixel (x, y), and their steps in x and y. */
@@ -4521,7 +4520,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     float z_step[SHADE__TILE];
     uint32_t all = 0;
     for (int i = 0; i < width; i++) {
-        e0[i] = i < skip ? SHADE__CUT : a + i * ax;
+        e0[i] = i < skip ? SHADE__SKIPPED : a + i * ax;
         e1[i] = b + i * bx;
         e2[i] = c + i * cx;
         z_step[i] = zx * ((float)(x + i) + x_ref);
@@ -4666,9 +4665,9 @@ static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* away times the depth at pixel x, in the bits that the depth test sees.  row_z is the depth at the
-   x of the far corner. */
-SHADE__INLINE float shade__key(float away, const shade__triangle *t, float row_z, int x)
+/* away times the depth at pixel x: it grows with the distance.  The depth has the bits that the
+   depth test sees.  row_z is the depth at the x of the far corner. */
+SHADE__INLINE float shade__signed_depth(float away, const shade__triangle *t, float row_z, int x)
 {
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
@@ -4708,14 +4707,15 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__
         const int to = shade__min(first + size - 1, s->end);
         const int inside = shade__all_inside(t, least, first - t->x0);
         float *farthest = &b->farthest[row * b->across + cell];
-        const int hidden = shade__key(away, t, z_near, rightward ? from : to) > *farthest;
+        const int hidden = shade__signed_depth(away, t, z_near, rightward ? from : to) > *farthest;
 
         if (from > s->x && (hidden || inside != s->inside)) return;
         s->inside = inside;
         s->last = to;
         if (hidden) s->x = to + 1;
         else if (inside && whole)
-            *farthest = shade__minf(*farthest, shade__key(away, t, z_far, rightward ? to : from));
+            *farthest = shade__minf(*farthest, shade__signed_depth(away, t, z_far,
+                                                                   rightward ? to : from));
     }
 }
 
@@ -4954,7 +4954,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
 
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
         const float *value = s->value + corner[3] * stride;
-        for (int k = SHADE__FIRST; k < plan->divided; k++) {
+        for (int k = SHADE__FIRST; k < plan->first_divided; k++) {
             t->base[k] = value[k];
             t->gx[k] = t->gy[k] = 0;
         }
@@ -4968,8 +4968,8 @@ SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
                                       shade__piece p, shade__queue *q)
 {
     shade__in rw = q->rw + p.lane;
-    shade__out step = q->step + p.lane;
-    const int k = plan->lod;
+    shade__out step = q->step_square + p.lane;
+    const int k = plan->lod_u;
     const float w = (float)plan->pipe->lod_texture->width;
     const float h = (float)plan->pipe->lod_texture->height;
     const float u0 = value[k], v0 = value[k + 1], x_ref = t->x_ref;
@@ -5059,7 +5059,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
     shade__piece p;
     p.y = run->y;
     /* a short run fits one piece: saves 5 % of a dense mesh */
-    if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
+    if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod_u) {
         p.x = x;
         p.lane = q->f.count;
         p.back = 0;
@@ -5078,7 +5078,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
         p.back = wide ? 0 : back;
         if (wide) shade__append(d, t, value, p, SHADE__WIDE);
         else shade__append(d, t, value, p, 8);
-        if (plan->lod)
+        if (plan->lod_u)
             for (int i = 0; i < width; i += 8, p.x += 8, p.lane += 8)
                 shade__append_step(plan, t, value, p, q);
         x += take;
@@ -5115,7 +5115,7 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
     const int n = q->f.count;
     for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
     shade__repeat(q->rw, n);
-    shade__repeat(q->step, n);
+    shade__repeat(q->step_square, n);
     if (plan->inputs_unread) return;
     shade__repeat(q->f.x, n);
     shade__repeat(q->f.y, n);
@@ -5142,11 +5142,11 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     shade_colors c;
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
-    if (plan->divided == SHADE__FIRST && plan->varyings)
+    if (plan->first_divided == SHADE__FIRST && plan->varyings)
         shade__undivide(q->rw, q->f.varying[0], plan->varyings);
-    if (plan->lod) {    /* log2 of the step; NaN counts as a step of 0 */
+    if (plan->lod_u) {    /* log2 of the step; NaN counts as a step of 0 */
         SHADE_EACH_LANE(i) {
-            float square = shade__keep(q->step[i], shade__mask(q->step[i] >= 0));
+            float square = shade__keep(q->step_square[i], shade__mask(q->step_square[i] >= 0));
             q->f.lod[i] = -0.5f * shade__neg_log2(square);
         }
     }
@@ -5155,7 +5155,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (!plan->inputs_unread) {    /* else our shader sets all that is read: saves 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
-        if (!plan->lod) SHADE__ZERO(q->f.lod);
+        if (!plan->lod_u) SHADE__ZERO(q->f.lod);
         q->f.eye = plan->eye;
     }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
@@ -6216,7 +6216,7 @@ static shade__compare shade__compare_of(const shade_raster *r)
 /* Not SHADE__COLD: gcc propagates `cold` to callers, here shade__run_draw, and from there to every
    stage; their loops would stay scalar (4 times slower). */
 static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_pipeline *p,
-                                             int own, shade__plan *plan)
+                                             int library_shader, shade__plan *plan)
 {
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
     const int early = t->depth && !p->may_discard, kept = early && !p->raster.depth_read_only;
@@ -6235,8 +6235,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     plan->y1 = clip[3];
     plan->varyings = p->varyings;
     plan->values = SHADE__FIRST + p->varyings;
-    plan->divided = perspective ? SHADE__FIRST : plan->values;
-    plan->lod = p->lod_texture ? plan->divided + (perspective ? p->lod_varying : 0) : 0;
+    plan->first_divided = perspective ? SHADE__FIRST : plan->values;
+    plan->lod_u = p->lod_texture ? plan->first_divided + (perspective ? p->lod_varying : 0) : 0;
     if (p->lod_texture && !perspective) plan->values += 2;
     plan->value_stride = (plan->values + 7) / 8 * 8;
     plan->zero_to_one = p->raster.depth_zero_to_one != 0;
@@ -6246,16 +6246,17 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     if (!early) plan->tile_test.always = UINT32_MAX;
     plan->queued = p->fragment && (plan->color || p->may_discard);
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
-    plan->inputs_unread = own && early && !t->dither;
+    plan->inputs_unread = library_shader && early && !t->dither;
     plan->away = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
     plan->half_width = t->width * 128;
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a checked target, and changes the pipeline; it cannot fail.  own: our fragment
-   shader. */
-static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
-                                    shade_vec3 eye, shade__supply *supply, shade_stats *stats)
+/* Draws to a checked target, and changes the pipeline; it cannot fail.  library_shader: the
+   fragment shader is one of this file, not the caller's. */
+static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe,
+                                    int library_shader, shade_vec3 eye, shade__supply *supply,
+                                    shade_stats *stats)
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
@@ -6263,7 +6264,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
         pipe->varyings = 0;
         pipe->lod_texture = NULL;
     }
-    shade__make_plan(target, pipe, own, &d.plan);
+    shade__make_plan(target, pipe, library_shader, &d.plan);
     d.plan.eye = eye;
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
@@ -7826,9 +7827,9 @@ typedef struct shade__survey {
     shade_draw_state state;              /* but its material and lamps follow */
     shade_material   material;           /* the given one, or white */
     shade_light      lamp[SHADE__SUSPECTS];
-    int              own_lamps;          /* lamp is in use, not state.lighting.lights */
+    int              lamps_replaced;     /* lamp is in use, not state.lighting.lights */
     uint32_t         white_map;          /* the map counts as white, with its holes */
-    float            apart;              /* depths within this of farthest do not count */
+    float            far_margin;         /* depths this near to farthest do not count; 0: all do */
     int              lit_only;           /* count only pixels lit in the caller's picture */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
@@ -7836,7 +7837,7 @@ typedef struct shade__survey {
     float dim;                           /* channels below it are stored as 8 of 255 at most */
     shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
-    int   own_eye;                       /* light takes eye, not the eye of state.view */
+    int   eye_replaced;                  /* light takes eye, not the eye of state.view */
     shade_vec3 eye;
 } shade__survey;
 
@@ -7900,7 +7901,7 @@ static void shade__judge(const void *uniforms, const shade_fragments *SHADE_REST
         const float a = over ? out->color[3][i] : 1;
         int counts = !(trial->least > 0);
         for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
-        if (s->apart > 0) counts &= !shade__within(in->z[i] - s->farthest, s->apart);
+        if (s->far_margin > 0) counts &= !shade__within(in->z[i] - s->farthest, s->far_margin);
         if (s->lit_only) counts &= shade__is_lit_there(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
         if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
@@ -7914,11 +7915,11 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     shade_draw_state state = s->state;
     shade_stats stats;
     state.material = &s->material;
-    if (s->own_lamps) state.lighting.lights = s->lamp;
+    if (s->lamps_replaced) state.lighting.lights = s->lamp;
     if (!(trial->least > 0)) t.color = NULL;
     shade__scene_of(&t, &s->mesh, &state, &trial->scene);
     trial->scene.white_map = s->white_map;
-    if (s->own_eye) {
+    if (s->eye_replaced) {
         shade_vec4 *eye = &trial->scene.surface.eye;
         trial->scene.eye = s->eye;
         *eye = shade__xyzw(s->eye, eye->w);
@@ -8144,24 +8145,24 @@ static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flag
     SHADE__ZERO(*l);
     l->light_count = 1;
     l->flags = flags;
-    q->own_lamps = 1;
+    q->lamps_replaced = 1;
     q->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
     q->lamp[0].position = position;
 }
 
 /* Copies the first of the given lamps into the survey. */
-static void shade__own_lamps(shade__survey *q)
+static void shade__copy_lamps(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
     l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
-    q->own_lamps = 1;
+    q->lamps_replaced = 1;
     for (int i = 0; i < l->light_count; i++) q->lamp[i] = l->lights[i];
 }
 
 /* The first of the given lamps, without attenuation and exponent. */
 static void shade__light_everywhere(shade__survey *q)
 {
-    shade__own_lamps(q);
+    shade__copy_lamps(q);
     for (int i = 0; i < q->state.lighting.light_count; i++) {
         shade_light *lamp = &q->lamp[i];
         lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
@@ -8178,7 +8179,7 @@ static void shade__light_from_eye(shade__survey *q)
                                 (float)c->perspective), 0);
 }
 
-/* The lamps lose their cones.   pre: shade__own_lamps */
+/* The lamps lose their cones.   pre: shade__copy_lamps */
 static void shade__open_cones(shade__survey *q)
 {
     for (int i = 0; i < q->state.lighting.light_count; i++)
@@ -8649,7 +8650,7 @@ static int shade__is_far(const shade__survey *s)
     const shade_compare test = s->given_state->raster.depth_test;
     shade__survey q = *s;
     shade__look_at_all(&q);
-    q.apart = FLT_MIN;
+    q.far_margin = FLT_MIN;
     return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
 }
 
@@ -8690,7 +8691,7 @@ static int shade__depth_hides(shade__survey *q)
 {
     const int hidden = !shade__is_drawn(q) || shade__is_far(q);    /* with the given bias */
     if (!hidden || !shade__all_hidden(q)) return 0;
-    q->apart = 1e-6f;    /* floats are too coarse to tell which is nearer */
+    q->far_margin = 1e-6f;    /* floats are too coarse to tell which is nearer */
     return shade__covered(q) > 0;
 }
 
@@ -9107,7 +9108,7 @@ static int shade__eye_is_astray(shade__survey *q)
     const shade_vec3 at = shade__xyz(camera.col[3]);
     const unsigned terms = q->state.lighting.terms;
     shade__survey given = *q;
-    q->own_eye = 1;
+    q->eye_replaced = 1;
     if (q->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
         q->eye = shade_neg(shade__single3(c->sight));
         if (shade_dot(shade__xyz(camera.col[2]), q->eye) >= 0) return 0;
@@ -9323,7 +9324,7 @@ static int shade__helps(const shade__survey *seen, const char *why)
     else if (why == shade__black_material) shade__polish(&q);
     else if (why == shade__fall_off) shade__light_everywhere(&q);
     else if (why == shade__no_cone) {
-        shade__own_lamps(&q);
+        shade__copy_lamps(&q);
         shade__open_cones(&q);
     } else {
         if (l->model > SHADE_MODEL_LAMBERT) return 0;
@@ -9778,23 +9779,24 @@ static shade_result shade__check_picture(const shade_target *t)
 }
 
 /* Along one axis, texel i of a mipmap covers a share of each of pixels 2 i, 2 i + 1 and, if the
-   size is odd, 2 i + 2 of the level above. */
-typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
+   size is odd, 2 i + 2 of the level above.  For example, 5 pixels become 2 texels, 2.5 pixels each:
+   the shares of texel 0 are 1, 1, 0.5, those of texel 1 are 0.5, 1, 1. */
+typedef struct shade__shares { int pixels; double share[3]; } shade__shares;
 
 /* Tables to make a level of mipmaps. */
 enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
 typedef struct shade__halving {
     double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
-    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
+    shade__shares column[SHADE_LANES];  /* of the texels of a packet */
 } shade__halving;
 
-/* The linear light of packed pixels: of[k] is indexed by the value of channel k. */
+/* The linear light of packed pixels: table[k] is indexed by the value of channel k. */
 typedef struct shade__decoder {
     const shade_target *from;
     int factor;                 /* each side becomes shorter by this factor, or about */
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
-    const float *of[4];
+    const float *table[4];
     float value[512];    /* of colours, then of alpha; channels of equal size share values */
 } shade__decoder;
 
@@ -9807,9 +9809,9 @@ static void shade__open_decoder(const shade_target *t, int factor, shade__decode
     d->factor = factor;
     d->halving = NULL;
     for (int k = 0; k < 4; k++) {
-        d->of[k] = at;
+        d->table[k] = at;
         if ((k == 1 || k == 2) && l.full[k] == l.full[0]) {
-            d->of[k] = d->of[0];
+            d->table[k] = d->table[0];
             continue;
         }
         for (int v = 0; v <= l.full[k]; v++) {
@@ -9829,8 +9831,8 @@ SHADE__INLINE float shade__light_of(const shade__decoder *d, const shade__layout
         SHADE_MEMCPY(&c, p + 4 * k, 4);
         return c;
     }
-    if (bytes == 4) return d->of[k][p[l->shift[k] / 8]];
-    return d->of[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
+    if (bytes == 4) return d->table[k][p[l->shift[k] / 8]];
+    return d->table[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
 }
 
 /* The bytes from row to row of the picture that is read. */
@@ -9864,10 +9866,10 @@ SHADE__INLINE double shade__light_4(const shade__decoder *d, const shade__layout
     return d->halving->light[(k == 3 ? 256 : 0) + p[l->shift[k] / 8]];
 }
 
-static shade__cut shade__cut_of(int size, int smaller, int i)
+static shade__shares shade__shares_of(int size, int smaller, int i)
 {
     const double scale = (double)size / smaller, from = i * scale, to = (i + 1) * scale;
-    shade__cut c = { size == smaller ? 1 : 2 + size % 2, { 0, 0, 0 } };
+    shade__shares c = { size == smaller ? 1 : 2 + size % 2, { 0, 0, 0 } };
     for (int k = 0; k < c.pixels; k++) {
         const int first = 2 * i + k;
         c.share[k] = (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
@@ -9890,15 +9892,15 @@ SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, int n
 }
 
 /* The same for any format and size. */
-SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows, const uint8_t *p,
-                                 int n, const int bytes, float *mean)
+SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__shares *rows,
+                                 const uint8_t *p, int n, const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
     const size_t pitch = shade__pitch(d);
-    const shade__cut *column = d->halving->column;
+    const shade__shares *column = d->halving->column;
     const int columns = column->pixels, lines = rows->pixels;
     for (int i = 0; i < n; i++, p += 2 * bytes) {
-        const shade__cut *c = &column[i];
+        const shade__shares *c = &column[i];
         const uint8_t *at = p;
         double sum[4] = { 0, 0, 0, 0 }, all = 0;
         for (int j = 0; j < lines; j++, at += pitch)
@@ -9925,7 +9927,7 @@ static void shade__reduce(const shade__decoder *d, const shade_target *to, int x
     const int bytes = d->layout.bytes, factor = d->factor;
     const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
     if (d->halving) {
-        const shade__cut rows = shade__cut_of(from->height, to->height, y);
+        const shade__shares rows = shade__shares_of(from->height, to->height, y);
         const int even = rows.pixels == 2 && d->halving->column[0].pixels == 2;
         if (bytes == 4 && even) shade__halve(d, p, n, mean);
         else if (bytes == 4) shade__shrink(d, &rows, p, n, 4, mean);
@@ -9950,7 +9952,7 @@ static shade_result shade__convert(const shade__decoder *d, const shade_target *
         const int n = shade__min(SHADE_LANES, clip[2] - x);
         if (h)
             for (int i = 0; i < n; i++)
-                h->column[i] = shade__cut_of(d->from->width, to->width, x + i);
+                h->column[i] = shade__shares_of(d->from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
             shade__reduce(d, to, x, y, n, rgba);
             shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
