@@ -53,10 +53,10 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     129  options               >>types      256  materials, lamps, targets, states
-       >>light      435  the equation, colour  >>draw       543  shaders, meshes, pixels
-       >>tools      696  explain, lines, rays  >>plumbing   891  compilers, flags and bits
-       >>math      1030  vectors and matrices
+       >>config     129  options               >>plumbing   256  compilers, flags and bits
+       >>types      393  materials, lamps, targets, states
+       >>light      572  the equation, colour  >>draw       680  shaders, meshes, pixels
+       >>tools      833  explain, lines, rays  >>math      1030  vectors and matrices
      Inside: the vocabulary of the rest
        >>machine   1391  processors            >>base      1626  bits, masks, rows of vectors
        >>matrix    1823  cameras, inverses     >>power     2106  x^n
@@ -153,7 +153,7 @@
 
    You may define any macro whose name is one capital letter; in files without the implementation
    also e, g, i, j, o and q.
-                                                                                          >>types */
+                                                                                       >>plumbing */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
 /* If you include this file inside a namespace, the three headers below would declare their types
    there, with hundreds of errors.  This makes one error instead, and its name says what to do. */
@@ -251,6 +251,143 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
 #else
 #define SHADE__OPEN SHADE__QUIET
 #define SHADE__CLOSE SHADE__LOUD
+#endif
+
+/*--------------------------------------------------------------------------------------- >>plumbing
+   What inline functions and loops over lanes need of compilers, and what flags do to bits.
+
+   Fast math.  Compiled by gcc, the implementation has the same bits with -ffast-math, -Ofast and
+   their parts.  clang has no pragma that keeps the bits there, so the implementation refuses
+   -ffast-math and -ffinite-math-only.  It cannot see the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
+   -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
+   below 1 show.
+     Inline functions are compiled into your files.  They have the same bits under all flags but
+   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
+   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
+   give the same bits everywhere with -ffp-contract=off.
+
+   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
+   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
+   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
+
+   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
+   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
+   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
+                                                                                          >>types */
+
+/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
+   once did; SHADE__BEGIN turns that off for this file. */
+#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
+#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
+s390x: -std=gnu99 or -fexcess-precision=fast"
+#else
+#define SHADE__EVAL_FLOAT
+#endif
+
+/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
+   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
+   the file. */
+#define SHADE__INLINE static SHADE__ALWAYS_INLINE
+#ifdef __cplusplus
+#define SHADE__EXPORT SHADE__ALWAYS_INLINE
+#else
+#define SHADE__EXPORT SHADE__INLINE
+#endif
+
+/* Compilers optimise the builtin even with -ffreestanding. */
+#ifndef SHADE_MEMCPY
+#ifdef SHADE__GNU
+#define SHADE_MEMCPY __builtin_memcpy
+#else
+#include <string.h>
+#define SHADE_MEMCPY memcpy
+#endif
+#endif
+#ifdef SHADE_NO_LIBM
+#define SHADE__SQRT shade__own_sqrt
+#elif defined(__cplusplus) && defined(SHADE__GNU)
+#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
+#else
+#include <math.h>
+#define SHADE__SQRT sqrtf
+#endif
+
+/* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
+   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
+#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
+#else
+#define SHADE__TIMES(a, b) ((a) * (b))
+#endif
+
+/* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
+   vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
+   they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
+   braces around the whole where it follows an if. */
+#if defined(__clang__)
+#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
+#define SHADE__UNROLL_4
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
+#ifdef __OPTIMIZE_SIZE__
+#define SHADE__UNROLL_4
+#else
+#define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
+#endif
+#else
+#define SHADE__NO_UNROLL
+#define SHADE__UNROLL_4
+#endif
+#ifdef __TINYC__
+#define SHADE__COUNTER ptrdiff_t
+#else
+#define SHADE__COUNTER int
+#endif
+#ifdef __clang__    /* AVX-512 gathers take longer than loads one by one */
+#define SHADE__ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
+#else
+#define SHADE__ONE_BY_ONE
+#endif
+#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
+#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
+
+/* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
+   turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
+   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
+   caller to an inlined function.  So the implementation is exact, with the inline functions that
+   it calls; those that you call use SHADE__TIMES.  clang still applies -ffast-math to ?: and to
+   calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
+   where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
+   contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
+#if defined(__clang__) && \
+    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
+     (__clang_major__ >= 16 && defined(__aarch64__)))
+#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
+    _Pragma("clang fp contract(off)") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
+#elif defined(__clang__)
+#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
+#elif defined(_MSC_VER)
+#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
+    __pragma(fp_contract(off)) SHADE__OPEN
+#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
+#elif defined(__GNUC__)
+#define SHADE__BEGIN _Pragma("GCC push_options") \
+    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
+    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
+    SHADE__EVAL_FLOAT SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
+#else
+#define SHADE__BEGIN SHADE__OPEN
+#define SHADE__END SHADE__CLOSE
 #endif
 
 /*------------------------------------------------------------------------------------------ >>types
@@ -695,7 +832,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 
 /*------------------------------------------------------------------------------------------ >>tools
    Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
-                                                                                       >>plumbing */
+                                                                                           >>math */
 
 /* ---- explanations */
 
@@ -887,143 +1024,6 @@ SHADEDEF const char    *shade_preset_name(shade_preset preset);
 SHADEDEF shade_material shade_linear_material(shade_material display);
 
 SHADE__CLOSE
-
-/*--------------------------------------------------------------------------------------- >>plumbing
-   What inline functions and loops over lanes need of compilers, and what flags do to bits.
-
-   Fast math.  Compiled by gcc, the implementation has the same bits with -ffast-math, -Ofast and
-   their parts.  clang has no pragma that keeps the bits there, so the implementation refuses
-   -ffast-math and -ffinite-math-only.  It cannot see the other parts, nor -ffp-contract=fast, which
-   overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
-   -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
-   below 1 show.
-     Inline functions are compiled into your files.  They have the same bits under all flags but
-   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
-   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
-     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
-   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
-   give the same bits everywhere with -ffp-contract=off.
-
-   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
-   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
-   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
-
-   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
-   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
-   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
-                                                                                           >>math */
-
-/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
-   once did; SHADE__BEGIN turns that off for this file. */
-#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
-#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
-#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
-s390x: -std=gnu99 or -fexcess-precision=fast"
-#else
-#define SHADE__EVAL_FLOAT
-#endif
-
-/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
-   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
-   the file. */
-#define SHADE__INLINE static SHADE__ALWAYS_INLINE
-#ifdef __cplusplus
-#define SHADE__EXPORT SHADE__ALWAYS_INLINE
-#else
-#define SHADE__EXPORT SHADE__INLINE
-#endif
-
-/* Compilers optimise the builtin even with -ffreestanding. */
-#ifndef SHADE_MEMCPY
-#ifdef SHADE__GNU
-#define SHADE_MEMCPY __builtin_memcpy
-#else
-#include <string.h>
-#define SHADE_MEMCPY memcpy
-#endif
-#endif
-#ifdef SHADE_NO_LIBM
-#define SHADE__SQRT shade__own_sqrt
-#elif defined(__cplusplus) && defined(SHADE__GNU)
-#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
-#else
-#include <math.h>
-#define SHADE__SQRT sqrtf
-#endif
-
-/* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
-   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
-#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
-    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
-#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
-#else
-#define SHADE__TIMES(a, b) ((a) * (b))
-#endif
-
-/* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
-   vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
-   they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
-   braces around the whole where it follows an if. */
-#if defined(__clang__)
-#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
-#define SHADE__UNROLL_4
-#elif defined(__GNUC__) && __GNUC__ >= 8
-#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
-#ifdef __OPTIMIZE_SIZE__
-#define SHADE__UNROLL_4
-#else
-#define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
-#endif
-#else
-#define SHADE__NO_UNROLL
-#define SHADE__UNROLL_4
-#endif
-#ifdef __TINYC__
-#define SHADE__COUNTER ptrdiff_t
-#else
-#define SHADE__COUNTER int
-#endif
-#ifdef __clang__    /* AVX-512 gathers take longer than loads one by one */
-#define SHADE__ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
-#else
-#define SHADE__ONE_BY_ONE
-#endif
-#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
-#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
-
-/* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
-   turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
-   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
-   caller to an inlined function.  So the implementation is exact, with the inline functions that
-   it calls; those that you call use SHADE__TIMES.  clang still applies -ffast-math to ?: and to
-   calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
-   where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
-   contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
-#if defined(__clang__) && \
-    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
-     (__clang_major__ >= 16 && defined(__aarch64__)))
-#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
-    _Pragma("clang fp contract(off)") SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
-#elif defined(__clang__)
-#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
-#elif defined(_MSC_VER)
-#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
-    __pragma(fp_contract(off)) SHADE__OPEN
-#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
-#elif defined(__GNUC__)
-#define SHADE__BEGIN _Pragma("GCC push_options") \
-    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
-    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
-    SHADE__EVAL_FLOAT SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
-#else
-#define SHADE__BEGIN SHADE__OPEN
-#define SHADE__END SHADE__CLOSE
-#endif
 
 SHADE__BEGIN
 
