@@ -75,13 +75,13 @@
        >>drive     6194  shade_draw            >>mesh      6384  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
        >>lines     6788  shade_draw_lines      >>camera    6980  eye and line of sight
-       >>shape     7074  normals, edges        >>chunks    7440  sorting and boxes
-       >>rays      7609  shade_pick            >>survey    7797  experiments on a draw
-       >>explain   8258  why nothing is seen   >>replay    9434  the same for lines, pipelines
-       >>image     9761  makes mipmaps, PPM    >>presets  10103  classic materials
+       >>shape     7074  normals, edges        >>chunks    7451  sorting and boxes
+       >>rays      7610  shade_pick            >>survey    7798  experiments on a draw
+       >>explain   8259  why nothing is seen   >>replay    9435  the same for lines, pipelines
+       >>image     9762  makes mipmaps, PPM    >>presets  10104  classic materials
      Sources
-       >>refs     10188                        >>history  10218
-       >>license  10224
+       >>refs     10189                        >>history  10219
+       >>license  10225
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -873,12 +873,6 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
-/* 0 only if nothing in the box can reach a pixel of the target's clip rectangle and strip.
-   shade_draw_mesh skips chunks by this test; use it to skip ranges of indices in your own
-   pipelines.  It allows for all rounding of transforms and clipping, and for any w.  A zero matrix
-   is the identity.  1 for NaN, for low > high, and for a bad target. */
-SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
-                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 
 /* ---- lines */
 
@@ -909,6 +903,12 @@ SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
 SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low, shade_vec3 *high);
+/* 0 only if nothing in the box, in object space, can reach a pixel of the target's clip rectangle
+   and strip.  shade_draw_mesh skips chunks by this test; with it you can skip meshes, or ranges of
+   indices in your own pipelines.  It allows for all rounding of transforms and clipping, and for
+   any w.  A zero matrix is the identity.  1 for NaN, for low > high, and for a bad target. */
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
@@ -7076,6 +7076,7 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
      in      meshes, the caller's memory         out  the caller's arrays
      way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
              sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
+             box_visible: frustum_of and in_view of >>seen.
              mat4_fit: camera_of, frame_of, step_back
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
@@ -7369,6 +7370,16 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
+{
+    shade__frustum frustum;
+    if (!target || shade__check_target(target)) return 1;
+    clip_from_object = shade__or_identity(clip_from_object);
+    shade__frustum_of(target, &clip_from_object, depth_zero_to_one, &frustum);
+    return shade__in_view(&frustum, low, high);
+}
+
 /* The camera as a matrix: columns right, up and back, and a point on the line of sight.  It is
    exactly the identity for an eye on the z axis that looks down -z. */
 static shade_mat4 shade__frame_of(const shade__camera *c)
@@ -7438,7 +7449,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 }
 
 /*----------------------------------------------------------------------------------------- >>chunks
-   Sorts the triangles of a mesh in space and cuts them into chunks with boxes; tests a box.
+   Sorts the triangles of a mesh in space and cuts them into chunks with boxes.
      in      meshes                              out  the caller's chunks and indices
      way     mesh_chunks: sort_triangles: split: longest_axis, partition; then box_chunk
      method  The list is split across its longest axis, at the border of a chunk nearest to the
@@ -7594,16 +7605,6 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, s
         shade__box_chunk(&listed, &chunks[i]);
     }
     return SHADE_OK;
-}
-
-SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
-                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
-{
-    shade__frustum frustum;
-    if (!target || shade__check_target(target)) return 1;
-    clip_from_object = shade__or_identity(clip_from_object);
-    shade__frustum_of(target, &clip_from_object, depth_zero_to_one, &frustum);
-    return shade__in_view(&frustum, low, high);
 }
 
 /*------------------------------------------------------------------------------------------- >>rays
