@@ -5694,15 +5694,16 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const fl
         shade__pack_bytes(l, rgba, packed, blocks);
         return;
     }
-    for (int k = 0; encoded && k < 3; k++) {
-        float *c = rgba + k * SHADE_LANES;
-        SHADE_ALIGNED float u[SHADE_LANES];
-        SHADE__EACH_BLOCK(i, blocks) {
-            c[i] = shade__saturate(c[i]);
-            u[i] = shade__encode_log(c[i]);
+    if (encoded)
+        for (int k = 0; k < 3; k++) {
+            float *c = rgba + k * SHADE_LANES;
+            SHADE_ALIGNED float u[SHADE_LANES];
+            SHADE__EACH_BLOCK(i, blocks) {
+                c[i] = shade__saturate(c[i]);
+                u[i] = shade__encode_log(c[i]);
+            }
+            SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
         }
-        SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
-    }
     SHADE__EACH_BLOCK(i, blocks) { threshold[i] = 0.5f; }
     if (t->dither && l->bytes == 2) shade__dither(x, y, threshold, blocks);
     shade__pack_channels(l, rgba, threshold, packed, blocks);
@@ -7960,8 +7961,9 @@ static int shade__shows(shade__survey *s)
 static int shade__differ(const shade__survey *a, const shade__survey *b)
 {
     if (shade__covered(a) != shade__covered(b)) return 1;
-    for (float least = 0.5f; least > 0.03f && a->target->color; least *= 0.7f)
-        if (shade__count(a, least) != shade__count(b, least)) return 1;
+    if (a->target->color)
+        for (float least = 0.5f; least > 0.03f; least *= 0.7f)
+            if (shade__count(a, least) != shade__count(b, least)) return 1;
     return 0;
 }
 
@@ -8593,9 +8595,9 @@ static int shade__test_is_turned(shade__survey *q)
 
 static const shade__rung shade__test[] = {
     { shade__test_is_turned,
-      "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: "
-      "SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER and 0 for "
-      "shade_mat4_perspective_reversed." },
+      "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: use "
+      "SHADE_COMPARE_LESS with depth cleared to 1, or with shade_mat4_perspective_reversed "
+      "SHADE_COMPARE_GREATER with depth cleared to 0." },
     { NULL, NULL }
 };
 
@@ -8707,9 +8709,9 @@ static const shade__rung shade__unseen[] = {
       "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the mesh's own "
       "depth: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
     { shade__depth_uncleared,
-      "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
+      "target.depth holds 0 where the mesh is (1 with SHADE_COMPARE_GREATER) or NaN, so that "
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
-      "0 for a reversed projection." },
+      "of 0 for a reversed projection." },
     { shade__depth_is_far,
       "Every pixel of the mesh has the depth of the far plane, so that nothing passes "
       "raster.depth_test: near of state.projection is too small for floats, compared with far; "
@@ -9635,9 +9637,9 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
     raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
     raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth possible */
     if (!shade__run_again(&part).stats.fragments)
-        return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
+        return "target.depth holds 0 where it is drawn (1 with SHADE_COMPARE_GREATER) or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
-               "depth of 1, or 0 for a reversed projection.";
+               "depth of 1, or of 0 for a reversed projection.";
     raster->depth_bias *= 2e-6f;    /* depths of coinciding planes differ by less */
     if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
         return "The lines lie in surfaces that target.depth already holds, and these hide them: "
