@@ -53,35 +53,35 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     129  options               >>plumbing   256  compilers, flags and bits
-       >>types      393  materials, lamps, targets, states
-       >>light      572  the equation, colour  >>draw       680  shaders, meshes, pixels
-       >>tools      833  explain, lines, rays  >>math      1030  vectors and matrices
+       >>config     130  options               >>plumbing   257  compilers, flags and bits
+       >>types      396  materials, lamps, targets, states
+       >>light      581  the equation, colour  >>draw       689  shaders, meshes, pixels
+       >>tools      848  explain, lines, rays  >>math      1048  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1391  processors            >>base      1626  bits, masks, rows of vectors
-       >>matrix    1823  cameras, inverses     >>power     2106  x^n
-       >>pixels    2172  formats, sRGB
+       >>machine   1412  processors            >>base      1647  bits, masks, rows of vectors
+       >>matrix    1844  cameras, inverses     >>power     2127  x^n
+       >>pixels    2193  formats, sRGB
      Inside: light
-       >>lamps     2480  attenuation, cones    >>terms     2732  one term at one point
-       >>surface   2807  material and lights   >>lit       2924  the whole sum, at many points
+       >>lamps     2502  attenuation, cones    >>terms     2754  one term at one point
+       >>surface   2829  material and lights   >>lit       2946  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3313  fields by owner       >>vertices  3524  shading, projection
-       >>triangles 3726  culling, edge setup   >>clip      4079  near, far, guard band
-       >>tiles     4265  edges and depth test  >>cover     4625  triangles, tile by tile
-       >>fragments 4893  interpolation, lod    >>texture   5167  texels, filters
-       >>store     5617  blending, packing
+       >>state     3336  fields by owner       >>vertices  3548  shading, projection
+       >>triangles 3750  culling, edge setup   >>clip      4103  near, far, guard band
+       >>tiles     4289  edges and depth test  >>cover     4651  triangles, tile by tile
+       >>fragments 4919  interpolation, lod    >>texture   5194  texels, filters
+       >>store     5644  blending, packing
      Inside: calls of the renderer
-       >>check     5867  refusals              >>seen      6074  view volume, chunks
-       >>drive     6194  shade_draw            >>mesh      6384  shade_draw_mesh
+       >>check     5895  refusals              >>seen      6102  view volume, chunks
+       >>drive     6222  shade_draw            >>mesh      6412  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6788  shade_draw_lines      >>camera    6980  eye and line of sight
-       >>shape     7074  normals, edges        >>chunks    7451  sorting and boxes
-       >>rays      7610  shade_pick            >>survey    7798  experiments on a draw
-       >>explain   8259  why nothing is seen   >>replay    9435  the same for lines, pipelines
-       >>image     9762  makes mipmaps, PPM    >>presets  10104  classic materials
+       >>lines     6816  shade_draw_lines      >>camera    7008  eye and line of sight
+       >>shape     7102  normals, edges        >>chunks    7479  sorting and boxes
+       >>rays      7638  shade_pick            >>survey    7826  experiments on a draw
+       >>explain   8288  why nothing is seen   >>replay    9464  the same for lines, pipelines
+       >>image     9792  makes mipmaps, PPM    >>presets  10134  classic materials
      Sources
-       >>refs     10189                        >>history  10219
-       >>license  10225
+       >>refs     10219                        >>history  10249
+       >>license  10255
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -91,8 +91,9 @@
      Window       x right, y DOWN, row 0 on top.  Pixel (i,j) has its centre at (i + 1/2, j + 1/2).
                   X = (x/w + 1) width/2,   Y = (1 - y/w) height/2.
      Depth        0 at near, 1 at far; the test is LESS, and the buffer is cleared to 1.  Reversed
-                  depth takes depth_zero_to_one, shade_mat4_perspective_reversed,
-                  SHADE_COMPARE_GREATER and a buffer cleared to 0.
+                  depth is 1 at near and falls: set SHADE_COMPARE_GREATER and clear the buffer to 0.
+                  shade_mat4_perspective_reversed gives it, with depth_zero_to_one set, and so does
+                  shade_mat4_perspective with near and far exchanged.
      Front face   counter-clockwise as seen on the screen.
      Coverage     vertices are snapped to floor(256 X + 1/2) / 256; edge functions are exact;
                   pixel centres on an edge follow the top-left rule.
@@ -151,8 +152,8 @@
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
 
-   You may define any macro whose name is one capital letter; in files without the implementation
-   also e, g, i, j, o and q.
+   This file uses no name of one capital letter, so that a macro of yours, such as the I of
+   <complex.h>, does no harm.  Without the implementation e, g, i, j, o and q are free as well.
                                                                                        >>plumbing */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
 /* If you include this file inside a namespace, the three headers below would declare their types
@@ -273,9 +274,10 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
    namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
    implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
 
-   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
-   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
-   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
+   tcc 0.9.27 for x86-64 has a bug: a function that returns a shade_vec3 writes 16 bytes in place of
+   12.  The last 4 may fall on the variable that was declared last before the call, if its size is
+   4, 12, 20, ... bytes: an int, a float, a shade_material.  So some declarations of this file stand
+   in an order that avoids this, and SHADE_EACH_LANE has a 64-bit counter in tcc.
                                                                                           >>types */
 
 /* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
@@ -358,14 +360,15 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
 #define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
 
-/* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
-   turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
-   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
-   caller to an inlined function.  So the implementation is exact, with the inline functions that
-   it calls; those that you call use SHADE__TIMES.  clang still applies -ffast-math to ?: and to
-   calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
-   where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
-   contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
+/* Between SHADE__BEGIN and SHADE__END names have C linkage, and arithmetic has the same bits under
+   all options.  SHADE__BEGIN turns off the parts of -ffast-math.  It also turns off contraction,
+   which rounds a * b + c once on some processors and twice on others; for gcc >>machine does that.
+     gcc compiles an inlined function with the options of its caller.  So inline functions are exact
+   where the implementation calls them; where you call them, SHADE__TIMES keeps their bits.
+     clang still applies -ffast-math to ?: and to calls: see the #error in >>machine.
+     SHADE__END restores the state before SHADE__BEGIN.  Where clang has no stack of states it
+   restores the state of the command line.  MSVC restores float_control alone: after this file
+   contraction stays off, which is the default of /fp:precise since 2022, but not of /fp:fast. */
 #if defined(__clang__) && \
     ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
      (__clang_major__ >= 16 && defined(__aarch64__)))
@@ -471,6 +474,7 @@ typedef struct shade_lighting {
     shade_vec3  cool, warm;            /* for COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
 } shade_lighting;
 
+/* The four terms of the equation, in linear RGB, unclamped.  Their sum is the light. */
 typedef struct shade_terms { shade_vec3 emission, ambient, diffuse, specular; } shade_terms;
 
 typedef enum shade_format {
@@ -482,8 +486,10 @@ typedef enum shade_format {
     SHADE_FORMAT_A8              /* for textures only: a byte of alpha; R = G = B = 1, never sRGB */
 } shade_format;
 
-typedef enum shade_wrap {
-    SHADE_WRAP_REPEAT = 0, SHADE_WRAP_CLAMP, SHADE_WRAP_MIRROR
+typedef enum shade_wrap {        /* what u and v beyond 0 .. 1 show */
+    SHADE_WRAP_REPEAT = 0,       /* the picture again: u - floor(u) */
+    SHADE_WRAP_CLAMP,            /* the texels at its edge */
+    SHADE_WRAP_MIRROR            /* the picture again, every other time reversed */
 } shade_wrap;
 typedef enum shade_filter {
     SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
@@ -525,6 +531,7 @@ typedef enum shade_interpolation {
     SHADE_INTERPOLATION_AFFINE,             /* linear on the screen, to show why that is wrong */
     SHADE_INTERPOLATION_CONSTANT            /* the value of the triangle's first vertex */
 } shade_interpolation;
+/* The faces that are left out.  A front face is counter-clockwise on the screen. */
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
 typedef enum shade_compare {     /* how a fragment's depth must compare with the stored one */
     SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
@@ -545,7 +552,8 @@ typedef struct shade_raster {
     shade_blend   blend;
     int   depth_read_only;       /* non-zero: test, do not write */
     int   depth_zero_to_one;     /* non-zero: clip space has 0 <= z <= w */
-    float depth_bias;            /* added to window depth, which is then clamped to [0, 1] */
+    float depth_bias;            /* added to depth, which is then clamped to [0, 1]; -1e-5, for */
+                                 /* example, lets lines on a mesh pass the test LESS */
 } shade_raster;
 
 typedef enum shade_shading {
@@ -564,7 +572,8 @@ typedef struct shade_stats {
     long long clipped;           /* wholly outside the view volume, not merely cut by it */
     long long rejected;          /* a corner in clip space is NaN, infinite or beyond 1e30 */
     long long drawn;
-    long long fragments;         /* pixels in the clip rectangle that passed the depth test */
+    long long fragments;         /* pixels in the clip rectangle that passed the depth test and */
+                                 /* were not discarded; a pixel counts for each triangle */
 } shade_stats;
 
 SHADE__OPEN
@@ -688,12 +697,14 @@ SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
 /* What a result means and which fields to check, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
-/* Fills the clip rectangle of both buffers.  NaN as depth is SHADE_ERROR_ARGUMENT. */
+/* Fills the clip rectangle of color, with a linear RGBA stored as a draw would store it, and of
+   depth, with the number as it is, not clamped.  A buffer that is NULL is left out.  NaN as depth
+   is SHADE_ERROR_ARGUMENT.  An empty clip rectangle is SHADE_OK, and nothing changes. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
-/* The texture's linear RGBA at u, v.  lod is the level of detail, log2 of texels per pixel: for
-   example 1 where a pixel is two texels wide.  A negative lod counts as 0, and so do NaN and
-   infinity in u, v and lod. */
+/* The texture's linear RGBA at u, v; white for NULL or a bad texture.  lod is the level of detail,
+   log2 of texels per pixel: for example 1 where a pixel is two texels wide.  A negative lod counts
+   as 0, and so do NaN and infinity in u, v and lod. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
 /* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0; rgba is 4 rows that must
    not overlap the others. */
@@ -753,10 +764,11 @@ typedef struct shade_pipeline {
     int                    lod_varying;           /* k: varyings k, k + 1 are its u, v */
 } shade_pipeline;
 
-/* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  Vertices shared by
-   nearby triangles are usually shaded once.  Each triangle is front or back facing as a whole, by
-   its corners on the screen.  stats may be NULL.  Without a colour buffer the fragment shader runs
-   only where may_discard is set.
+/* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  A negative count is
+   SHADE_ERROR_MESH.  An index_count that 3 does not divide, and an index at or past vertex_count,
+   are SHADE_ERROR_INDEX.  Vertices shared by nearby triangles are usually shaded once.  Each
+   triangle is front or back facing as a whole, by its corners on the screen.  stats may be NULL.
+   Without a colour buffer the fragment shader runs only where may_discard is set.
      The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
    it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
    1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
@@ -768,7 +780,10 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
 
 /* ---- meshes */
 
-/* A mesh in your arrays.  Strides are in BYTES, multiples of 4; 0 means tightly packed. */
+/* A mesh in your arrays, each with vertex_count elements.  Strides are BYTES from one element to
+   the next, multiples of 4; 0 means tightly packed.  For example, colors of R, G, B, A have a
+   stride of 16.  A stride below the size of an element is not refused: elements then overlap.
+   shade_explain reports it for positions and normals. */
 typedef struct shade_mesh {
     const float *positions;  int position_stride;    /* x, y, z */
     const float *normals;    int normal_stride;      /* any length; NULL: each face has its own */
@@ -939,10 +954,11 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
-/* (e.n0)(e.n1) <= 0, where e goes from the edge to the eye: one face is seen from the front, the
-   other from behind. */
+/* 1 if (e.n0)(e.n1) <= 0, where e, to_eye, goes from the edge to the eye: of the two faces, with
+   normals n0 and n1, one is seen from the front, the other from behind. */
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
-/* n0.n1 <= threshold, for unit normals. */
+/* 1 if n0.n1 <= threshold, for unit normals: for example, 0.5 finds edges whose faces turn by 60
+   degrees or more. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* ---- rays */
@@ -977,9 +993,11 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 
 /* ---- pictures and presets */
 
-/* Writes the picture, or the rows of a strip, as a binary PPM ("P6").  RGBA32F is clamped, and
-   encoded if srgb is set.  If your sink returns non-zero, the call ends with SHADE_ERROR_IO.  A
-   file that could not be written completely is not removed. */
+/* Writes the picture, or the rows of a strip, as a binary PPM ("P6"): R, G and B as they are
+   stored, in 8 bits, without alpha.  RGBA32F is clamped, and encoded if srgb is set.  Your sink
+   gets the file piece by piece, from first to last; if it returns non-zero, the call ends with
+   SHADE_ERROR_IO.  shade_write_ppm replaces a file of this name.  One that could not be written
+   completely is not removed. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
@@ -1142,6 +1160,7 @@ SHADE__EXPORT shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
                     shade__times(a.x, b.y) - shade__times(a.y, b.x));
 }
 
+/* |v|: infinity for a component beyond 1.9e19, 0 if all are below 2e-23. */
 SHADE__EXPORT float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
 SHADE__EXPORT float shade_distance(shade_vec3 a, shade_vec3 b)
 {
@@ -1274,6 +1293,7 @@ SHADE__EXPORT shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, sha
     return m;
 }
 
+/* The product of a matrix and a column vector, m v. */
 SHADE__EXPORT shade_vec3 shade_mat3_transform(shade_mat3 m, shade_vec3 v)
 {
     const shade_vec3 xy = shade_add(shade_scale(m.col[0], v.x), shade_scale(m.col[1], v.y));
@@ -1345,8 +1365,8 @@ SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);  /* computed in double */
 SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* computed in double */
-SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
-SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
+SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);  /* takes p to p + v */
+SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);      /* takes p to shade_mul(p, v) */
 
 /* degrees pi / 180 */
 SHADEDEF float      shade_radians(float degrees);
@@ -1362,10 +1382,11 @@ SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
 /* Eye to clip space.  fovy is the whole vertical angle in radians, aspect is width / height, near
-   and far are distances along the line of sight.  perspective, frustum and ortho take z to [-w, w],
-   as OpenGL does; near > far reverses depth.  perspective_reversed has no far plane: z is near
-   everywhere and w = -z_eye, so that z/w falls from 1 at near to 0 at infinity; use it with
-   depth_zero_to_one and SHADE_COMPARE_GREATER.
+   and far (n, f) are distances along the line of sight.  l, r, b, t are the left, right, bottom and
+   top sides of the view, in eye space: of frustum where it is n away, of ortho at any distance.
+   perspective, frustum and ortho take z to [-w, w], as OpenGL does; near > far reverses depth.
+   perspective_reversed has no far plane: z is near everywhere and w = -z_eye, so that z/w falls
+   from 1 at near to 0 at infinity; use it with depth_zero_to_one and SHADE_COMPARE_GREATER.
      Degenerate input gives the matrix that takes every point to (0, 0, 2, 1), so that nothing is
    drawn: near = far, aspect = 0, left = right, bottom = top, fovy outside (0, pi), NaN, infinity,
    and near <= 0 or far <= 0, which ortho alone allows. */
@@ -2214,11 +2235,12 @@ static SHADE__NOINLINE float shade__decode(float c)
 /* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.  The
    bit pattern of c, halved, is that of a crude square root.  Cell k holds all c with a root from
    k / 372 up to (k + 1) / 372; the first entry is for cell 4, the last for cell 372.  Within a cell
-   the byte changes at most once.  An entry is the byte after the change, in the high 8 bits, and
-   the low 24 bits of the first float that has it.  If bit 23 of c minus the entry is set, c lies
-   before that float, and its byte is one less.  A cell without a change has the entry of another
-   one, whose change is fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of the
-   time with AVX-512, and .81 with AVX2 and SSE2. */
+   the byte changes at most once, and the entry says where: in its low 24 bits are those of the
+   first float after the change, and in its high 8 bits the byte of that float.  For example, in
+   the last cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c
+   minus the entry is set, c lies before that float, and its byte is one less.  A cell without a
+   change has the entry of another one, whose change is fewer than 2^23 floats away.  An sRGB
+   picture of a teapot takes .95 of the time with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2992,7 +3014,8 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero. */
+/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero.  open >> 1 clears
+   the sign, so that |rn| takes the place of N.L. */
 SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 {
     uint32_t either = shade__float_bits(nl) & ~open;
@@ -3465,7 +3488,8 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* with perspective, varyings are over w until the flush */
+    shade_fragments f;                /* with perspective, its varyings are divided by w: the */
+                                      /* flush multiplies them before the shader reads them */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
     float    step_square[SHADE_LANES];    /* |step to the next pixel|^2, in texels: for lod */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
@@ -3674,9 +3698,9 @@ static void shade__shade_vertices(shade__draw *d)
 }
 
 /* Takes up to `most` triangles from `first` on, as long as there are at most `room` vertices;
-   returns the number taken.  There is no branch: slot and index are always written, and only the
-   count depends on whether the vertex is known.  A branch would be mispredicted every other time (2
-   % of a dense mesh). */
+   returns the number taken.  Whether a vertex is known makes no branch: slot and index are always
+   written, and only the count depends on it.  A branch would be mispredicted every other time,
+   which costs 2 % of a dense mesh. */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
                                         int most, int room, uint8_t (*corner)[4])
 {
@@ -4319,7 +4343,7 @@ typedef struct shade__tile {
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
-    int next;                         /* triangle of the setup */
+    int next;                         /* the next triangle of the setup that is drawn */
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
@@ -4449,9 +4473,11 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
-   open run of its row ends extends it.  Nearly every set is one run or empty.  So each row writes
-   its run without a branch, and counts it only if it is new. */
+/* Adds the runs of a tile; returns the number of their pixels.  Nearly every set is one run or
+   empty, so each row writes its run behind the others without a branch, and counts it only if it
+   is new.  joined: if the run begins where the open run of its row ends, the open one grows
+   instead.  For example, after a run of columns 20 .. 31 in the tile before, a run from column 32
+   on is not new. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
                                   const shade__tile *tile, const int joined)
 {
@@ -4912,7 +4938,8 @@ typedef struct shade__planes {
 } shade__planes;
 
 /* Pixels x, x + 1, ... of row y, for the lanes of the queue from lane on.  The first `back` lanes
-   are not written. */
+   are not written: a piece of 8 lanes with only 5 free at the end of the queue begins 3 lanes, and
+   3 pixels, before them. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
 /* The planes of all values in one loop.  k: the sides from the far corner to corner 1 (x, y) and to
@@ -5225,7 +5252,7 @@ typedef struct shade__reader {
     const shade__layout *layout;
     size_t y_bytes;              /* the bytes of a unit of y.i: 1, or of a row; x.i counts bytes */
     int nearest, blocks;
-    uint32_t apart[SHADE__BLOCKS];        /* of a block; 0: each pair is 8 adjacent bytes */
+    uint32_t apart[SHADE__BLOCKS];        /* 0: in this block each pair is 8 adjacent bytes */
     shade__axis x, y;
     uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
@@ -6855,9 +6882,9 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     return t[0] <= t[1];
 }
 
-/* The greatest width, 2000 times the largest picture; wider lines are drawn as wide.  Their corners
-   stay within 2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are
-   floats. */
+/* The greatest width, 2000 times the largest picture.  Wider lines are drawn with this width.
+   Their corners stay within 2^28 pictures of the middle, so that in clip space, where |w| <= 1e30,
+   they do not overflow. */
 #define SHADE__WIDEST 33554432.0f
 
 /* The clip-space position of a point. */
@@ -7293,9 +7320,9 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     return SHADE_OK;
 }
 
-/* The caller's array is scratch memory too: the sorted corners lie in its last quarter.  When i of
-   them have become at most i entries, of 16 i bytes, the next corner stands at byte 12 corners + 4
-   i, which is not overwritten. */
+/* The caller's array, of 16 bytes a corner, is scratch memory too: the sorted corners lie in its
+   last quarter.  The i corners read so far have made at most i edges, which end at byte 16 i.  The
+   next corner stands at byte 12 corners + 4 i, which is not before that, because i <= corners. */
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count)
 {
@@ -8287,9 +8314,9 @@ static const char *shade__no_mesh(const shade_mesh *m)
 /* ---- matrices and numbers of the state */
 
 /* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), or (0, 0, -1, 0)
-   of a perspective, or (0, 0, 1, 0) of a left-handed one.  Two kinds are not counted: matrices that
-   flatten, for shadows on planes, and projections from one point, with a w that grows with z
-   alone. */
+   of a perspective, or (0, 0, 1, 0) of a left-handed one.  Two kinds of matrices look like that
+   rightly, and give 0: those that flatten, for shadows on planes, and projections from one point,
+   in which w grows with z alone. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
     const shade_vec4 z = m->col[2], last = m->col[3];
@@ -9450,8 +9477,9 @@ typedef struct shade__tally {
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
     int         any_w;                   /* 1: some w is not 0 */
     long long   fragments;               /* all of them; of these: */
-    long long   discarded, clear;        /* alpha is 0 */
-    long long   nan, dark, bright;       /* a channel is; all are dim; one is 16 or more */
+    long long   discarded, clear;        /* clear: alpha is 0 */
+    long long   nan, dark, bright;       /* a channel is not finite; all are below 8 of 255; one */
+                                         /* is 16 or more */
 } shade__tally;
 
 /* A draw that is run again. */
