@@ -76,12 +76,12 @@
      Inside: the tools, which call the renderer; it never calls them
        >>lines     6816  shade_draw_lines      >>camera    7008  eye and line of sight
        >>shape     7102  normals, edges        >>chunks    7479  sorting and boxes
-       >>rays      7638  shade_pick            >>survey    7826  experiments on a draw
-       >>explain   8288  why nothing is seen   >>replay    9464  the same for lines, pipelines
-       >>image     9792  makes mipmaps, PPM    >>presets  10134  classic materials
+       >>rays      7638  shade_pick            >>survey    7829  experiments on a draw
+       >>explain   8291  why nothing is seen   >>replay    9470  the same for lines, pipelines
+       >>image     9798  makes mipmaps, PPM    >>presets  10140  classic materials
      Sources
-       >>refs     10219                        >>history  10249
-       >>license  10255
+       >>refs     10225                        >>history  10255
+       >>license  10261
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -782,8 +782,8 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
 
 /* A mesh in your arrays, each with vertex_count elements.  Strides are BYTES from one element to
    the next, multiples of 4; 0 means tightly packed.  For example, colors of R, G, B, A have a
-   stride of 16.  A stride below the size of an element is not refused: elements then overlap.
-   shade_explain reports it for positions and normals. */
+   stride of 16.  A stride below the size of an element is not refused: elements then overlap, and
+   shade_explain reports it. */
 typedef struct shade_mesh {
     const float *positions;  int position_stride;    /* x, y, z */
     const float *normals;    int normal_stride;      /* any length; NULL: each face has its own */
@@ -7651,9 +7651,12 @@ SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
     for (int k = 0; k < 3; k++) c[k] -= from[k];
 }
 
+/* Is w the same for all x and y? */
+static int shade__w_by_z(const shade_mat4 *m) { return m->col[0].w == 0 && m->col[1].w == 0; }
+
 static int shade__is_affine(const shade_mat4 *m)
 {
-    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
+    return shade__w_by_z(m) && m->col[2].w == 0 && m->col[3].w == 1;
 }
 
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
@@ -8299,15 +8302,18 @@ static int shade__faces_ahead(const shade__camera *c)
              ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
              why_black, wrong_light, flat; helps; doubt                                 >>replay */
 
-/* Is the mesh empty, or do its positions overlap? */
+/* Is the mesh empty, or do elements of an array overlap? */
 static const char *shade__no_mesh(const shade_mesh *m)
 {
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";
-    if ((uint32_t)m->position_stride - 1 < 11 || (uint32_t)m->normal_stride - 1 < 11)
-        return "mesh.position_stride or normal_stride is shorter than a position or normal, 12 "
-               "bytes; strides count bytes, not floats, and 0 means tightly packed.";
+    if ((uint32_t)m->position_stride - 1 < 11 || (uint32_t)m->normal_stride - 1 < 11 ||
+        (m->colors && (uint32_t)m->color_stride - 1 < 11) ||
+        (m->texcoords && (uint32_t)m->texcoord_stride - 1 < 7))
+        return "mesh.position_stride, normal_stride or color_stride is below 12, or "
+               "texcoord_stride below 8, so that elements overlap; strides count bytes, not "
+               "floats, and 0 means tightly packed.";
     return NULL;
 }
 
@@ -8320,7 +8326,7 @@ static const char *shade__no_mesh(const shade_mesh *m)
 static int shade__is_transposed(const shade_mat4 *m)
 {
     const shade_vec4 z = m->col[2], last = m->col[3];
-    const int from_point = m->col[0].w == 0 && m->col[1].w == 0 &&
+    const int from_point = shade__w_by_z(m) &&
                            !shade__within(z.x * z.x + z.y * z.y + z.z * z.z - 1, 0.01f);
     if (shade_mat4_determinant(*m) == 0) return 0;
     if (last.w == 0)    /* z.w is not 0, 1 or -1 */
@@ -8343,7 +8349,7 @@ static int shade__is_rigid(const shade_mat4 *m)
 /* Is the last row (0, 0, 0, w) with w other than 1? */
 static int shade__scales_w(const shade_mat4 *m)
 {
-    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
+    return shade__w_by_z(m) && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
 /* Is the view transposed, and does the picture change if it is not? */
@@ -9573,7 +9579,7 @@ static const char *shade__why_matrix(const shade__replay *r, const shade__tally 
         return "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or "
                "not a projection; it is projection times view, in this order.";
     /* w = -z, but the rest is not a perspective */
-    if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
+    if (shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
         (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
         return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
                "projection first, then view.";
