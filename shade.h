@@ -77,11 +77,11 @@
        >>lines     6816  shade_draw_lines      >>camera    7008  eye and line of sight
        >>shape     7102  normals, edges        >>chunks    7479  sorting and boxes
        >>rays      7638  shade_pick            >>survey    7829  experiments on a draw
-       >>explain   8291  why nothing is seen   >>replay    9470  the same for lines, pipelines
-       >>image     9798  makes mipmaps, PPM    >>presets  10140  classic materials
+       >>explain   8291  why nothing is seen   >>replay    9471  the same for lines, pipelines
+       >>image     9799  makes mipmaps, PPM    >>presets  10141  classic materials
      Sources
-       >>refs     10225                        >>history  10255
-       >>license  10261
+       >>refs     10226                        >>history  10256
+       >>license  10262
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3468,17 +3468,17 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
-    /* the triangles set up.  turn says which corner is the far one, and which are 1 and 2 */
+    /* the triangles set up, with their corners in the order of turn: 0 is the far corner */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  x0[SHADE__TRIANGLES], y0[SHADE__TRIANGLES];    /* the box of pixels, ends included; */
     int32_t  x1[SHADE__TRIANGLES], y1[SHADE__TRIANGLES];    /* empty where x1 < x0 or y1 < y0 */
-    float    side[4][SHADE__TRIANGLES];      /* far corner to 1 and 2, x y x y; over 2 area */
+    float    side[4][SHADE__TRIANGLES];      /* x1 y1 x2 y2 from the far corner, over 2 area */
     float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - far corner, exact */
     float    z0[SHADE__TRIANGLES];           /* the plane of depth: at the far corner */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
     float    z_low[SHADE__TRIANGLES], z_high[SHADE__TRIANGLES];   /* of the corners, in [0, 1] */
-    uint32_t turn[SHADE__TRIANGLES];  /* which order, 0 .. 5; from 3 on front-facing */
+    uint32_t turn[SHADE__TRIANGLES];  /* an order of shade__make_planes; 3 .. 5: front-facing */
 } shade__setup;
 
 typedef struct shade__bounds {
@@ -3803,7 +3803,7 @@ SHADE__INLINE int64_t shade__area(const shade__vertex *a, const shade__vertex *b
 /* Rows of memory of any type, as words. */
 SHADE__INLINE shade__word *shade__words(void *rows) { return (shade__word *)rows; }
 
-/* Reads the corners of the triangles into rows; lanes without a triangle repeat the first. */
+/* Reads the corners of the triangles into rows; lanes without a triangle repeat triangle 0. */
 SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stride,
                                         shade__corner_rows *SHADE_RESTRICT c)
 {
@@ -4140,7 +4140,7 @@ static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_
     }
 }
 
-/* The number at the fraction t between two numbers, rounded once. */
+/* The number at the fraction t between two numbers, in double, then rounded to float. */
 static float shade__between(float from, float to, double t)
 {
     const double a = (double)from;
@@ -4932,7 +4932,7 @@ enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels ap
 typedef struct shade__planes {
     SHADE_ALIGNED float base[SHADE__VALUES_MAX];
     float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
-    float    x_ref, y_ref;            /* 1/2 - position of the far corner; exact */
+    float    x_ref, y_ref;            /* 1/2 - position of the far corner, in pixels; exact */
     float    z_low, z_high, rw_low, rw_high;    /* depth and 1/w are clamped to these */
     uint32_t primitive, front;
 } shade__planes;
@@ -9348,7 +9348,8 @@ static const char *shade__doubt(const shade__survey *s)
 
 /* ---- the way through the ladders */
 
-/* Does the advice help by itself, with all else as given? */
+/* Does the advice of a sentence help by itself, with all else as given?  If not, there are several
+   faults, and shade__why_black says shade__multiply. */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
@@ -9975,8 +9976,8 @@ static void shade__reduce(const shade__decoder *d, const shade_target *to, int x
     else shade__means(d, p, factor, n, bytes, mean);
 }
 
-/* Makes the clip rectangle of a picture from the decoder's.  With a sink, the picture is one row of
-   RGBA8, and the sink gets it as R, G, B bytes. */
+/* Makes the clip rectangle of a picture from the decoder's picture.  With a sink, the new picture
+   is one row of RGBA8, and the sink gets it as R, G, B bytes. */
 static shade_result shade__convert(const shade__decoder *d, const shade_target *to,
                                    shade_write_fn *sink, void *user)
 {
