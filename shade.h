@@ -53,35 +53,35 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     129  options               >>types      256  materials, lamps, targets, states
-       >>light      435  the equation, colour  >>draw       543  shaders, meshes, pixels
-       >>tools      696  explain, lines, rays  >>plumbing   891  compilers, flags and bits
-       >>math      1030  vectors and matrices
+       >>config     130  options               >>plumbing   257  compilers, flags and bits
+       >>types      396  materials, lamps, targets, states
+       >>light      581  the equation, colour  >>draw       689  shaders, meshes, pixels
+       >>tools      848  explain, lines, rays  >>math      1048  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1391  processors            >>base      1626  bits, masks, rows of vectors
-       >>matrix    1823  cameras, inverses     >>power     2105  x^n
-       >>pixels    2171  formats, sRGB
+       >>machine   1412  processors            >>base      1647  bits, masks, rows of vectors
+       >>matrix    1844  cameras, inverses     >>power     2127  x^n
+       >>pixels    2193  formats, sRGB
      Inside: light
-       >>lamps     2479  attenuation, cones    >>terms     2731  one term at one point
-       >>surface   2806  material and lights   >>lit       2923  the whole sum, at many points
+       >>lamps     2502  attenuation, cones    >>terms     2754  one term at one point
+       >>surface   2829  material and lights   >>lit       2946  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3312  fields by owner       >>vertices  3524  shading, projection
-       >>triangles 3726  culling, edge setup   >>clip      4079  near, far, guard band
-       >>tiles     4265  edges and depth test  >>cover     4623  triangles, tile by tile
-       >>fragments 4889  interpolation, lod    >>texture   5162  texels, filters
-       >>store     5611  blending, packing
+       >>state     3336  fields by owner       >>vertices  3548  shading, projection
+       >>triangles 3750  culling, edge setup   >>clip      4103  near, far, guard band
+       >>tiles     4289  edges and depth test  >>cover     4651  triangles, tile by tile
+       >>fragments 4919  interpolation, lod    >>texture   5194  texels, filters
+       >>store     5644  blending, packing
      Inside: calls of the renderer
-       >>check     5861  refusals              >>seen      6068  view volume, chunks
-       >>drive     6188  shade_draw            >>mesh      6377  shade_draw_mesh
+       >>check     5895  refusals              >>seen      6102  view volume, chunks
+       >>drive     6222  shade_draw            >>mesh      6412  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6781  shade_draw_lines      >>camera    6973  eye and line of sight
-       >>shape     7067  normals, edges        >>chunks    7433  sorting and boxes
-       >>rays      7602  shade_pick            >>survey    7790  experiments on a draw
-       >>explain   8251  why nothing is seen   >>replay    9427  the same for lines, pipelines
-       >>image     9754  makes mipmaps, PPM    >>presets  10086  classic materials
+       >>lines     6816  shade_draw_lines      >>camera    7008  eye and line of sight
+       >>shape     7102  normals, edges        >>chunks    7479  sorting and boxes
+       >>rays      7638  shade_pick            >>survey    7829  experiments on a draw
+       >>explain   8291  why nothing is seen   >>replay    9471  the same for lines, pipelines
+       >>image     9799  makes mipmaps, PPM    >>presets  10141  classic materials
      Sources
-       >>refs     10171                        >>history  10201
-       >>license  10207
+       >>refs     10226                        >>history  10256
+       >>license  10262
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -91,8 +91,9 @@
      Window       x right, y DOWN, row 0 on top.  Pixel (i,j) has its centre at (i + 1/2, j + 1/2).
                   X = (x/w + 1) width/2,   Y = (1 - y/w) height/2.
      Depth        0 at near, 1 at far; the test is LESS, and the buffer is cleared to 1.  Reversed
-                  depth takes depth_zero_to_one, shade_mat4_perspective_reversed,
-                  SHADE_COMPARE_GREATER and a buffer cleared to 0.
+                  depth is 1 at near and falls: set SHADE_COMPARE_GREATER and clear the buffer to 0.
+                  shade_mat4_perspective_reversed gives it, with depth_zero_to_one set, and so does
+                  shade_mat4_perspective with near and far exchanged.
      Front face   counter-clockwise as seen on the screen.
      Coverage     vertices are snapped to floor(256 X + 1/2) / 256; edge functions are exact;
                   pixel centres on an edge follow the top-left rule.
@@ -151,9 +152,9 @@
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
 
-   You may define any macro whose name is one capital letter; in files without the implementation
-   also e, g, i, j, o and q.
-                                                                                          >>types */
+   This file uses no name of one capital letter, so that a macro of yours, such as the I of
+   <complex.h>, does no harm.  Without the implementation e, g, i, j, o and q are free as well.
+                                                                                       >>plumbing */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
 /* If you include this file inside a namespace, the three headers below would declare their types
    there, with hundreds of errors.  This makes one error instead, and its name says what to do. */
@@ -253,6 +254,145 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
 #define SHADE__CLOSE SHADE__LOUD
 #endif
 
+/*--------------------------------------------------------------------------------------- >>plumbing
+   What inline functions and loops over lanes need of compilers, and what flags do to bits.
+
+   Fast math.  Compiled by gcc, the implementation has the same bits with -ffast-math, -Ofast and
+   their parts.  clang has no pragma that keeps the bits there, so the implementation refuses
+   -ffast-math and -ffinite-math-only.  It cannot see the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
+   -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
+   below 1 show.
+     Inline functions are compiled into your files.  They have the same bits under all flags but
+   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
+   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
+   give the same bits everywhere with -ffp-contract=off.
+
+   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
+   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
+   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
+
+   tcc 0.9.27 for x86-64 has a bug: a function that returns a shade_vec3 writes 16 bytes in place of
+   12.  The last 4 may fall on the variable that was declared last before the call, if its size is
+   4, 12, 20, ... bytes: an int, a float, a shade_material.  So some declarations of this file stand
+   in an order that avoids this, and SHADE_EACH_LANE has a 64-bit counter in tcc.
+                                                                                          >>types */
+
+/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
+   once did; SHADE__BEGIN turns that off for this file. */
+#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
+#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
+s390x: -std=gnu99 or -fexcess-precision=fast"
+#else
+#define SHADE__EVAL_FLOAT
+#endif
+
+/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
+   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
+   the file. */
+#define SHADE__INLINE static SHADE__ALWAYS_INLINE
+#ifdef __cplusplus
+#define SHADE__EXPORT SHADE__ALWAYS_INLINE
+#else
+#define SHADE__EXPORT SHADE__INLINE
+#endif
+
+/* Compilers optimise the builtin even with -ffreestanding. */
+#ifndef SHADE_MEMCPY
+#ifdef SHADE__GNU
+#define SHADE_MEMCPY __builtin_memcpy
+#else
+#include <string.h>
+#define SHADE_MEMCPY memcpy
+#endif
+#endif
+#ifdef SHADE_NO_LIBM
+#define SHADE__SQRT shade__own_sqrt
+#elif defined(__cplusplus) && defined(SHADE__GNU)
+#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
+#else
+#include <math.h>
+#define SHADE__SQRT sqrtf
+#endif
+
+/* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
+   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
+#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
+#else
+#define SHADE__TIMES(a, b) ((a) * (b))
+#endif
+
+/* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
+   vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
+   they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
+   braces around the whole where it follows an if. */
+#if defined(__clang__)
+#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
+#define SHADE__UNROLL_4
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
+#ifdef __OPTIMIZE_SIZE__
+#define SHADE__UNROLL_4
+#else
+#define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
+#endif
+#else
+#define SHADE__NO_UNROLL
+#define SHADE__UNROLL_4
+#endif
+#ifdef __TINYC__
+#define SHADE__COUNTER ptrdiff_t
+#else
+#define SHADE__COUNTER int
+#endif
+#ifdef __clang__    /* AVX-512 gathers take longer than loads one by one */
+#define SHADE__ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
+#else
+#define SHADE__ONE_BY_ONE
+#endif
+#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
+#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
+
+/* Between SHADE__BEGIN and SHADE__END names have C linkage, and arithmetic has the same bits under
+   all options.  SHADE__BEGIN turns off the parts of -ffast-math.  It also turns off contraction,
+   which rounds a * b + c once on some processors and twice on others; for gcc >>machine does that.
+     gcc compiles an inlined function with the options of its caller.  So inline functions are exact
+   where the implementation calls them; where you call them, SHADE__TIMES keeps their bits.
+     clang still applies -ffast-math to ?: and to calls: see the #error in >>machine.
+     SHADE__END restores the state before SHADE__BEGIN.  Where clang has no stack of states it
+   restores the state of the command line.  MSVC restores float_control alone: after this file
+   contraction stays off, which is the default of /fp:precise since 2022, but not of /fp:fast. */
+#if defined(__clang__) && \
+    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
+     (__clang_major__ >= 16 && defined(__aarch64__)))
+#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
+    _Pragma("clang fp contract(off)") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
+#elif defined(__clang__)
+#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
+#elif defined(_MSC_VER)
+#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
+    __pragma(fp_contract(off)) SHADE__OPEN
+#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
+#elif defined(__GNUC__)
+#define SHADE__BEGIN _Pragma("GCC push_options") \
+    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
+    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
+    SHADE__EVAL_FLOAT SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
+#else
+#define SHADE__BEGIN SHADE__OPEN
+#define SHADE__END SHADE__CLOSE
+#endif
+
 /*------------------------------------------------------------------------------------------ >>types
    Plain structs, passed by value.  Where a field has a default, zero is the default.    >>light */
 
@@ -334,6 +474,7 @@ typedef struct shade_lighting {
     shade_vec3  cool, warm;            /* for COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
 } shade_lighting;
 
+/* The four terms of the equation, in linear RGB, unclamped.  Their sum is the light. */
 typedef struct shade_terms { shade_vec3 emission, ambient, diffuse, specular; } shade_terms;
 
 typedef enum shade_format {
@@ -345,8 +486,10 @@ typedef enum shade_format {
     SHADE_FORMAT_A8              /* for textures only: a byte of alpha; R = G = B = 1, never sRGB */
 } shade_format;
 
-typedef enum shade_wrap {
-    SHADE_WRAP_REPEAT = 0, SHADE_WRAP_CLAMP, SHADE_WRAP_MIRROR
+typedef enum shade_wrap {        /* what u and v beyond 0 .. 1 show */
+    SHADE_WRAP_REPEAT = 0,       /* the picture again: u - floor(u) */
+    SHADE_WRAP_CLAMP,            /* the texels at its edge */
+    SHADE_WRAP_MIRROR            /* the picture again, every other time reversed */
 } shade_wrap;
 typedef enum shade_filter {
     SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
@@ -388,6 +531,7 @@ typedef enum shade_interpolation {
     SHADE_INTERPOLATION_AFFINE,             /* linear on the screen, to show why that is wrong */
     SHADE_INTERPOLATION_CONSTANT            /* the value of the triangle's first vertex */
 } shade_interpolation;
+/* The faces that are left out.  A front face is counter-clockwise on the screen. */
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
 typedef enum shade_compare {     /* how a fragment's depth must compare with the stored one */
     SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
@@ -408,7 +552,8 @@ typedef struct shade_raster {
     shade_blend   blend;
     int   depth_read_only;       /* non-zero: test, do not write */
     int   depth_zero_to_one;     /* non-zero: clip space has 0 <= z <= w */
-    float depth_bias;            /* added to window depth, which is then clamped to [0, 1] */
+    float depth_bias;            /* added to depth, which is then clamped to [0, 1]; -1e-5, for */
+                                 /* example, lets lines on a mesh pass the test LESS */
 } shade_raster;
 
 typedef enum shade_shading {
@@ -427,7 +572,8 @@ typedef struct shade_stats {
     long long clipped;           /* wholly outside the view volume, not merely cut by it */
     long long rejected;          /* a corner in clip space is NaN, infinite or beyond 1e30 */
     long long drawn;
-    long long fragments;         /* pixels in the clip rectangle that passed the depth test */
+    long long fragments;         /* pixels in the clip rectangle that passed the depth test and */
+                                 /* were not discarded; a pixel counts for each triangle */
 } shade_stats;
 
 SHADE__OPEN
@@ -551,12 +697,14 @@ SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
 /* What a result means and which fields to check, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
-/* Fills the clip rectangle of both buffers.  NaN as depth is SHADE_ERROR_ARGUMENT. */
+/* Fills the clip rectangle of color, with a linear RGBA stored as a draw would store it, and of
+   depth, with the number as it is, not clamped.  A buffer that is NULL is left out.  NaN as depth
+   is SHADE_ERROR_ARGUMENT.  An empty clip rectangle is SHADE_OK, and nothing changes. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
-/* The texture's linear RGBA at u, v.  lod is the level of detail, log2 of texels per pixel: for
-   example 1 where a pixel is two texels wide.  A negative lod counts as 0, and so do NaN and
-   infinity in u, v and lod. */
+/* The texture's linear RGBA at u, v; white for NULL or a bad texture.  lod is the level of detail,
+   log2 of texels per pixel: for example 1 where a pixel is two texels wide.  A negative lod counts
+   as 0, and so do NaN and infinity in u, v and lod. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
 /* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0; rgba is 4 rows that must
    not overlap the others. */
@@ -616,10 +764,11 @@ typedef struct shade_pipeline {
     int                    lod_varying;           /* k: varyings k, k + 1 are its u, v */
 } shade_pipeline;
 
-/* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  Vertices shared by
-   nearby triangles are usually shaded once.  Each triangle is front or back facing as a whole, by
-   its corners on the screen.  stats may be NULL.  Without a colour buffer the fragment shader runs
-   only where may_discard is set.
+/* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  A negative count is
+   SHADE_ERROR_MESH.  An index_count that 3 does not divide, and an index at or past vertex_count,
+   are SHADE_ERROR_INDEX.  Vertices shared by nearby triangles are usually shaded once.  Each
+   triangle is front or back facing as a whole, by its corners on the screen.  stats may be NULL.
+   Without a colour buffer the fragment shader runs only where may_discard is set.
      The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
    it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
    1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
@@ -631,7 +780,10 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
 
 /* ---- meshes */
 
-/* A mesh in your arrays.  Strides are in BYTES, multiples of 4; 0 means tightly packed. */
+/* A mesh in your arrays, each with vertex_count elements.  Strides are BYTES from one element to
+   the next, multiples of 4; 0 means tightly packed.  For example, colors of R, G, B, A have a
+   stride of 16.  A stride below the size of an element is not refused: elements then overlap, and
+   shade_explain reports it. */
 typedef struct shade_mesh {
     const float *positions;  int position_stride;    /* x, y, z */
     const float *normals;    int normal_stride;      /* any length; NULL: each face has its own */
@@ -695,7 +847,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 
 /*------------------------------------------------------------------------------------------ >>tools
    Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
-                                                                                       >>plumbing */
+                                                                                           >>math */
 
 /* ---- explanations */
 
@@ -736,12 +888,6 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
-/* 0 only if nothing in the box can reach a pixel of the target's clip rectangle and strip.
-   shade_draw_mesh skips chunks by this test; use it to skip ranges of indices in your own
-   pipelines.  It allows for all rounding of transforms and clipping, and for any w.  A zero matrix
-   is the identity.  1 for NaN, for low > high, and for a bad target. */
-SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
-                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 
 /* ---- lines */
 
@@ -772,6 +918,12 @@ SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
 SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low, shade_vec3 *high);
+/* 0 only if nothing in the box, in object space, can reach a pixel of the target's clip rectangle
+   and strip.  shade_draw_mesh skips chunks by this test; with it you can skip meshes, or ranges of
+   indices in your own pipelines.  It allows for all rounding of transforms and clipping, and for
+   any w.  A zero matrix is the identity.  1 for NaN, for low > high, and for a bad target. */
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
@@ -802,10 +954,11 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
-/* (e.n0)(e.n1) <= 0, where e goes from the edge to the eye: one face is seen from the front, the
-   other from behind. */
+/* 1 if (e.n0)(e.n1) <= 0, where e, to_eye, goes from the edge to the eye: of the two faces, with
+   normals n0 and n1, one is seen from the front, the other from behind. */
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
-/* n0.n1 <= threshold, for unit normals. */
+/* 1 if n0.n1 <= threshold, for unit normals: for example, 0.5 finds edges whose faces turn by 60
+   degrees or more. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* ---- rays */
@@ -840,9 +993,11 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 
 /* ---- pictures and presets */
 
-/* Writes the picture, or the rows of a strip, as a binary PPM ("P6").  RGBA32F is clamped, and
-   encoded if srgb is set.  If your sink returns non-zero, the call ends with SHADE_ERROR_IO.  A
-   file that could not be written completely is not removed. */
+/* Writes the picture, or the rows of a strip, as a binary PPM ("P6"): R, G and B as they are
+   stored, in 8 bits, without alpha.  RGBA32F is clamped, and encoded if srgb is set.  Your sink
+   gets the file piece by piece, from first to last; if it returns non-zero, the call ends with
+   SHADE_ERROR_IO.  shade_write_ppm replaces a file of this name.  One that could not be written
+   completely is not removed. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
@@ -887,143 +1042,6 @@ SHADEDEF const char    *shade_preset_name(shade_preset preset);
 SHADEDEF shade_material shade_linear_material(shade_material display);
 
 SHADE__CLOSE
-
-/*--------------------------------------------------------------------------------------- >>plumbing
-   What inline functions and loops over lanes need of compilers, and what flags do to bits.
-
-   Fast math.  Compiled by gcc, the implementation has the same bits with -ffast-math, -Ofast and
-   their parts.  clang has no pragma that keeps the bits there, so the implementation refuses
-   -ffast-math and -ffinite-math-only.  It cannot see the other parts, nor -ffp-contract=fast, which
-   overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
-   -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
-   below 1 show.
-     Inline functions are compiled into your files.  They have the same bits under all flags but
-   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
-   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
-     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
-   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
-   give the same bits everywhere with -ffp-contract=off.
-
-   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
-   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
-   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
-
-   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
-   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
-   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
-                                                                                           >>math */
-
-/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
-   once did; SHADE__BEGIN turns that off for this file. */
-#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
-#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
-#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
-s390x: -std=gnu99 or -fexcess-precision=fast"
-#else
-#define SHADE__EVAL_FLOAT
-#endif
-
-/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
-   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
-   the file. */
-#define SHADE__INLINE static SHADE__ALWAYS_INLINE
-#ifdef __cplusplus
-#define SHADE__EXPORT SHADE__ALWAYS_INLINE
-#else
-#define SHADE__EXPORT SHADE__INLINE
-#endif
-
-/* Compilers optimise the builtin even with -ffreestanding. */
-#ifndef SHADE_MEMCPY
-#ifdef SHADE__GNU
-#define SHADE_MEMCPY __builtin_memcpy
-#else
-#include <string.h>
-#define SHADE_MEMCPY memcpy
-#endif
-#endif
-#ifdef SHADE_NO_LIBM
-#define SHADE__SQRT shade__own_sqrt
-#elif defined(__cplusplus) && defined(SHADE__GNU)
-#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
-#else
-#include <math.h>
-#define SHADE__SQRT sqrtf
-#endif
-
-/* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
-   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
-#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
-    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
-#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
-#else
-#define SHADE__TIMES(a, b) ((a) * (b))
-#endif
-
-/* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
-   vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
-   they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
-   braces around the whole where it follows an if. */
-#if defined(__clang__)
-#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
-#define SHADE__UNROLL_4
-#elif defined(__GNUC__) && __GNUC__ >= 8
-#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
-#ifdef __OPTIMIZE_SIZE__
-#define SHADE__UNROLL_4
-#else
-#define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
-#endif
-#else
-#define SHADE__NO_UNROLL
-#define SHADE__UNROLL_4
-#endif
-#ifdef __TINYC__
-#define SHADE__COUNTER ptrdiff_t
-#else
-#define SHADE__COUNTER int
-#endif
-#ifdef __clang__    /* AVX-512 gathers take longer than loads one by one */
-#define SHADE__ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
-#else
-#define SHADE__ONE_BY_ONE
-#endif
-#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
-#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
-
-/* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
-   turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
-   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
-   caller to an inlined function.  So the implementation is exact, with the inline functions that
-   it calls; those that you call use SHADE__TIMES.  clang still applies -ffast-math to ?: and to
-   calls; see >>machine.  SHADE__END restores the state before it, or the state of the command line
-   where clang keeps no stack of states.  MSVC restores float_control alone: behind this file
-   contraction stays off, as /fp:precise does since 2022 and /fp:fast does not. */
-#if defined(__clang__) && \
-    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
-     (__clang_major__ >= 16 && defined(__aarch64__)))
-#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
-    _Pragma("clang fp contract(off)") SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
-#elif defined(__clang__)
-#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
-#elif defined(_MSC_VER)
-#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
-    __pragma(fp_contract(off)) SHADE__OPEN
-#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
-#elif defined(__GNUC__)
-#define SHADE__BEGIN _Pragma("GCC push_options") \
-    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
-    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
-    SHADE__EVAL_FLOAT SHADE__OPEN
-#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
-#else
-#define SHADE__BEGIN SHADE__OPEN
-#define SHADE__END SHADE__CLOSE
-#endif
 
 SHADE__BEGIN
 
@@ -1142,6 +1160,7 @@ SHADE__EXPORT shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
                     shade__times(a.x, b.y) - shade__times(a.y, b.x));
 }
 
+/* |v|: infinity for a component beyond 1.9e19, 0 if all are below 2e-23. */
 SHADE__EXPORT float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
 SHADE__EXPORT float shade_distance(shade_vec3 a, shade_vec3 b)
 {
@@ -1274,6 +1293,7 @@ SHADE__EXPORT shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, sha
     return m;
 }
 
+/* The product of a matrix and a column vector, m v. */
 SHADE__EXPORT shade_vec3 shade_mat3_transform(shade_mat3 m, shade_vec3 v)
 {
     const shade_vec3 xy = shade_add(shade_scale(m.col[0], v.x), shade_scale(m.col[1], v.y));
@@ -1345,8 +1365,8 @@ SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);  /* computed in double */
 SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* computed in double */
-SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
-SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
+SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);  /* takes p to p + v */
+SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);      /* takes p to shade_mul(p, v) */
 
 /* degrees pi / 180 */
 SHADEDEF float      shade_radians(float degrees);
@@ -1362,10 +1382,11 @@ SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
 /* Eye to clip space.  fovy is the whole vertical angle in radians, aspect is width / height, near
-   and far are distances along the line of sight.  perspective, frustum and ortho take z to [-w, w],
-   as OpenGL does; near > far reverses depth.  perspective_reversed has no far plane: z is near
-   everywhere and w = -z_eye, so that z/w falls from 1 at near to 0 at infinity; use it with
-   depth_zero_to_one and SHADE_COMPARE_GREATER.
+   and far (n, f) are distances along the line of sight.  l, r, b, t are the left, right, bottom and
+   top sides of the view, in eye space: of frustum where it is n away, of ortho at any distance.
+   perspective, frustum and ortho take z to [-w, w], as OpenGL does; near > far reverses depth.
+   perspective_reversed has no far plane: z is near everywhere and w = -z_eye, so that z/w falls
+   from 1 at near to 0 at infinity; use it with depth_zero_to_one and SHADE_COMPARE_GREATER.
      Degenerate input gives the matrix that takes every point to (0, 0, 2, 1), so that nothing is
    drawn: near = far, aspect = 0, left = right, bottom = top, fovy outside (0, pi), NaN, infinity,
    and near <= 0 or far <= 0, which ortho alone allows. */
@@ -2071,11 +2092,10 @@ SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, fl
     return shade__perspective(fovy, aspect, near_z > 0, 0, (double)near_z);
 }
 
-/* The projection of a box in eye space, or of the frustum on the box's near face. */
-static shade_mat4 shade__box_projection(int frustum, float left, float right, float bottom,
-                                        float top, float near_z, float far_z)
+/* The projection of a box in eye space, or of the frustum on the box's near face.  side: left,
+   right, bottom, top, near, far. */
+static shade_mat4 shade__box_projection(int frustum, const float side[6])
 {
-    const float side[6] = { left, right, bottom, top, near_z, far_z };
     double v[6], e[16] = { 0 };
     shade__doubles(side, 6, v);
     const double w = v[1] - v[0], h = v[3] - v[2], n = v[4], f = v[5], d = n - f;
@@ -2094,12 +2114,14 @@ static shade_mat4 shade__box_projection(int frustum, float left, float right, fl
 
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
 {
-    return shade__box_projection(1, l, r, b, t, n, f);
+    const float side[6] = { l, r, b, t, n, f };
+    return shade__box_projection(1, side);
 }
 
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f)
 {
-    return shade__box_projection(0, l, r, b, t, n, f);
+    const float side[6] = { l, r, b, t, n, f };
+    return shade__box_projection(0, side);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -2213,11 +2235,12 @@ static SHADE__NOINLINE float shade__decode(float c)
 /* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.  The
    bit pattern of c, halved, is that of a crude square root.  Cell k holds all c with a root from
    k / 372 up to (k + 1) / 372; the first entry is for cell 4, the last for cell 372.  Within a cell
-   the byte changes at most once.  An entry is the byte after the change, in the high 8 bits, and
-   the low 24 bits of the first float that has it.  If bit 23 of c minus the entry is set, c lies
-   before that float, and its byte is one less.  A cell without a change has the entry of another
-   one, whose change is fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of the
-   time with AVX-512, and .81 with AVX2 and SSE2. */
+   the byte changes at most once, and the entry says where: in its low 24 bits are those of the
+   first float after the change, and in its high 8 bits the byte of that float.  For example, in
+   the last cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c
+   minus the entry is set, c lies before that float, and its byte is one less.  A cell without a
+   change has the entry of another one, whose change is fewer than 2^23 floats away.  An sRGB
+   picture of a teapot takes .95 of the time with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2991,7 +3014,8 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero. */
+/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero.  open >> 1 clears
+   the sign, so that |rn| takes the place of N.L. */
 SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 {
     uint32_t either = shade__float_bits(nl) & ~open;
@@ -3371,8 +3395,7 @@ enum {
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
      queued          the fragment shader's result is used             >>tiles (sends runs)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
-     inputs_unread   the shader is ours, early is set, no dither      >>fragments
-     lod             lod_texture is set: the value of u, else 0       >>fragments */
+     inputs_unread   a library_shader, early is set, no dither        >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
     const shade_pipeline *pipe;
@@ -3383,8 +3406,8 @@ typedef struct shade__plan {
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      values, value_stride;    /* floats of a vertex; its stride, a multiple of 8 */
-    int      divided;                 /* values from this one on are kept divided by w */
-    int      lod;                     /* u / w is this value, v / w the next; 0: no lod */
+    int      first_divided;           /* values from this one on are kept divided by w */
+    int      lod_u;                   /* u / w is this value, v / w the next; 0: no lod_texture */
     int      varyings;
     int      zero_to_one;
     int      early;                   /* depth is tested by >>tiles */
@@ -3445,17 +3468,17 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
-    /* the triangles set up.  turn says which corner is the far one, and which are 1 and 2 */
+    /* the triangles set up, with their corners in the order of turn: 0 is the far corner */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  x0[SHADE__TRIANGLES], y0[SHADE__TRIANGLES];    /* the box of pixels, ends included; */
     int32_t  x1[SHADE__TRIANGLES], y1[SHADE__TRIANGLES];    /* empty where x1 < x0 or y1 < y0 */
-    float    side[4][SHADE__TRIANGLES];      /* far corner to 1 and 2, x y x y; over 2 area */
+    float    side[4][SHADE__TRIANGLES];      /* x1 y1 x2 y2 from the far corner, over 2 area */
     float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - far corner, exact */
     float    z0[SHADE__TRIANGLES];           /* the plane of depth: at the far corner */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
     float    z_low[SHADE__TRIANGLES], z_high[SHADE__TRIANGLES];   /* of the corners, in [0, 1] */
-    uint32_t turn[SHADE__TRIANGLES];  /* which order, 0 .. 5; from 3 on front-facing */
+    uint32_t turn[SHADE__TRIANGLES];  /* an order of shade__make_planes; 3 .. 5: front-facing */
 } shade__setup;
 
 typedef struct shade__bounds {
@@ -3465,9 +3488,10 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* with perspective, varyings are over w until the flush */
+    shade_fragments f;                /* with perspective, its varyings are divided by w: the */
+                                      /* flush multiplies them before the shader reads them */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
-    float    step[SHADE_LANES];       /* to the next pixel, in texels, squared: for lod */
+    float    step_square[SHADE_LANES];    /* |step to the next pixel|^2, in texels: for lod */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
@@ -3643,7 +3667,7 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
         const float *from = v->varying[again < 0 ? k - SHADE__FIRST
                                                  : plan->pipe->lod_varying + again];
         float *to = b->value + k;
-        if (k < plan->divided)
+        if (k < plan->first_divided)
             for (int i = 0; i < n; i++) to[i * stride] = from[i];
         else
             for (int i = 0; i < n; i++) to[i * stride] = from[i] * p->rw[i];
@@ -3674,9 +3698,9 @@ static void shade__shade_vertices(shade__draw *d)
 }
 
 /* Takes up to `most` triangles from `first` on, as long as there are at most `room` vertices;
-   returns the number taken.  There is no branch: slot and index are always written, and only the
-   count depends on whether the vertex is known.  A branch would be mispredicted every other time (2
-   % of a dense mesh). */
+   returns the number taken.  Whether a vertex is known makes no branch: slot and index are always
+   written, and only the count depends on it.  A branch would be mispredicted every other time,
+   which costs 2 % of a dense mesh. */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
                                         int most, int room, uint8_t (*corner)[4])
 {
@@ -3779,7 +3803,7 @@ SHADE__INLINE int64_t shade__area(const shade__vertex *a, const shade__vertex *b
 /* Rows of memory of any type, as words. */
 SHADE__INLINE shade__word *shade__words(void *rows) { return (shade__word *)rows; }
 
-/* Reads the corners of the triangles into rows; lanes without a triangle repeat the first. */
+/* Reads the corners of the triangles into rows; lanes without a triangle repeat triangle 0. */
 SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stride,
                                         shade__corner_rows *SHADE_RESTRICT c)
 {
@@ -4116,7 +4140,7 @@ static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_
     }
 }
 
-/* The number at the fraction t between two numbers, rounded once. */
+/* The number at the fraction t between two numbers, in double, then rounded to float. */
 static float shade__between(float from, float to, double t)
 {
     const double a = (double)from;
@@ -4143,7 +4167,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     for (int k = 0; k < 4; k++) p->vertex[v].clip[k] = shade__between(from[k], to[k], t);
     for (int k = SHADE__FIRST; k < plan->values; k++) {
         const float a = p->value[in * stride + k], b = p->value[out * stride + k];
-        p->value[v * stride + k] = shade__between(a, b, k < plan->divided ? s : t);
+        p->value[v * stride + k] = shade__between(a, b, k < plan->first_divided ? s : t);
     }
     return (uint8_t)v;
 }
@@ -4194,7 +4218,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
         p->vertex[i] = *v;
         p->corner[i] = (uint8_t)i;
         for (int k = SHADE__FIRST; k < plan->values; k++)
-            p->value[i * stride + k] = value[k] * (k < plan->divided ? 1 : w);
+            p->value[i * stride + k] = value[k] * (k < plan->first_divided ? 1 : w);
         out |= v->out;
         p->in_front &= v->clip[3] > 0;
     }
@@ -4217,7 +4241,7 @@ static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
         v->y = shade__snap(v->clip[1], w, -half_height, half_height);
         value[0] = shade__window_depth(v->clip[2], w, zero_to_one ? 1 : 0.5, zero_to_one ? 0 : 0.5);
         value[1] = rw;
-        for (int k = plan->divided; k < plan->values; k++) value[k] *= rw;
+        for (int k = plan->first_divided; k < plan->values; k++) value[k] *= rw;
     }
 }
 
@@ -4287,7 +4311,7 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4], shade__pol
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
     SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* leaves one for each row */
-    SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
+    SHADE__SKIPPED = -(1 << 30)    /* e of a skipped pixel: it stays negative in all rows */
 };
 
 /* Edge functions in 32 bits: e at pixel (x, y), and their steps in x and y. */
@@ -4319,7 +4343,7 @@ typedef struct shade__tile {
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
-    int next;                         /* triangle of the setup */
+    int next;                         /* the next triangle of the setup that is drawn */
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
@@ -4352,16 +4376,19 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 
 /* ---- edges in rectangles */
 
-/* Edge k at pixel (x, y), and its least value in the rectangle that begins there.
-   pre: it begins in the picture and is at most 2^14 wide and high   post: both within 2^45 */
-SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x, int y, int columns,
-                                     int rows, int64_t *least)
+/* Edge k at pixel (x, y).   pre: the pixel is in the picture   post: within 2^45 */
+SHADE__INLINE int64_t shade__edge_at(const shade__triangle *t, int k, int64_t x, int64_t y)
 {
-    const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
-    const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
-    const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
-    *least = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
-    return e;
+    return t->e[k] + (x - t->x0) * t->edges.ex[k] + (y - t->y0) * t->edges.ey[k];
+}
+
+/* How far edge k falls in a rectangle, from its first pixel to the least one: 0 or negative.
+   pre: the rectangle is at most 2^14 wide and high   post: within 2^40 */
+SHADE__INLINE int64_t shade__edge_fall(const shade__triangle *t, int k, int64_t columns,
+                                       int64_t rows)
+{
+    const int64_t across = (columns - 1) * t->edges.ex[k], down = (rows - 1) * t->edges.ey[k];
+    return (across < 0 ? across : 0) + (down < 0 ? down : 0);
 }
 
 /* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in at least
@@ -4392,9 +4419,8 @@ SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile 
     edges->x = tile->x;
     edges->y = tile->y;
     for (int k = 0; k < 3; k++) {
-        int64_t least;
-        const int64_t e = shade__edge_in(t, k, tile->x, tile->y, SHADE__TILE, tile->rows, &least);
-        const int crosses = least < 0;
+        const int64_t e = shade__edge_at(t, k, tile->x, tile->y);
+        const int crosses = e + shade__edge_fall(t, k, SHADE__TILE, tile->rows) < 0;
         edges->e[k] = crosses ? (int32_t)e : 0;
         edges->ex[k] = crosses ? t->edges.ex[k] : 0;
         edges->ey[k] = crosses ? t->edges.ey[k] : 0;
@@ -4447,9 +4473,11 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* Adds the runs of a tile; returns the number of their pixels.  joined: a run that begins where the
-   open run of its row ends extends it.  Nearly every set is one run or empty.  So each row writes
-   its run without a branch, and counts it only if it is new. */
+/* Adds the runs of a tile; returns the number of their pixels.  Nearly every set is one run or
+   empty, so each row writes its run behind the others without a branch, and counts it only if it
+   is new.  joined: if the run begins where the open run of its row ends, the open one grows
+   instead.  For example, after a run of columns 20 .. 31 in the tile before, a run from column 32
+   on is not new. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int triangle,
                                   const shade__tile *tile, const int joined)
 {
@@ -4518,7 +4546,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     float z_step[SHADE__TILE];
     uint32_t all = 0;
     for (int i = 0; i < width; i++) {
-        e0[i] = i < skip ? SHADE__CUT : a + i * ax;
+        e0[i] = i < skip ? SHADE__SKIPPED : a + i * ax;
         e1[i] = b + i * bx;
         e2[i] = c + i * cx;
         z_step[i] = zx * ((float)(x + i) + x_ref);
@@ -4663,9 +4691,9 @@ static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* away times the depth at pixel x, in the bits that the depth test sees.  row_z is the depth at the
-   x of the far corner. */
-SHADE__INLINE float shade__key(float away, const shade__triangle *t, float row_z, int x)
+/* away times the depth at pixel x: it grows with the distance.  The depth has the bits that the
+   depth test sees.  row_z is the depth at the x of the far corner. */
+SHADE__INLINE float shade__signed_depth(float away, const shade__triangle *t, float row_z, int x)
 {
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
@@ -4698,20 +4726,22 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan, shade__
     int64_t least[3];
 
     for (int k = 0; k < 3; k++)
-        shade__edge_in(t, k, t->x0, s->y, size, s->bottom - s->y + 1, &least[k]);
+        least[k] = shade__edge_at(t, k, t->x0, s->y) +
+                   shade__edge_fall(t, k, size, s->bottom - s->y + 1);
     for (int from = s->x; from <= s->end; from = s->last + 1) {
         const int cell = (from - plan->x0) >> b->log_width, first = plan->x0 + cell * size;
         const int to = shade__min(first + size - 1, s->end);
         const int inside = shade__all_inside(t, least, first - t->x0);
         float *farthest = &b->farthest[row * b->across + cell];
-        const int hidden = shade__key(away, t, z_near, rightward ? from : to) > *farthest;
+        const int hidden = shade__signed_depth(away, t, z_near, rightward ? from : to) > *farthest;
 
         if (from > s->x && (hidden || inside != s->inside)) return;
         s->inside = inside;
         s->last = to;
         if (hidden) s->x = to + 1;
         else if (inside && whole)
-            *farthest = shade__minf(*farthest, shade__key(away, t, z_far, rightward ? to : from));
+            *farthest = shade__minf(*farthest, shade__signed_depth(away, t, z_far,
+                                                                   rightward ? to : from));
     }
 }
 
@@ -4902,13 +4932,14 @@ enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels ap
 typedef struct shade__planes {
     SHADE_ALIGNED float base[SHADE__VALUES_MAX];
     float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
-    float    x_ref, y_ref;            /* 1/2 - position of the far corner; exact */
+    float    x_ref, y_ref;            /* 1/2 - position of the far corner, in pixels; exact */
     float    z_low, z_high, rw_low, rw_high;    /* depth and 1/w are clamped to these */
     uint32_t primitive, front;
 } shade__planes;
 
 /* Pixels x, x + 1, ... of row y, for the lanes of the queue from lane on.  The first `back` lanes
-   are not written. */
+   are not written: a piece of 8 lanes with only 5 free at the end of the queue begins 3 lanes, and
+   3 pixels, before them. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
 /* The planes of all values in one loop.  k: the sides from the far corner to corner 1 (x, y) and to
@@ -4950,7 +4981,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
 
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
         const float *value = s->value + corner[3] * stride;
-        for (int k = SHADE__FIRST; k < plan->divided; k++) {
+        for (int k = SHADE__FIRST; k < plan->first_divided; k++) {
             t->base[k] = value[k];
             t->gx[k] = t->gy[k] = 0;
         }
@@ -4958,25 +4989,27 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
 }
 
 /* Appends the squared length, in texels, of the longer step of (u, v) to the next pixel, in 8
-   lanes. With u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
+   lanes.  With u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
 SHADE__INLINE void shade__append_step(const shade__plan *SHADE_RESTRICT plan,
-                                      const shade__planes *SHADE_RESTRICT t, shade__in value, int x,
-                                      int back, shade__in rw, shade__out step)
+                                      const shade__planes *SHADE_RESTRICT t, shade__in value,
+                                      shade__piece p, shade__queue *q)
 {
-    const int k = plan->lod;
+    shade__in rw = q->rw + p.lane;
+    shade__out step = q->step_square + p.lane;
+    const int k = plan->lod_u;
     const float w = (float)plan->pipe->lod_texture->width;
     const float h = (float)plan->pipe->lod_texture->height;
     const float u0 = value[k], v0 = value[k + 1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
     const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
     SHADE__FOR(i, 8) {
-        float px = (float)(x + i) + x_ref, r = 1 / rw[i];
+        float px = (float)(p.x + i) + x_ref, r = 1 / rw[i];
         float u = (u0 + ux * px) * r, v = (v0 + vx * px) * r;
         float a = (ux - u * qx) * r * w, b = (vx - v * qx) * r * h;
         float c = (uy - u * qy) * r * w, e = (vy - v * qy) * r * h;
         float right = a * a + b * b, below = c * c + e * e;
         float longer = shade__select(right, below, shade__mask(below > right));
-        step[i] = shade__select(longer, step[i], shade__mask(i < back));
+        step[i] = shade__select(longer, step[i], shade__mask(i < p.back));
     }
 }
 
@@ -5053,7 +5086,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
     shade__piece p;
     p.y = run->y;
     /* a short run fits one piece: saves 5 % of a dense mesh */
-    if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
+    if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod_u) {
         p.x = x;
         p.lane = q->f.count;
         p.back = 0;
@@ -5072,10 +5105,9 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
         p.back = wide ? 0 : back;
         if (wide) shade__append(d, t, value, p, SHADE__WIDE);
         else shade__append(d, t, value, p, 8);
-        if (plan->lod)
-            for (int i = 0; i < width; i += 8)
-                shade__append_step(plan, t, value, p.x + i, back, q->rw + p.lane + i,
-                                   q->step + p.lane + i);
+        if (plan->lod_u)
+            for (int i = 0; i < width; i += 8, p.x += 8, p.lane += 8)
+                shade__append_step(plan, t, value, p, q);
         x += take;
         n -= take;
         q->f.count += take;
@@ -5110,7 +5142,7 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
     const int n = q->f.count;
     for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
     shade__repeat(q->rw, n);
-    shade__repeat(q->step, n);
+    shade__repeat(q->step_square, n);
     if (plan->inputs_unread) return;
     shade__repeat(q->f.x, n);
     shade__repeat(q->f.y, n);
@@ -5137,11 +5169,11 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     shade_colors c;
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
-    if (plan->divided == SHADE__FIRST && plan->varyings)
+    if (plan->first_divided == SHADE__FIRST && plan->varyings)
         shade__undivide(q->rw, q->f.varying[0], plan->varyings);
-    if (plan->lod) {    /* log2 of the step; NaN counts as a step of 0 */
+    if (plan->lod_u) {    /* log2 of the step; NaN counts as a step of 0 */
         SHADE_EACH_LANE(i) {
-            float square = shade__keep(q->step[i], shade__mask(q->step[i] >= 0));
+            float square = shade__keep(q->step_square[i], shade__mask(q->step_square[i] >= 0));
             q->f.lod[i] = -0.5f * shade__neg_log2(square);
         }
     }
@@ -5150,7 +5182,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (!plan->inputs_unread) {    /* else our shader sets all that is read: saves 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
-        if (!plan->lod) SHADE__ZERO(q->f.lod);
+        if (!plan->lod_u) SHADE__ZERO(q->f.lod);
         q->f.eye = plan->eye;
     }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
@@ -5220,7 +5252,7 @@ typedef struct shade__reader {
     const shade__layout *layout;
     size_t y_bytes;              /* the bytes of a unit of y.i: 1, or of a row; x.i counts bytes */
     int nearest, blocks;
-    uint32_t apart[SHADE__BLOCKS];        /* of a block; 0: each pair is 8 adjacent bytes */
+    uint32_t apart[SHADE__BLOCKS];        /* 0: in this block each pair is 8 adjacent bytes */
     shade__axis x, y;
     uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
@@ -5311,10 +5343,11 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, con
 
 /* Fetches a block of pairs that may lie apart, from lane i on; p is the first texel. */
 SHADE__INLINE void shade__fetch_apart(const shade__reader *r, const uint8_t *p, int line, int i,
-                                      const int bytes, const int swapped, shade__word *to)
+                                      const int bytes, shade__word *to)
 {
     const uint32_t *row = r->y.i[line], *left = r->x.i[0], *right = r->x.i[1];
     const size_t y_bytes = r->y_bytes;
+    const int swapped = r->layout->swapped;
     for (const int end = i + SHADE__BLOCK; i < end; i++) {
         const uint8_t *at = p + row[i] * y_bytes;
         to[2 * i] = shade__load_packed(at + left[i], bytes, swapped);
@@ -5334,7 +5367,7 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
 {
     const uint8_t *p = r->pixels + 4 * k;
     const uint32_t *pair = r->pair[line];
-    const shade__layout l = *r->layout;
+    const int bytes = r->layout->bytes;
     for (int first = 0; first < r->blocks * SHADE__BLOCK; first += SHADE__BLOCK) {
         if (!r->apart[first / SHADE__BLOCK]) {
             for (int i = first; i < first + SHADE__BLOCK; i += 4) {
@@ -5343,9 +5376,9 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
                 shade__fetch_pair(p + pair[i + 2], to + 2 * i + 4);
                 shade__fetch_pair(p + pair[i + 3], to + 2 * i + 6);
             }
-        } else if (l.bytes == 2) shade__fetch_apart(r, p, line, first, 2, l.swapped, to);
-        else if (l.bytes == 1) shade__fetch_apart(r, p, line, first, 1, 0, to);
-        else shade__fetch_apart(r, p, line, first, 4, 0, to);
+        } else if (bytes == 2) shade__fetch_apart(r, p, line, first, 2, to);
+        else if (bytes == 1) shade__fetch_apart(r, p, line, first, 1, to);
+        else shade__fetch_apart(r, p, line, first, 4, to);
     }
 }
 
@@ -5688,15 +5721,16 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const fl
         shade__pack_bytes(l, rgba, packed, blocks);
         return;
     }
-    for (int k = 0; encoded && k < 3; k++) {
-        float *c = rgba + k * SHADE_LANES;
-        SHADE_ALIGNED float u[SHADE_LANES];
-        SHADE__EACH_BLOCK(i, blocks) {
-            c[i] = shade__saturate(c[i]);
-            u[i] = shade__encode_log(c[i]);
+    if (encoded)
+        for (int k = 0; k < 3; k++) {
+            float *c = rgba + k * SHADE_LANES;
+            SHADE_ALIGNED float u[SHADE_LANES];
+            SHADE__EACH_BLOCK(i, blocks) {
+                c[i] = shade__saturate(c[i]);
+                u[i] = shade__encode_log(c[i]);
+            }
+            SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
         }
-        SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
-    }
     SHADE__EACH_BLOCK(i, blocks) { threshold[i] = 0.5f; }
     if (t->dither && l->bytes == 2) shade__dither(x, y, threshold, blocks);
     shade__pack_channels(l, rgba, threshold, packed, blocks);
@@ -6210,7 +6244,7 @@ static shade__compare shade__compare_of(const shade_raster *r)
 /* Not SHADE__COLD: gcc propagates `cold` to callers, here shade__run_draw, and from there to every
    stage; their loops would stay scalar (4 times slower). */
 static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_pipeline *p,
-                                             int own, shade__plan *plan)
+                                             int library_shader, shade__plan *plan)
 {
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
     const int early = t->depth && !p->may_discard, kept = early && !p->raster.depth_read_only;
@@ -6229,8 +6263,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     plan->y1 = clip[3];
     plan->varyings = p->varyings;
     plan->values = SHADE__FIRST + p->varyings;
-    plan->divided = perspective ? SHADE__FIRST : plan->values;
-    plan->lod = p->lod_texture ? plan->divided + (perspective ? p->lod_varying : 0) : 0;
+    plan->first_divided = perspective ? SHADE__FIRST : plan->values;
+    plan->lod_u = p->lod_texture ? plan->first_divided + (perspective ? p->lod_varying : 0) : 0;
     if (p->lod_texture && !perspective) plan->values += 2;
     plan->value_stride = (plan->values + 7) / 8 * 8;
     plan->zero_to_one = p->raster.depth_zero_to_one != 0;
@@ -6240,16 +6274,17 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     if (!early) plan->tile_test.always = UINT32_MAX;
     plan->queued = p->fragment && (plan->color || p->may_discard);
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
-    plan->inputs_unread = own && early && !t->dither;
+    plan->inputs_unread = library_shader && early && !t->dither;
     plan->away = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
     plan->half_width = t->width * 128;
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a checked target, and changes the pipeline; it cannot fail.  own: our fragment
-   shader. */
-static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
-                                    shade_vec3 eye, shade__supply *supply, shade_stats *stats)
+/* Draws to a checked target, and changes the pipeline; it cannot fail.  library_shader: the
+   fragment shader is one of this file, not the caller's. */
+static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe,
+                                    int library_shader, shade_vec3 eye, shade__supply *supply,
+                                    shade_stats *stats)
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
@@ -6257,7 +6292,7 @@ static shade_result shade__run_draw(const shade_target *target, shade_pipeline *
         pipe->varyings = 0;
         pipe->lod_texture = NULL;
     }
-    shade__make_plan(target, pipe, own, &d.plan);
+    shade__make_plan(target, pipe, library_shader, &d.plan);
     d.plan.eye = eye;
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
@@ -6847,9 +6882,9 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     return t[0] <= t[1];
 }
 
-/* The greatest width, 2000 times the largest picture; wider lines are drawn as wide.  Their corners
-   stay within 2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are
-   floats. */
+/* The greatest width, 2000 times the largest picture.  Wider lines are drawn with this width.
+   Their corners stay within 2^28 pictures of the middle, so that in clip space, where |w| <= 1e30,
+   they do not overflow. */
 #define SHADE__WIDEST 33554432.0f
 
 /* The clip-space position of a point. */
@@ -7069,6 +7104,7 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
      in      meshes, the caller's memory         out  the caller's arrays
      way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
              sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
+             box_visible: frustum_of and in_view of >>seen.
              mat4_fit: camera_of, frame_of, step_back
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
@@ -7284,9 +7320,9 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     return SHADE_OK;
 }
 
-/* The caller's array is scratch memory too: the sorted corners lie in its last quarter.  When i of
-   them have become at most i entries, of 16 i bytes, the next corner stands at byte 12 corners + 4
-   i, which is not overwritten. */
+/* The caller's array, of 16 bytes a corner, is scratch memory too: the sorted corners lie in its
+   last quarter.  The i corners read so far have made at most i edges, which end at byte 16 i.  The
+   next corner stands at byte 12 corners + 4 i, which is not before that, because i <= corners. */
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count)
 {
@@ -7362,6 +7398,16 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
+{
+    shade__frustum frustum;
+    if (!target || shade__check_target(target)) return 1;
+    clip_from_object = shade__or_identity(clip_from_object);
+    shade__frustum_of(target, &clip_from_object, depth_zero_to_one, &frustum);
+    return shade__in_view(&frustum, low, high);
+}
+
 /* The camera as a matrix: columns right, up and back, and a point on the line of sight.  It is
    exactly the identity for an eye on the z axis that looks down -z. */
 static shade_mat4 shade__frame_of(const shade__camera *c)
@@ -7431,7 +7477,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 }
 
 /*----------------------------------------------------------------------------------------- >>chunks
-   Sorts the triangles of a mesh in space and cuts them into chunks with boxes; tests a box.
+   Sorts the triangles of a mesh in space and cuts them into chunks with boxes.
      in      meshes                              out  the caller's chunks and indices
      way     mesh_chunks: sort_triangles: split: longest_axis, partition; then box_chunk
      method  The list is split across its longest axis, at the border of a chunk nearest to the
@@ -7589,16 +7635,6 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, s
     return SHADE_OK;
 }
 
-SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
-                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
-{
-    shade__frustum frustum;
-    if (!target || shade__check_target(target)) return 1;
-    clip_from_object = shade__or_identity(clip_from_object);
-    shade__frustum_of(target, &clip_from_object, depth_zero_to_one, &frustum);
-    return shade__in_view(&frustum, low, high);
-}
-
 /*------------------------------------------------------------------------------------------- >>rays
    Rays through pixels, and the triangles of meshes that they meet.
      in      rays in world space, meshes         out  the nearest triangle
@@ -7615,9 +7651,12 @@ SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
     for (int k = 0; k < 3; k++) c[k] -= from[k];
 }
 
+/* Is w the same for all x and y? */
+static int shade__w_by_z(const shade_mat4 *m) { return m->col[0].w == 0 && m->col[1].w == 0; }
+
 static int shade__is_affine(const shade_mat4 *m)
 {
-    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
+    return shade__w_by_z(m) && m->col[2].w == 0 && m->col[3].w == 1;
 }
 
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
@@ -7820,9 +7859,9 @@ typedef struct shade__survey {
     shade_draw_state state;              /* but its material and lamps follow */
     shade_material   material;           /* the given one, or white */
     shade_light      lamp[SHADE__SUSPECTS];
-    int              own_lamps;          /* lamp is in use, not state.lighting.lights */
+    int              lamps_replaced;     /* lamp is in use, not state.lighting.lights */
     uint32_t         white_map;          /* the map counts as white, with its holes */
-    float            apart;              /* depths within this of farthest do not count */
+    float            far_margin;         /* depths this near to farthest do not count; 0: all do */
     int              lit_only;           /* count only pixels lit in the caller's picture */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
@@ -7830,7 +7869,7 @@ typedef struct shade__survey {
     float dim;                           /* channels below it are stored as 8 of 255 at most */
     shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
-    int   own_eye;                       /* light takes eye, not the eye of state.view */
+    int   eye_replaced;                  /* light takes eye, not the eye of state.view */
     shade_vec3 eye;
 } shade__survey;
 
@@ -7894,7 +7933,7 @@ static void shade__judge(const void *uniforms, const shade_fragments *SHADE_REST
         const float a = over ? out->color[3][i] : 1;
         int counts = !(trial->least > 0);
         for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
-        if (s->apart > 0) counts &= !shade__within(in->z[i] - s->farthest, s->apart);
+        if (s->far_margin > 0) counts &= !shade__within(in->z[i] - s->farthest, s->far_margin);
         if (s->lit_only) counts &= shade__is_lit_there(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
         if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
@@ -7908,11 +7947,11 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     shade_draw_state state = s->state;
     shade_stats stats;
     state.material = &s->material;
-    if (s->own_lamps) state.lighting.lights = s->lamp;
+    if (s->lamps_replaced) state.lighting.lights = s->lamp;
     if (!(trial->least > 0)) t.color = NULL;
     shade__scene_of(&t, &s->mesh, &state, &trial->scene);
     trial->scene.white_map = s->white_map;
-    if (s->own_eye) {
+    if (s->eye_replaced) {
         shade_vec4 *eye = &trial->scene.surface.eye;
         trial->scene.eye = s->eye;
         *eye = shade__xyzw(s->eye, eye->w);
@@ -7952,8 +7991,9 @@ static int shade__shows(shade__survey *s)
 static int shade__differ(const shade__survey *a, const shade__survey *b)
 {
     if (shade__covered(a) != shade__covered(b)) return 1;
-    for (float least = 0.5f; least > 0.03f && a->target->color; least *= 0.7f)
-        if (shade__count(a, least) != shade__count(b, least)) return 1;
+    if (a->target->color)
+        for (float least = 0.5f; least > 0.03f; least *= 0.7f)
+            if (shade__count(a, least) != shade__count(b, least)) return 1;
     return 0;
 }
 
@@ -8138,24 +8178,24 @@ static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flag
     SHADE__ZERO(*l);
     l->light_count = 1;
     l->flags = flags;
-    q->own_lamps = 1;
+    q->lamps_replaced = 1;
     q->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
     q->lamp[0].position = position;
 }
 
 /* Copies the first of the given lamps into the survey. */
-static void shade__own_lamps(shade__survey *q)
+static void shade__copy_lamps(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
     l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
-    q->own_lamps = 1;
+    q->lamps_replaced = 1;
     for (int i = 0; i < l->light_count; i++) q->lamp[i] = l->lights[i];
 }
 
 /* The first of the given lamps, without attenuation and exponent. */
 static void shade__light_everywhere(shade__survey *q)
 {
-    shade__own_lamps(q);
+    shade__copy_lamps(q);
     for (int i = 0; i < q->state.lighting.light_count; i++) {
         shade_light *lamp = &q->lamp[i];
         lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
@@ -8172,7 +8212,7 @@ static void shade__light_from_eye(shade__survey *q)
                                 (float)c->perspective), 0);
 }
 
-/* The lamps lose their cones.   pre: shade__own_lamps */
+/* The lamps lose their cones.   pre: shade__copy_lamps */
 static void shade__open_cones(shade__survey *q)
 {
     for (int i = 0; i < q->state.lighting.light_count; i++)
@@ -8262,28 +8302,31 @@ static int shade__faces_ahead(const shade__camera *c)
              ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
              why_black, wrong_light, flat; helps; doubt                                 >>replay */
 
-/* Is the mesh empty, or do its positions overlap? */
+/* Is the mesh empty, or do elements of an array overlap? */
 static const char *shade__no_mesh(const shade_mesh *m)
 {
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";
-    if ((uint32_t)m->position_stride - 1 < 11 || (uint32_t)m->normal_stride - 1 < 11)
-        return "mesh.position_stride or normal_stride is shorter than a position or normal, 12 "
-               "bytes; strides count bytes, not floats, and 0 means tightly packed.";
+    if ((uint32_t)m->position_stride - 1 < 11 || (uint32_t)m->normal_stride - 1 < 11 ||
+        (m->colors && (uint32_t)m->color_stride - 1 < 11) ||
+        (m->texcoords && (uint32_t)m->texcoord_stride - 1 < 7))
+        return "mesh.position_stride, normal_stride or color_stride is below 12, or "
+               "texcoord_stride below 8, so that elements overlap; strides count bytes, not "
+               "floats, and 0 means tightly packed.";
     return NULL;
 }
 
 /* ---- matrices and numbers of the state */
 
 /* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), or (0, 0, -1, 0)
-   of a perspective, or (0, 0, 1, 0) of a left-handed one.  Two kinds are not counted: matrices that
-   flatten, for shadows on planes, and projections from one point, with a w that grows with z
-   alone. */
+   of a perspective, or (0, 0, 1, 0) of a left-handed one.  Two kinds of matrices look like that
+   rightly, and give 0: those that flatten, for shadows on planes, and projections from one point,
+   in which w grows with z alone. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
     const shade_vec4 z = m->col[2], last = m->col[3];
-    const int from_point = m->col[0].w == 0 && m->col[1].w == 0 &&
+    const int from_point = shade__w_by_z(m) &&
                            !shade__within(z.x * z.x + z.y * z.y + z.z * z.z - 1, 0.01f);
     if (shade_mat4_determinant(*m) == 0) return 0;
     if (last.w == 0)    /* z.w is not 0, 1 or -1 */
@@ -8306,7 +8349,7 @@ static int shade__is_rigid(const shade_mat4 *m)
 /* Is the last row (0, 0, 0, w) with w other than 1? */
 static int shade__scales_w(const shade_mat4 *m)
 {
-    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
+    return shade__w_by_z(m) && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
 /* Is the view transposed, and does the picture change if it is not? */
@@ -8585,9 +8628,9 @@ static int shade__test_is_turned(shade__survey *q)
 
 static const shade__rung shade__test[] = {
     { shade__test_is_turned,
-      "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: "
-      "SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER and 0 for "
-      "shade_mat4_perspective_reversed." },
+      "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: use "
+      "SHADE_COMPARE_LESS with depth cleared to 1, or with shade_mat4_perspective_reversed "
+      "SHADE_COMPARE_GREATER with depth cleared to 0." },
     { NULL, NULL }
 };
 
@@ -8643,7 +8686,7 @@ static int shade__is_far(const shade__survey *s)
     const shade_compare test = s->given_state->raster.depth_test;
     shade__survey q = *s;
     shade__look_at_all(&q);
-    q.apart = FLT_MIN;
+    q.far_margin = FLT_MIN;
     return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
 }
 
@@ -8684,7 +8727,7 @@ static int shade__depth_hides(shade__survey *q)
 {
     const int hidden = !shade__is_drawn(q) || shade__is_far(q);    /* with the given bias */
     if (!hidden || !shade__all_hidden(q)) return 0;
-    q->apart = 1e-6f;    /* floats are too coarse to tell which is nearer */
+    q->far_margin = 1e-6f;    /* floats are too coarse to tell which is nearer */
     return shade__covered(q) > 0;
 }
 
@@ -8699,9 +8742,9 @@ static const shade__rung shade__unseen[] = {
       "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the mesh's own "
       "depth: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
     { shade__depth_uncleared,
-      "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
+      "target.depth holds 0 where the mesh is (1 with SHADE_COMPARE_GREATER) or NaN, so that "
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
-      "0 for a reversed projection." },
+      "of 0 for a reversed projection." },
     { shade__depth_is_far,
       "Every pixel of the mesh has the depth of the far plane, so that nothing passes "
       "raster.depth_test: near of state.projection is too small for floats, compared with far; "
@@ -9101,7 +9144,7 @@ static int shade__eye_is_astray(shade__survey *q)
     const shade_vec3 at = shade__xyz(camera.col[3]);
     const unsigned terms = q->state.lighting.terms;
     shade__survey given = *q;
-    q->own_eye = 1;
+    q->eye_replaced = 1;
     if (q->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
         q->eye = shade_neg(shade__single3(c->sight));
         if (shade_dot(shade__xyz(camera.col[2]), q->eye) >= 0) return 0;
@@ -9305,7 +9348,8 @@ static const char *shade__doubt(const shade__survey *s)
 
 /* ---- the way through the ladders */
 
-/* Does the advice help by itself, with all else as given? */
+/* Does the advice of a sentence help by itself, with all else as given?  If not, there are several
+   faults, and shade__why_black says shade__multiply. */
 static int shade__helps(const shade__survey *seen, const char *why)
 {
     shade__survey q = *seen;
@@ -9317,7 +9361,7 @@ static int shade__helps(const shade__survey *seen, const char *why)
     else if (why == shade__black_material) shade__polish(&q);
     else if (why == shade__fall_off) shade__light_everywhere(&q);
     else if (why == shade__no_cone) {
-        shade__own_lamps(&q);
+        shade__copy_lamps(&q);
         shade__open_cones(&q);
     } else {
         if (l->model > SHADE_MODEL_LAMBERT) return 0;
@@ -9440,8 +9484,9 @@ typedef struct shade__tally {
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
     int         any_w;                   /* 1: some w is not 0 */
     long long   fragments;               /* all of them; of these: */
-    long long   discarded, clear;        /* alpha is 0 */
-    long long   nan, dark, bright;       /* a channel is; all are dim; one is 16 or more */
+    long long   discarded, clear;        /* clear: alpha is 0 */
+    long long   nan, dark, bright;       /* a channel is not finite; all are below 8 of 255; one */
+                                         /* is 16 or more */
 } shade__tally;
 
 /* A draw that is run again. */
@@ -9535,7 +9580,7 @@ static const char *shade__why_matrix(const shade__replay *r, const shade__tally 
         return "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or "
                "not a projection; it is projection times view, in this order.";
     /* w = -z, but the rest is not a perspective */
-    if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
+    if (shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
         (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
         return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
                "projection first, then view.";
@@ -9627,9 +9672,9 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
     raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
     raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth possible */
     if (!shade__run_again(&part).stats.fragments)
-        return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
+        return "target.depth holds 0 where it is drawn (1 with SHADE_COMPARE_GREATER) or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
-               "depth of 1, or 0 for a reversed projection.";
+               "depth of 1, or of 0 for a reversed projection.";
     raster->depth_bias *= 2e-6f;    /* depths of coinciding planes differ by less */
     if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
         return "The lines lie in surfaces that target.depth already holds, and these hide them: "
@@ -9772,36 +9817,39 @@ static shade_result shade__check_picture(const shade_target *t)
 }
 
 /* Along one axis, texel i of a mipmap covers a share of each of pixels 2 i, 2 i + 1 and, if the
-   size is odd, 2 i + 2 of the level above. */
-typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
+   size is odd, 2 i + 2 of the level above.  For example, 5 pixels become 2 texels, 2.5 pixels each:
+   the shares of texel 0 are 1, 1, 0.5, those of texel 1 are 0.5, 1, 1. */
+typedef struct shade__shares { int pixels; double share[3]; } shade__shares;
 
 /* Tables to make a level of mipmaps. */
 enum { SHADE__DOUBLES = SHADE_LANES < 64 ? 1 : 512 };    /* 1: no table, to save stack */
 typedef struct shade__halving {
     double light[SHADE__DOUBLES];       /* the values of the decoder: 1.1 to 1.3 times as fast */
-    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
+    shade__shares column[SHADE_LANES];  /* of the texels of a packet */
 } shade__halving;
 
-/* The linear light of packed pixels: of[k] is indexed by the value of channel k. */
+/* The linear light of packed pixels: table[k] is indexed by the value of channel k. */
 typedef struct shade__decoder {
     const shade_target *from;
+    int factor;                 /* each side becomes shorter by this factor, or about */
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
-    const float *of[4];
+    const float *table[4];
     float value[512];    /* of colours, then of alpha; channels of equal size share values */
 } shade__decoder;
 
-static void shade__open_decoder(const shade_target *t, shade__decoder *d)
+static void shade__open_decoder(const shade_target *t, int factor, shade__decoder *d)
 {
     const shade__layout l = d->layout = shade__layouts[t->format];
     const int encoded = shade__is_encoded(t->srgb, &l);
     float *at = d->value;
     d->from = t;
+    d->factor = factor;
     d->halving = NULL;
     for (int k = 0; k < 4; k++) {
-        d->of[k] = at;
+        d->table[k] = at;
         if ((k == 1 || k == 2) && l.full[k] == l.full[0]) {
-            d->of[k] = d->of[0];
+            d->table[k] = d->table[0];
             continue;
         }
         for (int v = 0; v <= l.full[k]; v++) {
@@ -9821,15 +9869,22 @@ SHADE__INLINE float shade__light_of(const shade__decoder *d, const shade__layout
         SHADE_MEMCPY(&c, p + 4 * k, 4);
         return c;
     }
-    if (bytes == 4) return d->of[k][p[l->shift[k] / 8]];
-    return d->of[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
+    if (bytes == 4) return d->table[k][p[l->shift[k] / 8]];
+    return d->table[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
+}
+
+/* The bytes from row to row of the picture that is read. */
+static size_t shade__pitch(const shade__decoder *d)
+{
+    return (size_t)shade__stride_of(d->from) * d->layout.bytes;
 }
 
 /* The means of factor x factor pixels, for n pixels of a smaller picture. */
-SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_t pitch,
-                                const int factor, int n, const int bytes, float *mean)
+SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, const int factor, int n,
+                                const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
+    const size_t pitch = shade__pitch(d);
     const float count = (float)(factor * factor);
     for (int i = 0; i < n; i++, p += factor * bytes) {
         const uint8_t *at = p;
@@ -9849,10 +9904,10 @@ SHADE__INLINE double shade__light_4(const shade__decoder *d, const shade__layout
     return d->halving->light[(k == 3 ? 256 : 0) + p[l->shift[k] / 8]];
 }
 
-static shade__cut shade__cut_of(int size, int smaller, int i)
+static shade__shares shade__shares_of(int size, int smaller, int i)
 {
     const double scale = (double)size / smaller, from = i * scale, to = (i + 1) * scale;
-    shade__cut c = { size == smaller ? 1 : 2 + size % 2, { 0, 0, 0 } };
+    shade__shares c = { size == smaller ? 1 : 2 + size % 2, { 0, 0, 0 } };
     for (int k = 0; k < c.pixels; k++) {
         const int first = 2 * i + k;
         c.share[k] = (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
@@ -9861,10 +9916,10 @@ static shade__cut shade__cut_of(int size, int smaller, int i)
 }
 
 /* The means of 2 x 2 pixels of 4 bytes.  Their sums are exact in double. */
-SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, size_t pitch, int n,
-                                float *mean)
+SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, int n, float *mean)
 {
     const shade__layout l = d->layout;
+    const size_t pitch = shade__pitch(d);
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < n; i++) {
             const uint8_t *a = p + 8 * i, *b = a + pitch;
@@ -9875,14 +9930,15 @@ SHADE__INLINE void shade__halve(const shade__decoder *d, const uint8_t *p, size_
 }
 
 /* The same for any format and size. */
-SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows, const uint8_t *p,
-                                 size_t pitch, int n, const int bytes, float *mean)
+SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__shares *rows,
+                                 const uint8_t *p, int n, const int bytes, float *mean)
 {
     const shade__layout l = d->layout;
-    const shade__cut *column = d->halving->column;
+    const size_t pitch = shade__pitch(d);
+    const shade__shares *column = d->halving->column;
     const int columns = column->pixels, lines = rows->pixels;
     for (int i = 0; i < n; i++, p += 2 * bytes) {
-        const shade__cut *c = &column[i];
+        const shade__shares *c = &column[i];
         const uint8_t *at = p;
         double sum[4] = { 0, 0, 0, 0 }, all = 0;
         for (int j = 0; j < lines; j++, at += pitch)
@@ -9902,28 +9958,27 @@ SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__cut *rows
 
 /* The light of pixels x .. x + n - 1 of row y of a smaller picture: means of factor x factor
    pixels, or of the pixels that the texels of a mipmap cover. */
-static void shade__reduce(const shade__decoder *d, const shade_target *to, int factor, int x, int y,
-                          int n, float *mean)
+static void shade__reduce(const shade__decoder *d, const shade_target *to, int x, int y, int n,
+                          float *mean)
 {
     const shade_target *from = d->from;
-    const int bytes = d->layout.bytes;
-    const size_t pitch = (size_t)shade__stride_of(from) * (size_t)bytes;
+    const int bytes = d->layout.bytes, factor = d->factor;
     const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
     if (d->halving) {
-        const shade__cut rows = shade__cut_of(from->height, to->height, y);
+        const shade__shares rows = shade__shares_of(from->height, to->height, y);
         const int even = rows.pixels == 2 && d->halving->column[0].pixels == 2;
-        if (bytes == 4 && even) shade__halve(d, p, pitch, n, mean);
-        else if (bytes == 4) shade__shrink(d, &rows, p, pitch, n, 4, mean);
-        else shade__shrink(d, &rows, p, pitch, n, bytes, mean);
-    } else if (bytes == 4 && factor == 2) shade__means(d, p, pitch, 2, n, 4, mean);
-    else if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
-    else if (bytes == 16) shade__means(d, p, pitch, factor, n, 16, mean);
-    else shade__means(d, p, pitch, factor, n, bytes, mean);
+        if (bytes == 4 && even) shade__halve(d, p, n, mean);
+        else if (bytes == 4) shade__shrink(d, &rows, p, n, 4, mean);
+        else shade__shrink(d, &rows, p, n, bytes, mean);
+    } else if (bytes == 4 && factor == 2) shade__means(d, p, 2, n, 4, mean);
+    else if (bytes == 4) shade__means(d, p, factor, n, 4, mean);
+    else if (bytes == 16) shade__means(d, p, factor, n, 16, mean);
+    else shade__means(d, p, factor, n, bytes, mean);
 }
 
-/* Makes the clip rectangle of a picture from the decoder's.  With a sink, the picture is one row of
-   RGBA8, and the sink gets it as R, G, B bytes. */
-static shade_result shade__convert(const shade__decoder *d, const shade_target *to, int factor,
+/* Makes the clip rectangle of a picture from the decoder's picture.  With a sink, the new picture
+   is one row of RGBA8, and the sink gets it as R, G, B bytes. */
+static shade_result shade__convert(const shade__decoder *d, const shade_target *to,
                                    shade_write_fn *sink, void *user)
 {
     shade__halving *h = d->halving;
@@ -9935,9 +9990,9 @@ static shade_result shade__convert(const shade__decoder *d, const shade_target *
         const int n = shade__min(SHADE_LANES, clip[2] - x);
         if (h)
             for (int i = 0; i < n; i++)
-                h->column[i] = shade__cut_of(d->from->width, to->width, x + i);
+                h->column[i] = shade__shares_of(d->from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
-            shade__reduce(d, to, factor, x, y, n, rgba);
+            shade__reduce(d, to, x, y, n, rgba);
             shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
             if (!sink) continue;
 
@@ -9961,8 +10016,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
         shade__rows_held(in) != shade__rows_held(out) * factor)
         return SHADE_ERROR_ARGUMENT;
 
-    shade__open_decoder(in, &decoder);
-    return shade__convert(&decoder, out, factor, NULL, NULL);
+    shade__open_decoder(in, factor, &decoder);
+    return shade__convert(&decoder, out, NULL, NULL);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
@@ -10004,7 +10059,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     from.format = texture->format;
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
-    shade__open_decoder(&from, &decoder);
+    shade__open_decoder(&from, 2, &decoder);
     decoder.halving = &halving;
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     for (int n = 0; n < count; n++, from = to) {
@@ -10013,7 +10068,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        shade__convert(&decoder, &to, 2, NULL, NULL);
+        shade__convert(&decoder, &to, NULL, NULL);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -10056,10 +10111,10 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const s
     to.clip_x = 0;
     to.clip_width = to.width;
     to.clip_height = 1;
-    shade__open_decoder(&from, &decoder);
+    shade__open_decoder(&from, 1, &decoder);
     for (int y = 0; y < shade__rows_held(target) && !result; y++) {
         to.clip_y = to.row_offset + y;
-        result = shade__convert(&decoder, &to, 1, sink, user);
+        result = shade__convert(&decoder, &to, sink, user);
     }
     return result;
 }

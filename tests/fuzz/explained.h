@@ -700,7 +700,7 @@ static const claim claims[] = {
     { "direction without length", NULL, cure_nothing, STATED },
     { "quadratic is negative", so_negative_attenuation, cure_nothing, STATED },
     { "make them so", so_some_bad, cure_nothing, STATED },
-    { "shorter than a position", NULL, cure_nothing, STATED },
+    { "so that elements overlap", NULL, cure_nothing, STATED },
     { "There is no triangle to draw", NULL, cure_nothing, STATED },
     { "clip rectangle is empty", so_clip, cure_clip, STATED },
     /* nothing is in view */

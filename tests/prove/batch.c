@@ -74,7 +74,7 @@ static void prove_gather(int varyings, int again, int divided)
     plan->varyings = varyings;
     plan->values = varyings + SHADE__FIRST + again;
     plan->value_stride = (plan->values + 7) / 8 * 8;
-    plan->divided = shade__min(divided, plan->values);
+    plan->first_divided = shade__min(divided, plan->values);
     pipe.lod_varying = ANY_OF(0, shade__max(varyings - 2, 0));
     shade__gather(plan, shade__min(SHADE_LANES, SHADE__BATCH_FLOATS / plan->value_stride),
                   &vertices, &placed, &d.batch);

@@ -19,7 +19,7 @@ static void any_polygon(void)
     p.in_front = ANY_OF(0, 1);
     p.taken = Frama_C_unsigned_int_interval(1, (1u << SHADE__CLIP_VERTICES) - 1);
     plan.values = plan.value_stride = SHADE__VALUES_MAX;
-    plan.divided = ANY_OF(SHADE__FIRST, SHADE__VALUES_MAX);
+    plan.first_divided = ANY_OF(SHADE__FIRST, SHADE__VALUES_MAX);
     plan.zero_to_one = ANY_OF(0, 1);
     plan.half_width = Frama_C_float_interval(128, 2097152);
     plan.half_height = Frama_C_float_interval(128, 2097152);

@@ -29,9 +29,9 @@ static void prove_push(int varyings, int stride, int lod)
     shade__run run[2];
     d.plan.varyings = varyings;
     d.plan.values = varyings + SHADE__FIRST + lod;
-    d.plan.divided = ANY_OF(SHADE__FIRST, d.plan.values);
+    d.plan.first_divided = ANY_OF(SHADE__FIRST, d.plan.values);
     d.plan.value_stride = stride;
-    d.plan.lod = lod ? varyings + SHADE__FIRST : 0;
+    d.plan.lod_u = lod ? varyings + SHADE__FIRST : 0;
     d.plan.inputs_unread = ANY_OF(0, 1);
     d.plan.stride = ANY_OF(1, INT32_MAX);
     d.plan.row_offset = ANY_OF(0, 16383);
@@ -65,8 +65,8 @@ static void prove_push(int varyings, int stride, int lod)
 static void prove_flush(int count)
 {
     d.plan.varyings = ANY_OF(0, SHADE_MAX_VARYINGS);
-    d.plan.divided = ANY_OF(SHADE__FIRST, SHADE__FIRST + SHADE_MAX_VARYINGS);
-    d.plan.lod = ANY_OF(0, 1);
+    d.plan.first_divided = ANY_OF(SHADE__FIRST, SHADE__FIRST + SHADE_MAX_VARYINGS);
+    d.plan.lod_u = ANY_OF(0, 1);
     d.plan.inputs_unread = ANY_OF(0, 1);
     d.u.queue.f.count = count;
     shade__flush_body(&d);

@@ -22,8 +22,8 @@ static void prove_reach(void)
         t.edges.ey[k] = ANY_WITHIN(2 * FAR);
     }
     for (int k = 0; k < 3; k++) {
-        const int64_t e = shade__edge_in(&t, k, ANY_OF(0, 16383), ANY_OF(0, 16383),
-                                         ANY_OF(1, 16384), ANY_OF(1, 16384), &least[k]);
+        const int64_t e = shade__edge_at(&t, k, ANY_OF(0, 16383), ANY_OF(0, 16383));
+        least[k] = e + shade__edge_fall(&t, k, ANY_OF(1, 16384), ANY_OF(1, 16384));
         /*@ assert -35184372088832 <= e <= 35184372088832; */
     }
     const int inside = shade__all_inside(&t, least, ANY_WITHIN(16384));

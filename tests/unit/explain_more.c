@@ -17,6 +17,16 @@ LISTED(limit);
     LIST(limit, name, #name, words, near_##name, misses)                                           \
     static void near_##name(stage *s, int miss)
 
+NEAR(color_stride, 2, "elements overlap")
+{
+    s->mesh.colors = miss < 2 ? &s->color[0].x : NULL;
+    s->mesh.color_stride = miss == 1 ? 12 : 8;
+}
+NEAR(texcoord_stride, 2, "elements overlap")
+{
+    s->mesh.texcoords = miss < 2 ? &s->texcoord[0].x : NULL;
+    s->mesh.texcoord_stride = miss == 1 ? 8 : 4;
+}
 NEAR(positions, 1, "mesh.positions hold NaN") { s->position[40].x = miss ? 9e11f : 1.1e12f; }
 NEAR(lamp_nan, 1, "holds a NaN") { s->lamps[1].diffuse.y = miss ? 0.5f : NAN; }
 NEAR(attenuation, 1, "quadratic is negative") { s->lamps[0].linear = miss ? 1e-6f : -1e-6f; }

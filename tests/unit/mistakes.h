@@ -372,6 +372,16 @@ MISTAKE(stride_in_floats, BOTH, "bytes") { s->mesh.position_stride = 3; }
 MISTAKE(stride_of_eight_floats, BOTH, "position_stride") { s->mesh.position_stride = 8; }
 MISTAKE(normal_stride_in_floats, BOTH, "normal_stride") { s->mesh.normal_stride = 3; }
 MISTAKE(normal_stride_of_one_float, BOTH, "normal_stride") { s->mesh.normal_stride = 4; }
+MISTAKE(color_stride_of_one_float, BOTH, "color_stride")
+{
+    s->mesh.colors = &s->color[0].x;
+    s->mesh.color_stride = 4;
+}
+MISTAKE(texcoord_stride_of_one_float, BOTH, "texcoord_stride")
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->mesh.texcoord_stride = 4;
+}
 MISTAKE(positions_of_doubles, BOTH, "mesh.positions")
 {
     for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
