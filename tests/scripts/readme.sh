@@ -12,7 +12,7 @@ cd "$(dirname "$0")/../.." || exit 1
 find_compilers
 README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
-CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
+CONTINUED="examples/lessons/README.md bench/README.md examples/embed/README.md"
 PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md tests/GUARANTEES.md
     examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
 WARN="-Wall -Wextra -Werror"
