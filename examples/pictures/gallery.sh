@@ -2,6 +2,25 @@
 # gallery.sh - the pictures of the README: out/*.ppm as PNG, in 256 colours where dither hides that
 # (pngquant's 99 of 100), else in 7 bits a channel.  The picture for the microcontroller's display is
 # shown three times as large.  Needs netpbm (pnmenlarge, pamdepth, pnmtopng), pngquant and python3.
+#     gallery.sh --check     is each PNG the picture that its program draws into out/, but for the few
+#                            bits that are taken away?  Needs netpbm; make draws the pictures first.
+cd "$(dirname "$0")/../.." || exit 1
+alike() {                       # two pictures: the noise is 42 dB below the signal, or there is none
+    pnmpsnr "$1" "$2" 2>&1 | tee "$T/said" | awk '
+        /no difference/ { same++ }
+        / dB$/ { sub(/.*: */, ""); if ($1 >= 42) same++ }
+        END { exit same != 3 }' || { cat "$T/said"; return 1; }
+}
+if [ "$1" = --check ]; then
+    . tests/scripts/tools.sh
+    there pnmpsnr && there pngtopnm || { left_out "everything: no netpbm"; finish; }
+    for ppm in out/*.ppm; do
+        png=examples/pictures/$(basename "$ppm" .ppm).png
+        pngtopnm "$png" 2>/dev/null | pamdepth 255 >"$T/shown.ppm" 2>/dev/null
+        check "$png shows what is drawn; if not, make gallery" alike "$ppm" "$T/shown.ppm"
+    done
+    finish
+fi
 for tool in pnmenlarge pamdepth pnmtopng pngquant python3; do
     command -v $tool >/dev/null || { echo "gallery: no $tool here"; exit 1; }
 done

@@ -1,4 +1,4 @@
-"""contract.py FOLDER THUMBNAIL [NODE] - reads the lines of names.c, and demands of the programs, the
+"""contract.py FOLDER THUMBNAIL [NODE] - reads the names that contract.sh lists, and demands of the programs, the
 package for Python and, where NODE is the folder of the package, of Node.js what they say: a file with
 one name more is drawn without a word of it, or drawn with a warning that names it, or refused by its
 name.  A name in no list is told.  Prints one line for each that is not so, then the counts."""

@@ -104,18 +104,18 @@ done
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
 apart="abi dialects compare contract coverage drawing embed lint matrix mutation node packages prove
-       python rows sizes static threads thumbnail user_files vector_report"
+       python rows static threads thumbnail user_files vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \
         grep -qE 'T=\$\(mktemp -d\)|^\. tests/scripts/tools.sh$|>/tmp/lint_.*\$\$' "tests/scripts/$name.sh"
     check "$name.sh writes nowhere else" no grep -nE '^[^#]*(^|[ ="])(\$PWD/)?(build|out)/' \
         "tests/scripts/$name.sh"
 done
-# ... and these are said above in other words: all.sh and shown.sh test, view.sh, batch.sh, explain.sh and
+# ... and these are said above in other words: all.sh test, view.sh, batch.sh, explain.sh and
 # assignments.sh their make, dist.sh, github.sh and windows.sh directories of their own,
 # compilers.sh and playground.sh build/zig, build/playwright and the page.  bench/size.sh measures for
 # a minute; what it writes in build/ is size.* and stack*.
-others="all shown view batch explain compilers playground any_order tools assignments dist github windows"
+others="all view batch explain compilers playground any_order tools assignments dist github windows"
 # course.sh packs what course-zip packs, and the step fuzz runs the script that make fuzz runs
 elsewhere="assignments clean conformance course-zip dist format format-check fuzz lint matrix programs
     vector-report"

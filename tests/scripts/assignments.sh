@@ -18,6 +18,8 @@ solved() {                      # a page: its commands again, the starter replac
     commands "$1" | sed "s|^python3 .* --start \(.*\)\(\.[a-z]*\)|cp $PWD/tests/assignments/by_hand\2 \1\2|" >"$T/steps"
     (cd "$T/tree" && sh "$T/steps")
 }
+# What a starter is told: cases, what is wrong with them, points, and nothing else
+told() { grep -q '^[0-9].* points$' "$T/said" && no grep -vE '^(ok  |FAIL|      |[0-9])' "$T/said"; }
 in_python() { sed '/^python3 .* [0-9a-z_]*\.c\>/s/\.c\>/.py/' "$1" >"$T/python.md"; }
 
 walk $A/README.md >"$T/said"
@@ -34,7 +36,7 @@ for task in $A/[0-9]*; do
     page=$task/README.md name=${task##*/}
     tr '\n' ' ' <"$page" >"$T/page"
     walk "$page" >"$T/said" 2>&1
-    check "$name: a starter in C gets points as its page says" no grep -qvE '^(ok  |FAIL|      |[0-9])' "$T/said"
+    check "$name: a starter in C gets points as its page says" told
     check "$name: its page says what colours mean" grep -qE 'In the picture of right answers,? [a-z]+ ' "$T/page"
     check "$name: full points after the same steps" solved "$page"
     check "$name: the picture of right answers is that of the page" python3 -c "
@@ -52,7 +54,7 @@ near = lambda a, b: all(abs(x - y) <= 1 for x, y in zip(a, b))  # floats round o
 assert all(map(near, got, want)) and [row[480:] for row in got] == want" "$T/tree/out.png" "$task/picture.png"
     in_python "$page"
     walk "$T/python.md" >"$T/said" 2>&1
-    check "$name: a starter in Python gets points too" no grep -qvE '^(ok  |FAIL|      |[0-9])' "$T/said"
+    check "$name: a starter in Python gets points too" told
     check "$name: full points in Python" solved "$T/python.md"
     python3 - "$name" "$T/page" <<'END' >"$T/log" 2>&1
 import sys

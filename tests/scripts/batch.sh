@@ -411,7 +411,7 @@ if command -v ffmpeg >/dev/null; then
         full $k 2>err; check "$k: a full disk" same $? 1
         check "is said" grep -q "^batch: $k: ffmpeg could not make it" err
         check "leaves the old film" same "$(cat $k)" old
-        check "and no part" no ls $k.*.part
+        check "and no part" no test -e $k.*.part
     done
     # an encoder that makes its file late, as ffmpeg does with its first frame
     mkdir late; printf '#!/bin/sh\nsleep 1\nfor k; do :; done\necho late >"$k"\n' >late/ffmpeg; chmod +x late/ffmpeg
@@ -422,7 +422,7 @@ if command -v ffmpeg >/dev/null; then
         kill -$signal $running
         wait $running 2>/dev/null
         sleep 1.5
-        check "SIG$signal: nothing comes later" no ls late.mp4.*.part
+        check "SIG$signal: nothing comes later" no test -e late.mp4.*.part
     done
     check "an MP4 of odd size" refused "size 97x60: MP4 needs even" "$BATCH" $turn --film odd.mp4
     check "a film of strips" refused "does not go with" "$BATCH" --strips 3 --film a.mp4
@@ -433,7 +433,7 @@ if command -v ffmpeg >/dev/null; then
         kill -$signal $running
         wait $running 2>/dev/null
         check "SIG$signal: no half film" test ! -e cut.mp4
-        [ $signal = KILL ] || check "SIG$signal: nothing stays" no ls cut.mp4.*.part
+        [ $signal = KILL ] || check "SIG$signal: nothing stays" no test -e cut.mp4.*.part
     done
     running=
 else echo "no ffmpeg: the film is left out"

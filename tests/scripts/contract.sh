@@ -10,7 +10,21 @@ FLAGS="-std=c99 -O1 -I. -ffp-contract=off"
 find_python "numpy, setuptools, wheel"
 [ "$python" ] || { left_out "the contract: no Python with NumPy, setuptools and wheel"; finish; }
 find_libraries
-check "the lists" $CC $FLAGS -DSHADE_IMPLEMENTATION tests/contract/names.c -lm -o "$T/names"
+# the names of all formats, one a line: format, kind, name, what becomes of it
+cat >"$T/names.c" <<'END'
+#include "examples/kit/read/files.h"
+
+int main(void)
+{
+    static const char *const what[] = { "drawn", "silent", "told", "refused" };
+    for (size_t i = 0; i < sizeof model_known / sizeof *model_known; i++)
+        for (const known_name *n = model_known[i].names; n->name; n++)
+            printf("%s\t%s\t%s\t%s\n", model_known[i].format, model_known[i].kind, n->name,
+                   what[n->what]);
+    return 0;
+}
+END
+check "the lists" $CC $FLAGS -DSHADE_IMPLEMENTATION "$T/names.c" -lm -o "$T/names"
 check "thumbnail" $CC $FLAGS -DSHADE_IMPLEMENTATION -pthread examples/programs/thumbnail/thumbnail.c \
     $ZLIB -lm -o "$T/thumbnail"
 mkdir "$T/files" "$T/tree"

@@ -43,7 +43,7 @@ for file in "$T"/again/*.gz "$T"/again/*.whl "$T"/again/*.tgz "$T"/again/*.zip; 
     [ ! -f "$file" ] || check "the same bytes: ${file##*/}" cmp "$file" "$D/${file##*/}"
 done
 check "nothing else, and no file less" cmp "$T/again/SHA256SUMS" "$D/SHA256SUMS"
-check "pip tells the tarball and the sdist apart" no ls "$D/shade-h-$V.tar.gz"
+check "pip tells the tarball and the sdist apart" no test -e "$D/shade-h-$V.tar.gz"
 mkdir "$T/own" && tar -C "$T/own" -xzf "$A"
 check "a tarball of the tarball" sh "$T/own/shade-$V/.ci/dist.sh" "$T/third" source
 check "the same bytes from it" cmp "$A" "$T/third/shade-$V.tar.gz"

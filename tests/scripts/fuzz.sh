@@ -63,7 +63,7 @@ fuzz() {                                     # target, seconds
 }
 replay() {                                   # target
     t=$1
-    "$CC" $FLAGS $checks tests/fuzz/replay.c tests/fuzz/$t.c $B/replay.o -lm -o $B/replay-$t ||
+    "$CC" $FLAGS $checks tests/fuzz/$t.c $B/replay.o -lm -o $B/replay-$t ||
         { count 1; return; }
     sh tests/fuzz/corpus.sh unpack $t $B/corpus/$t
     log=$($B/replay-$t $B/corpus/$t/* 2>&1)
@@ -84,9 +84,8 @@ if "$CLANG" -fsanitize=fuzzer,address $B/probe.c -o $B/probe >/dev/null 2>&1; th
 else
     echo "no $CLANG with a fuzzer library (libclang-rt-14-dev): the corpus is replayed"
     checks=$CHECKS                           # or none, where the compiler has no sanitizers
-    "$CC" $CHECKS $B/probe.c -c -o $B/probe.o 2>/dev/null &&
-        "$CC" $CHECKS tests/fuzz/replay.c $B/probe.o -o $B/probe 2>/dev/null || checks=
-    "$CC" $FLAGS $checks -c tests/fuzz/shade.c -o $B/replay.o ||
+    echo 'int main(void) { return 0; }' | "$CC" $CHECKS -x c - -o $B/probe 2>/dev/null || checks=
+    "$CC" $FLAGS $checks -DFUZZ_REPLAY -c tests/fuzz/shade.c -o $B/replay.o ||
         { echo "0 passed, 1 failed"; exit 1; }
     for t in $targets; do replay "$t"; done
 fi

@@ -50,11 +50,11 @@ first() {                       # sections of the tests that know a section of s
     base) echo math lanes store ;; pixels | store) echo store resolve texture ;;
     lamps | terms) echo light lanes ;; lit) echo lanes light ;; vertices) echo vertex clip ;;
     triangles) echo packets depth cover ;; clip) echo clip depth ;;
-    tiles) echo work cover ;; cover) echo work cover blocks fragment ;; fragments) echo packets fragment store ;;
-    texture) echo texture ;; check) echo check ;; drive) echo drive resolve ;;
-    mesh) echo mesh texture own ;; lines) echo lines ;; shape) echo shape ;;
+    tiles) echo work cover ;; cover) echo work cover depth fragment ;; fragments) echo packets fragment store ;;
+    texture) echo texture ;; check) echo drive ;; drive) echo drive resolve ;;
+    mesh) echo mesh texture shaders ;; lines) echo lines ;; shape) echo shape ;;
     camera) echo camera ray ;; chunks) echo chunks ;; rays) echo ray camera ;;
-    survey | explain) echo explain_more explain ;; replay) echo explain_pipelines ;;
+    survey | explain) echo explain ;; replay) echo explain_pipelines ;;
     image) echo resolve texture drive store ;;
     esac
 }

@@ -12,7 +12,7 @@ is_ball() { "$@" >"$T/drawn.txt" && cmp "$T/drawn.txt" "$T/ball.txt"; }
 
 # ---- the pages of PyPI and npm
 page() {                        # package, command that installs it, a line of its news
-    python3 .ci/page.py "$1" "$V" >"$T/page" || return 1
+    python3 .ci/release.py page "$1" "$V" >"$T/page" || return 1
     same "$(sed -n 3p "$T/page")" "    $2 install shade-h" && grep -qx "## New in ${V%.*}" "$T/page" &&
         grep -q "$3" "$T/page" && no grep -q '^[*].*assignments' "$T/page" &&
         grep -oE '\]\([^)]*\)' "$T/page" | tr -d '])(' >"$T/links" && [ "$(wc -l <"$T/links")" -gt 2 ] &&

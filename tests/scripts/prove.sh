@@ -1,7 +1,8 @@
 #!/bin/sh
-# prove.sh [driver ...] - Frama-C's Eva over tests/prove/*.c: no overflow, no shift or conversion out
-# of range, no access outside an array, every assertion true.  What Eva cannot see alone stands in
-# tests/prove/known.txt: a fact of it that Eva can prove, or that it is never asked for, fails too.
+# prove.sh [driver ...] - Frama-C's Eva over the drivers of tests/prove/*.c, each between #ifdef
+# PROVE_driver and #endif: no overflow, no shift or conversion out of range, no access outside an
+# array, every assertion true.  What Eva cannot see alone stands in tests/prove/known.txt: a fact of
+# it that Eva can prove, or that it is never asked for, fails too.
 # HEADER=file proves another shade.h.
 cd "$(dirname "$0")/../.." || exit 1
 if ! command -v frama-c >/dev/null; then
@@ -49,18 +50,19 @@ alarms() {
 }
 # G1
 prove() {
-    source=tests/prove/$1.c
+    source=$(grep -lx "#ifdef PROVE_$1" tests/prove/*.c) || return 1
     rm -f "$T/odd"
+    sed -n "/^#ifdef PROVE_$1\$/,/^#endif/p" "$source" >"$T/part"
     annotate "$1" >"$T/shade.h" || return 1
-    frama-c -machdep gcc_x86_64 -cpp-extra-args="-DPROVE_HEADER=\\\"$T/shade.h\\\" -U__GNUC__ -D__GNUC__=7" \
+    frama-c -machdep gcc_x86_64 -cpp-extra-args="-DPROVE_$1 -DPROVE_HEADER=\\\"$T/shade.h\\\" -U__GNUC__ -D__GNUC__=7" \
         -eva -eva-slevel 0 -eva-auto-loop-unroll 300 -warn-special-float none -no-unicode \
-        $(sed -n 's/.*eva: \(-.*\) \*\/.*/\1/p' "$source") "$source" >"$T/log" 2>&1
+        $(sed -n 's/.*eva: \(-.*\) \*\/.*/\1/p' "$T/part") "$source" >"$T/log" 2>&1
     [ -z "$LOG" ] || cp "$T/log" "$LOG"
     alarms "$T/log" >"$T/alarms"
     sort "$T/facts" | comm -3 - "$T/alarms" >"$T/odd"
     grep -E 'annot-error|implicit-function|missing-spec|NON TERMINATING|[Uu]ser [Ee]rror|\[kernel\] Plug-in .* aborted|[1-9][0-9]* errors' \
         "$T/log" >>"$T/odd"
-    wanted=$(($(grep -c '@ assert' "$source") +
+    wanted=$(($(grep -c '@ assert' "$T/part") +
               $(awk -v driver="[$1]" '/^\[/ { mine = $1 == driver } mine && $1 == "prove:" { n++ }
                                       END { print n + 0 }' "$known")))
     valid=$(sed -n 's/^ *Assertions *\([0-9]*\) valid.*/\1/p' "$T/log")
@@ -70,7 +72,7 @@ prove() {
     [ -f "$T/odd" ] && ! [ -s "$T/odd" ]
 }
 
-[ $# -gt 0 ] || set -- $(ls tests/prove/*.c | sed 's/.*\///; s/\.c$//')
+[ $# -gt 0 ] || set -- $(sed -n 's/^#ifdef PROVE_//p' tests/prove/*.c)
 for driver in "$@"; do
     start=$(date +%s)
     if prove "$driver"; then

@@ -12,7 +12,7 @@ cd "$(dirname "$0")/../.." || exit 1
 find_compilers
 README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
-CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
+CONTINUED="examples/lessons/README.md bench/README.md examples/embed/README.md"
 PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md tests/GUARANTEES.md
     examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
 WARN="-Wall -Wextra -Werror"
@@ -124,7 +124,7 @@ for target in windows-msvc apple-darwin; do
     check "clang compiles for $target" grep -q -- "-$target" tests/scripts/compilers.sh
 done
 check "every name is one of shade.h" none "$(
-    words "$T/text" | grep -E '^(shade|SHADE)_' | grep -vx shade_h |
+    words "$T/text" | grep -E '^(shade|SHADE)_' | grep -vxE 'shade_h|SHADE_INCLUDE_DIRS' |
     comm -23 - "$T/known")"
 check "every place is one of shade.h" none "$(
     grep -oE '>>[a-z]+' "$T/text" | sort -u | while read -r place; do

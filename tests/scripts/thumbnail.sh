@@ -55,7 +55,7 @@ same() {
 pixel() { "$T/look" pixel "$T/a.ppm" "$1" "$2" $("$T/look" display "$3" "$4" "$5") 1; }
 refused() {                     # text, command ...: and no picture
     rm -f "$T/none.ppm"
-    refused_by thumbnail "$@" && [ ! -e "$T/none.ppm" ] && no ls "$T"/*.part
+    refused_by thumbnail "$@" && [ ! -e "$T/none.ppm" ] && no test -e "$T"/*.part
 }
 bad_model() { check "$1" refused "$3" "$THUMBNAIL" "$T/$2" "$T/none.ppm"; }
 

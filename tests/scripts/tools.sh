@@ -14,7 +14,7 @@ check() {                       # what, command ...
     if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
     else fail "$what" "$T/log"; fi
 }
-no() { ! "$@"; }
+no() { "$@"; [ $? -eq 1 ]; }      # what cannot be asked, with a status above 1, is no answer
 same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
 # Status 1, one line on stderr, of a program, that holds a text, and nothing on stdout
 refused_by() {                  # program, text, command ...

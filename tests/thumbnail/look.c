@@ -129,5 +129,5 @@ int main(int argc, char **argv)
     }
     printf("%d x %d x %d and %d x %d x %d\n", a.width, a.height, a.channels, b.width, b.height,
            b.channels);
-    return 1;
+    return 2;
 }

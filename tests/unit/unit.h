@@ -8,8 +8,6 @@
 #include "canvas.h"
 #include "rows.h"
 #include "samples.h"
-#include "corners.h"
-#include "maps.h"
 #include "meshes.h"
 #include <stddef.h>
 

@@ -27,17 +27,17 @@ cp ./*.svg "$out/pictures/" || exit 1
 live=
 [ -f "$out/index.html" ] && live="-M live"
 
-# name of a course, template, style, more arguments: a page on standard output
+# name of a course, style, more arguments: a page on standard output, or slides with -M deck
 made() {
-    name=$1 template=$2 style=$3
-    shift 3
-    pandoc -f markdown-smart -t html5 --mathml --no-highlight --wrap=none -s --template "$template" --lua-filter slides.lua \
+    name=$1 style=$2
+    shift 2
+    pandoc -f markdown-smart -t html5 --mathml --no-highlight --wrap=none -s --template template.html --lua-filter slides.lua \
         -V "style=$(cat "$style")" -V "script=$(cat deck.js)" -V "point=$(sed 's/&/\&amp;/g; s/</\&lt;/g' point.h)" "$@" "$name.md"
 }
 for course in $COURSES; do
-    made $course page.html course.css -M course=$course $live >"$out/course-$course.html" || exit 1
+    made $course course.css -M course=$course $live >"$out/course-$course.html" || exit 1
     rm -f "$out/slides-$course.html"
-    [ -z "$reveal" ] || made $course deck.html deck.css -M deck -M course=$course $live >"$out/slides-$course.html" || exit 1
+    [ -z "$reveal" ] || made $course deck.css -M deck -M course=$course $live >"$out/slides-$course.html" || exit 1
     for picture in $(sed -n 's,^!\[.*(\.\./\.\./pictures/\([^ )]*\).*$,\1,p' $course.md); do
         cp "../../pictures/$picture" "$out/pictures/" || exit 1
     done
