@@ -224,6 +224,12 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     polished metal.gltf '"roughnessFactor":0.4015686'
     check "metal" draw metal.gltf b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+    sed 's/"doubleSided"/"emissiveFactor":[1,1,1],"extensions":{"KHR_materials_unlit":{}},&/' "$T/plain.gltf" \
+        >"$T/unlit.gltf"
+    for k in "--up y" --quick "--shading vertex" "--model lambert"; do
+        check "unlit, $k" draw unlit.gltf a.ppm $k
+        check "is the base colour" pixel 0.45 0.55 0.6 0.3 0.2
+    done
     squared() {                 # file, the bytes of a PPM, its sampler
         bytes=$(printf "P6\n$2" | base64 | tr -d '\n')
         sed "s|UDYKMSAxCjI1NQoAgAA=|$bytes|; s|\"textures\":\[{|&\"sampler\":0,|

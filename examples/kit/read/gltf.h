@@ -666,7 +666,6 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     const uint32_t shine = gltf_extended(g, material, "KHR_materials_emissive_strength");
     const uint32_t rough = json_of(&g->j, material, "pbrMetallicRoughness", JSON_OBJECT);
     const uint32_t unlit = gltf_extended(g, material, "KHR_materials_unlit");
-    const int physical = !gloss && !unlit;
     const uint32_t from = gloss ? gloss : rough, named = json_member(&g->j, material, "name");
     const uint32_t bumps = json_of(&g->j, material, "normalTexture", JSON_OBJECT);
     double base[4] = { 1, 1, 1, 1 }, glow[3] = { 0, 0, 0 }, metal, roughness, strength;
@@ -683,22 +682,24 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     s->material.diffuse = gltf_color(base);
     s->material.emission = shade_scale(gltf_color(glow), (float)strength);
     /* an exporter's material that says nothing: white, rough metal, without a name */
-    s->set = named || gloss || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
+    s->set = named || gloss || unlit || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
              base[2] < 1 || glow[0] + glow[1] + glow[2] > 0;
     model_rough(s, (float)metal, (float)roughness);
-    if (unlit) {
-        s->material.diffuse = s->material.ambient = gltf_color(base);
-        s->material.specular = shade_v3(0, 0, 0);
-        s->metal = 0;
-    }
     gltf_alpha(g, s, material, base[3]);
     if (gltf_texture(g, place, from, gloss ? "diffuseTexture" : "baseColorTexture", PICTURE_COLORS,
-                     &s->map, &s->picture) ||
-        gltf_texture(g, place, material, "normalTexture", PICTURE_RELIEF, &s->relief.map,
+                     &s->map, &s->picture))
+        return 1;
+    if (unlit) { /* its other members count for who cannot draw it unlit */
+        s->material = (shade_material){ .diffuse = gltf_color(base), .ambient = gltf_color(base) };
+        s->metal = 0;
+        s->unlit = 1;
+        return 0;
+    }
+    if (gltf_texture(g, place, material, "normalTexture", PICTURE_RELIEF, &s->relief.map,
                      &s->relief.picture) ||
         gltf_texture(g, place, material, "emissiveTexture", PICTURE_COLORS, &s->glow_map,
                      &s->glow_picture) ||
-        (physical && gltf_polish(g, place, rough, s)))
+        (!gloss && gltf_polish(g, place, rough, s)))
         return 1;
     if (s->relief.map) /* 0 would stand for a file that does not say */
         s->relief.strength = (float)fmax(1e-6, fabs(json_number_of(&g->j, bumps, "scale", 1)));

@@ -49,6 +49,7 @@ typedef struct model_surface {
     shade_material material; /* linear light */
     float transparency, alpha_cutoff;
     float metal, rough;  /* of physically based materials; rough 0: by the shininess */
+    int unlit;           /* no lamp changes its colour, k_d */
     int set;             /* 0: the file says nothing about it */
     int section;         /* it is the cut of a section */
     int opaque, blended; /* the alpha of the map is ignored; is blended by */

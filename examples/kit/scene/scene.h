@@ -661,6 +661,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
 {
     static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
                                       SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
+    const shade_lighting unlit = { .ambient = { 1, 1, 1 } }; /* k_a is k_d there */
     const model_options o = scene_options(s);
     shade_draw_state state = *lit;
     scene_relief bent;
@@ -674,6 +675,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
         look_dress(&k, &o, &s->model, s->model.part[i].surface);
         if (k.map && k.glow_map == k.map) k.material.emission = k.glow;
         state.material = &k.material;
+        state.lighting = k.unlit ? unlit : lit->lighting;
         state.diffuse_map = k.map;
         state.alpha_cutoff = k.alpha_cutoff;
         state.transparency = 1 - k.alpha;
