@@ -3,6 +3,7 @@
 #ifndef MODEL_MODEL_H
 #define MODEL_MODEL_H
 
+#include "../draw/wires.h"
 #include "zip.h"
 
 /* Larger files are refused. */
@@ -68,6 +69,12 @@ typedef struct model_part {
     int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
 } model_part;
 
+/* A line of a file, in the coordinates of its mesh */
+typedef struct model_line {
+    shade_vec3 end[2], color; /* color: a factor, linear */
+    int surface;              /* -1: none */
+} model_line;
+
 /* Loads a file of at most so many bytes that the model of a path names: its bytes and where it was,
    both to be freed.  Returns non-zero with a line in error. */
 typedef int model_load_beside(const char *path, const char *name, double most,
@@ -80,6 +87,9 @@ typedef struct model {
     model_surface *surface; /* NULL: the file has no surfaces */
     model_part *part;
     model_picture *picture;
+    model_line *line;
+    size_t line_count, line_room, lines_dropped;
+    wires wires;    /* the lines, once the model is prepared */
     char **library; /* files that describe the surfaces */
     int surface_count, part_count, picture_count, library_count;
     size_t surface_room, picture_room, library_room;
@@ -94,6 +104,7 @@ typedef struct model {
     double origin[3];          /* of the positions, in the coordinates of the file */
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
     int polish_wanted;         /* said to the reader: pictures of metal and roughness count */
+    int lines_wanted;          /* said to the reader: it has lines, and they are not left out */
     const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
     model_load_beside *beside;
     zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */
@@ -129,6 +140,8 @@ static inline void model_free(model *m)
     free(m->surface);
     free(m->part);
     free(m->picture);
+    free(m->line);
+    wires_free(&m->wires);
     free(m->library);
     *m = empty;
 }
@@ -328,6 +341,24 @@ static inline int model_find_object(model *m, const void *name, size_t n)
     for (int i = m->object_count - 1; i >= 0; i--)
         if (strlen(m->object_name[i]) == n && !memcmp(m->object_name[i], name, n)) return i;
     return model_add_object(m, name, n);
+}
+
+/* Adds a line, or counts it where an end is not finite.  1: out of memory */
+static inline int model_add_line(model *m, const float *a, const float *b, shade_vec3 color,
+                                 int surface)
+{
+    const model_line line = { { shade_v3(a[0], a[1], a[2]), shade_v3(b[0], b[1], b[2]) },
+                              color,
+                              surface };
+    model_line *grown =
+        (model_line *)mesh_grow(m->line, m->line_count, &m->line_room, sizeof *grown);
+    if (!grown || m->line_count >= INT_MAX / 8) return 1;
+    m->line = grown;
+    if (mesh_finite(a) && mesh_finite(b))
+        grown[m->line_count++] = line;
+    else
+        m->lines_dropped++;
+    return 0;
 }
 
 static inline int model_add_library(model *m, const void *name, size_t n)

@@ -2,7 +2,7 @@
    packages, and the order of a model's parts.
 
        if (exhibit_open(&e, &model, &studio, &options, eye)) ...                  (out of memory)
-       exhibit_draw(&e, &rows, view, projection);                  (for each band of the picture)
+       exhibit_draw(&e, &rows, view, projection, samples);         (for each band of the picture)
        exhibit_close(&e); */
 #ifndef MODEL_LOOK_H
 #define MODEL_LOOK_H
@@ -604,15 +604,30 @@ static inline void exhibit_aim(exhibit *e, shade_mat4 clip_from_world)
     e->look.aimed = 1;
 }
 
-/* Draws a band of the picture, over its background. */
+/* Draws the lines of a model, 1.5 pixels wide, which have so many samples along their edges.  Lines
+   often lie on faces, and so are drawn a little nearer, by 1/2000 of their distance. */
+static inline shade_result model_draw_lines(const model *m, const shade_target *target,
+                                            shade_mat4 view, shade_mat4 projection, int samples)
+{
+    const float s = 1 - 5e-4f;
+    const shade_mat4 nearer = shade_mat4_scaling(shade_v3(s, s, s));
+    shade_line_state pen = { .width = 1.5f * (float)samples, .cap = SHADE_CAP_SQUARE };
+    pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    pen.clip_from_points = shade_mat4_mul(projection, shade_mat4_mul(nearer, view));
+    return wires_draw(&m->wires, target, pen);
+}
+
+/* Draws a band of the picture, of so many samples along the edge of a pixel, over its
+   background. */
 static inline shade_result exhibit_draw(const exhibit *e, const shade_target *rows, shade_mat4 view,
-                                        shade_mat4 projection)
+                                        shade_mat4 projection, int samples)
 {
     static const shade_mat4 no_turn; /* zero: the identity */
     look k = e->look;
     shade_result result;
     k.clip_from_mesh = shade_mat4_mul(projection, view);
     result = draw_opaque(rows, &k, e->options, e->model, e->see_through, e->near_chunks);
+    if (!result) result = model_draw_lines(e->model, rows, view, projection, samples);
     if (!result && e->ground.shadow)
         result = ground_draw(&e->ground, rows, no_turn, view, projection);
     if (!result) result = draw_far_first(rows, &k, e->options, e->model, &e->far_list);

@@ -256,7 +256,7 @@ test("an unlit material has its own colour in every light", () => {
         assert.deepEqual([...data.subarray(4 * (16 * 32 + 16)).subarray(0, 3)], wanted);
     }
     const renderer = new Renderer(32, 32);
-    renderer.add(renderer.mesh(mesh));
+    renderer.add(renderer.mesh(new Mesh(mesh)));
     renderer.light([]);
     const { color } = renderer.render({ view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5, -0.5, -3, 1],
                                         projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] });
