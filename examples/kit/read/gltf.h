@@ -39,10 +39,10 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_materials_pbrSpecularGlossiness", KNOWN_DRAWN },
                                          { "EXT_mesh_gpu_instancing", KNOWN_DRAWN },
                                          { "KHR_node_visibility", KNOWN_DRAWN },
-                                         { "KHR_materials_specular", KNOWN_SILENT },
-                                         { "KHR_materials_ior", KNOWN_SILENT },
+                                         { "KHR_materials_specular", KNOWN_DRAWN },
+                                         { "KHR_materials_ior", KNOWN_DRAWN },
                                          { "KHR_materials_volume", KNOWN_SILENT },
-                                         { "KHR_materials_anisotropy", KNOWN_SILENT },
+                                         { "KHR_materials_anisotropy", KNOWN_TOLD },
                                          { "KHR_materials_dispersion", KNOWN_SILENT },
                                          { "KHR_materials_variants", KNOWN_SILENT },
                                          { "KHR_lights_punctual", KNOWN_SILENT },
@@ -651,6 +651,25 @@ static inline int gltf_gloss(gltf *g, uint32_t gloss, double base[3], double *me
     return gltf_told(g, gloss, "specularGlossinessTexture");
 }
 
+/* Highlights of what is no metal: by how much more than 0.04 it reflects from the front, which k_s
+   of 0.25 stands for.  The mirror image of the studio stays that of 0.04. */
+static inline int gltf_shine(gltf *g, uint32_t material, model_surface *s)
+{
+    const uint32_t shine = gltf_extended(g, material, "KHR_materials_specular");
+    const uint32_t glass = gltf_extended(g, material, "KHR_materials_ior");
+    const double n = json_number_of(&g->j, glass, "ior", 1.5), r = (n - 1) / (n + 1);
+    const double factor = fmin(1, fmax(0, json_number_of(&g->j, shine, "specularFactor", 1)));
+    double color[3] = { 1, 1, 1 }, k_s[3];
+    if (gltf_numbers(g, shine, "specularColorFactor", 3)) return 1;
+    json_array(&g->j, shine, "specularColorFactor", color, 3);
+    for (int k = 0; k < 3; k++) { /* n of 0 stands for a mirror, says the extension */
+        const double front = n >= 1 ? r * r : n == 0 ? 1 : 0.04;
+        k_s[k] = factor * fmin(1, fmax(0, 6.25 * front * color[k]));
+    }
+    if (glass || shine) s->shine = gltf_color(k_s);
+    return gltf_told(g, shine, "specularTexture") || gltf_told(g, shine, "specularColorTexture");
+}
+
 /* The picture of metal and roughness */
 static inline int gltf_polish(gltf *g, gltf_place *place, uint32_t rough, model_surface *s)
 {
@@ -684,6 +703,7 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     /* an exporter's material that says nothing: white, rough metal, without a name */
     s->set = named || gloss || unlit || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
              base[2] < 1 || glow[0] + glow[1] + glow[2] > 0;
+    if (!gloss && !unlit && gltf_shine(g, material, s)) return 1;
     model_rough(s, (float)metal, (float)roughness);
     gltf_alpha(g, s, material, base[3]);
     if (gltf_texture(g, place, from, gloss ? "diffuseTexture" : "baseColorTexture", PICTURE_COLORS,

@@ -49,6 +49,7 @@ typedef struct model_surface {
     char *name, *map;        /* names in the file; map: the picture for k_d, or NULL */
     shade_material material; /* linear light */
     float transparency, alpha_cutoff;
+    shade_vec3 shine;    /* k_s of a smooth surface that is no metal, before model_rough */
     float metal, rough;  /* of physically based materials; rough 0: by the shininess */
     int unlit;           /* no lamp changes its colour, k_d */
     int set;             /* 0: the file says nothing about it */
@@ -232,13 +233,13 @@ static inline float model_roughness(float shininess)
 static inline void model_rough(model_surface *s, float metal, float rough)
 {
     shade_material *k = &s->material;
-    const shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
+    const shade_vec3 base = k->diffuse;
     float square, gloss;
     metal = fminf(1, fmaxf(0, metal));
     rough = fminf(1, fmaxf(0.2f, rough));
     square = rough * rough;
     gloss = (1 - rough) * (1 - 0.5f * rough);
-    k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
+    k->specular = shade_scale(shade_lerp(s->shine, base, metal), gloss);
     k->diffuse = k->ambient = shade_scale(base, 1 - MODEL_METAL_DARK * metal);
     s->metal = metal;
     s->rough = rough;
@@ -276,6 +277,7 @@ static inline int model_add_surface(model *m, const void *name, size_t n)
 {
     static const model_surface fresh = { .material = { .ambient = { 0.32f, 0.32f, 0.32f },
                                                        .diffuse = { 0.32f, 0.32f, 0.32f } },
+                                         .shine = { 0.25f, 0.25f, 0.25f },
                                          .picture = -1,
                                          .move = { 0, 0, 1, 1 },
                                          .relief = { .picture = -1 },

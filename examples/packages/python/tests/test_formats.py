@@ -153,6 +153,31 @@ def test_unlit_surfaces_have_their_own_colour_in_every_light():
     assert np.abs(of["unlit"] - wanted).max() <= 1 and abs(of["lit"] - 203).max() <= 1    # sRGB of 0.6
 
 
+@pytest.mark.parametrize("extensions, front", [
+    ({}, 0.04),
+    ({"KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 0]}}, (0.02, 0.01, 0)),
+    ({"KHR_materials_specular": {"specularFactor": 0}}, 0),
+    ({"KHR_materials_specular": {"specularColorFactor": [2, 1, 1]}}, (0.08, 0.04, 0.04)),
+    ({"KHR_materials_ior": {"ior": 1.0}}, 0),
+    ({"KHR_materials_ior": {"ior": 1.4}}, (0.4 / 2.4) ** 2),
+    ({"KHR_materials_ior": {"ior": 0}, "KHR_materials_specular": {"specularColorFactor": [0.04, 0, 0]}}, (0.04, 0, 0)),
+])
+def test_highlights_follow_what_reflects_from_the_front(extensions, front):
+    made = Glb()
+    material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.4}, "extensions": extensions}
+    made.node(mesh=made.quad(material))
+    def specular():
+        pieces = shade.load(io.BytesIO(made.bytes())).pieces
+        return next(piece.surface.material.specular for piece in pieces if piece.count)
+    # the law for 0.04 is 1/4, and less on rough surfaces
+    assert specular() == pytest.approx(np.full(3, front) / 0.04 * 0.25 * 0.6 * 0.8, abs=1e-6)
+    material["pbrMetallicRoughness"].update(metallicFactor=1, baseColorFactor=[1, 0.5, 0.25, 1])
+    assert specular() == pytest.approx(np.array([1, 0.5, 0.25]) * 0.6 * 0.8, abs=1e-6)    # metal has its own
+    material["extensions"]["KHR_materials_specular"] = {"specularTexture": {"index": 0}}
+    with pytest.warns(UserWarning, match="it has specularTexture, which is not read"):
+        specular()
+
+
 def test_pictures_and_holes_of_glb():
     texels = np.full((2, 2, 4), 255, np.uint8)
     texels[:, :, :3] = [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 0]]]
