@@ -1,7 +1,7 @@
 /* obj.h - reads OBJ: v (with optional w or red green blue, or #MRGB of ZBrush), vt, vn and f, every
    form of index (v, v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any
-   shape, l where lines are wanted, usemtl, mtllib, o and g, continued lines, comments, any line ends.  obj_known has the
-   other statements.  One vertex is made for each different v/vt/vn. */
+   shape, l where lines are wanted, usemtl, mtllib, o and g, continued lines, comments, any line
+   ends.  obj_known has the other statements.  One vertex is made for each different v/vt/vn. */
 #ifndef MODEL_OBJ_H
 #define MODEL_OBJ_H
 

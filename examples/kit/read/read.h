@@ -188,7 +188,8 @@ static int ran_out(const char *error)
     return n >= most && !strcmp(error + n - most, words);
 }
 
-/* 1: a line has a length, or a triangle an area.  In double, where no product of floats overflows. */
+/* 1: a line has a length, or a triangle an area.  In double, where no product of floats
+   overflows. */
 static int model_shows(const model *m)
 {
     for (size_t i = 0; i < m->line_count; i++)
@@ -291,8 +292,9 @@ static void model_part_lines(model *m)
     mesh_link(&m->mesh, (int)from, m->mesh.view.index_count);
 }
 
-/* The colour of lines of which the file says nothing: white, which the colours of vertices multiply,
-   or that of the options.  Thin lines of clay would hardly stand out from paper: they are darker. */
+/* The colour of lines of which the file says nothing: white, which the colours of vertices
+   multiply, or that of the options.  Thin lines of clay would hardly stand out from paper: they
+   are darker. */
 static shade_vec3 model_ink(const model *m, const model_options *o)
 {
     for (size_t i = 0; i < m->line_count && !o->plain; i++)
