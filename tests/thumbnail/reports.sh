@@ -527,7 +527,7 @@ line_reports() {
     { cat "$T/corners.obj"; echo "l 1 2/7 3"; echo "l -2 4 1"; } >"$T/wire.obj"
     { cat "$T/corners.obj"; echo "l 1 2"; } >"$T/line.obj"
     check "a line is 1.5 pixels wide" inked line.obj 275    # 200 / 1.1 and its caps
-    check "without a word" test ! -s "$T/err"
+    check "and told, for l may have been meant as f" said "line.obj: 1 lines have no faces: they are drawn as lines"
     check "a square of lines" inked wire.obj 1090
     for k in "" --quick "--shading face" "--model lambert"; do check "lines, $k" inked wire.obj 1090 $k; done
     check "with a colour of the options" inked wire.obj 0 --color white
@@ -543,6 +543,7 @@ line_reports() {
     printf "${cube}usemtl red\nl 11 12\n" >"$T/upon.obj"
     same "faces hide a line" cube.obj inside.obj 0 "--view front"
     check "a line upon a face" draw upon.obj a.ppm --view front --size 121x121 --samples 4
+    check "without a word" test ! -s "$T/err"
     check "shows" pixel 0.5 0.5 1 0 0
     check "as long as it is" no pixel 0.2 0.5 1 0 0
     printf "${cube}usemtl red\nl 11 12\nl 2\nv 3 .5 .5\nl 10 13\n" >"$T/far.obj"

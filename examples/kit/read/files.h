@@ -164,6 +164,9 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
         failed = obj_read(&r, m);
     if (failed) model_free(m);
     if (!failed) model_warn_dropped(m, name, m->lines_dropped, "lines have ends");
+    if (!failed && m->line_count && !m->mesh.view.index_count) /* l may have been meant as f */
+        snprintf(m->note, sizeof m->note, "%lu lines have no faces: they are drawn as lines",
+                 (unsigned long)m->line_count);
     if (!failed) known_tell(m, name);
     return failed;
 }
