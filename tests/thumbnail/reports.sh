@@ -527,7 +527,7 @@ line_reports() {
     { cat "$T/corners.obj"; echo "l 1 2/7 3"; echo "l -2 4 1"; } >"$T/wire.obj"
     { cat "$T/corners.obj"; echo "l 1 2"; } >"$T/line.obj"
     check "a line is 1.5 pixels wide" inked line.obj 275    # 200 / 1.1 and its caps
-    check "and told, for l may have been meant as f" said "line.obj: 1 lines have no faces: they are drawn as lines"
+    check "and told, for l may have been meant as f" grep "line.obj: 1 lines have no faces: they are drawn as lines" "$T/err"
     check "a square of lines" inked wire.obj 1090
     for k in "" --quick "--shading face" "--model lambert"; do check "lines, $k" inked wire.obj 1090 $k; done
     check "with a colour of the options" inked wire.obj 0 --color white
@@ -556,5 +556,5 @@ line_reports() {
     bad_model "a line to nowhere" nowhere.obj "there is no v number 9: the file has 2"
     printf 'v 0 0 0\nv 1 1 1\nv nan 0 0\nl 1 2 3\n' >"$T/nan.obj"
     check "a line from nowhere" draw nan.obj a.ppm
-    check "is told" said "nan.obj: 1 lines have ends that are no finite numbers"
+    check "is told" grep "nan.obj: 1 lines have ends that are no finite numbers (left out)" "$T/err"
 }
