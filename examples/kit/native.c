@@ -35,6 +35,7 @@ typedef struct python_item { /* a mesh in its place */
     float relief_strength;                  /* as in a model_relief */
     int relief_heights;
     shade_vec3 glow; /* a factor of glow_map */
+    int unlit;       /* as of a look */
 } python_item;
 
 typedef struct python_view {              /* a camera and where its picture goes */
@@ -169,6 +170,7 @@ static void look_dress_item(look *k, const python_item *item, const shade_draw_s
 {
     const shade_material *material = item->state.material;
     k->material = *material;
+    k->unlit = item->unlit;
     k->metal = item->metal;
     k->rough = item->rough > 0 ? item->rough : model_roughness(material->shininess);
     k->map = state->diffuse_map;
@@ -206,16 +208,16 @@ static shade_result draw_chunks(const shade_target *target, look *k, const shade
 
 /* step: samples along the edge of a pixel, of which one is noted; 0: nothing is */
 static shade_result draw_meshes(const shade_target *target, const python_job *job,
-                                const python_view *v, int step, int unlit)
+                                const python_view *v, int step, int notes_only)
 {
     shade_result result = SHADE_OK;
     look k = look_of(v, job->studio);
-    k.unlit = unlit;
+    k.notes_only = notes_only;
     for (int i = 0; i < job->item_count && !result; i++) {
         const python_item *item = &job->items[i];
         const shade_draw_state state = item_state(job->items, v, i);
         const notes noted = { v, item->id, step, item->alpha_cutoff > 0 };
-        if (unlit && item->blended) continue;
+        if (notes_only && item->blended) continue;
         look_dress_item(&k, item, &state);
         k.note = step && !item->blended ? note : NULL;
         k.noted = &noted;
@@ -801,6 +803,7 @@ typedef struct python_part {
     int map, relief, glow; /* numbers of pictures, -1: none */
     float relief_strength; /* as in a model_relief */
     shade_vec3 glow_factor;
+    int unlit; /* as of a look */
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
@@ -825,6 +828,7 @@ int python_part_of(const model *m, int i, python_part *part)
     part->rough = s->rough;
     part->relief_strength = s->relief.strength;
     part->glow_factor = s->glow;
+    part->unlit = s->unlit;
     if (!mapped) return m->part_count;
     part->map = s->picture;
     part->relief = s->relief.picture;

@@ -57,6 +57,19 @@ if echo | $CC -fsyntax-only -include stb/stb_image.h -x c - 2>/dev/null; then
     check "which a level square has otherwise" no "$HERE/build/compare" --limit 9 --count 7 level.ppm mapped.ppm
 fi
 
+# An unlit square has its own colour, in each light: pixels that have it.
+bytes=$(printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200?\0\0\0\0\0\0\0\0\0\0\200?\0\0\200?\0\0\0\0\0\0\0\0\0\0\200?\0\0\0\0' | base64 | tr -d '\n')
+printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"mode":6,
+    "attributes":{"POSITION":0},"material":0}]}],"materials":[{"extensions":{"KHR_materials_unlit":{}},
+    "pbrMetallicRoughness":{"baseColorFactor":[0.6,0.3,0.2,1]}}],"buffers":[{"uri":"data:;base64,%s"}],
+    "bufferViews":[{"buffer":0,"byteLength":48}],"accessors":[{"bufferView":0,"count":4,"componentType":5126,
+    "type":"VEC3"}]}' "$bytes" >unlit.gltf
+for k in "" --quick "--again 0,0,1,0,0,l" "--again 0,0,1,0,0,ls"; do
+    "$BATCH" unlit.gltf --frames 1 --size 64x64 --samples 1 $k --quiet --pipe >unlit.ppm
+    count=$(tail -c 12288 unlit.ppm | od -An -v -tu1 -w3 | grep -c "203 149 124")
+    check "unlit, $k: $count" test "$count" -gt 1000
+done
+
 # The first frame is from the side that thumbnail shows: of a box with a red front, a green right and
 # a blue left side both see as much of each, to a part of the box.
 cat >side.mtl <<END

@@ -678,6 +678,7 @@ both() {
     bad_input
     reports
     gltf_reports
+    line_reports
     color_reports
     habit_reports
     value_reports

@@ -264,6 +264,12 @@ AAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}' "$gltf_h
     polished metal.gltf '"roughnessFactor":0.4015686'
     check "metal" draw metal.gltf b.ppm --up y
     check "which shows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+    sed 's/"doubleSided"/"emissiveFactor":[1,1,1],"extensions":{"KHR_materials_unlit":{}},&/' "$T/plain.gltf" \
+        >"$T/unlit.gltf"
+    for k in "--up y" --quick "--shading vertex" "--model lambert"; do
+        check "unlit, $k" draw unlit.gltf a.ppm $k
+        check "is the base colour" pixel 0.45 0.55 0.6 0.3 0.2
+    done
     squared() {                 # file, the bytes of a PPM, its sampler
         bytes=$(printf "P6\n$2" | base64 | tr -d '\n')
         sed "s|UDYKMSAxCjI1NQoAgAA=|$bytes|; s|\"textures\":\[{|&\"sampler\":0,|
@@ -554,4 +560,59 @@ $(cat "$T/one.txt")"; do
         same "text STL that ends in $k" wedge.obj fill.stl 0 "--up y"
         check "without a word" test ! -s "$T/err"
     done
+}
+
+# Lines: black ones on white darken as many pixels as they are long, times 1.5.  A square that is seen from the front
+# fills 1 / 1.1 of the picture.
+inked() {                       # model, pixels, options: within 3 %
+    model=$1 wanted=$2; shift 2
+    draw "$model" a.ppm --size 200x200 --samples 4 --background white --view front --no-shadow "$@" &&
+        tail -c 120000 "$T/a.ppm" | od -An -v -tu1 -w3 | awk -v wanted="$wanted" '
+            { s = $2 / 255; ink += 1 - (s <= 0.04045 ? s / 12.92 : exp(2.4 * log((s + 0.055) / 1.055))) }
+            END { print ink; exit !(ink >= 0.97 * wanted && ink <= 1.03 * wanted) }'
+}
+gltf_wire() {                   # file, mode, the numbers of the corners of a unit square in octal bytes, how many
+    printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":%d,"material":0}]}],
+        "materials":[{"name":"k","pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0}}],
+        "accessors":[{"count":4,"type":"VEC3","componentType":5126,"bufferView":0},{"count":%d,"type":"SCALAR",
+        "componentType":5121,"bufferView":1}],"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":1,"byteLength":%d}],
+        "buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAA"},
+        {"uri":"data:;base64,%s"}]}' "$gltf_head" $2 $4 $4 "$(printf "$3" | base64)" >"$T/$1"
+}
+line_reports() {
+    printf 'newmtl k\nKd 0 0 0\nnewmtl red\nKd 1 0 0\n' >"$T/wire.mtl"
+    printf 'mtllib wire.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl k\n' >"$T/corners.obj"
+    { cat "$T/corners.obj"; echo "l 1 2/7 3"; echo "l -2 4 1"; } >"$T/wire.obj"
+    { cat "$T/corners.obj"; echo "l 1 2"; } >"$T/line.obj"
+    check "a line is 1.5 pixels wide" inked line.obj 275    # 200 / 1.1 and its caps
+    check "and told, for l may have been meant as f" grep "line.obj: it has no faces: its lines are drawn" "$T/err"
+    check "a square of lines" inked wire.obj 1090
+    for k in "" --quick "--shading face" "--model lambert"; do check "lines, $k" inked wire.obj 1090 $k; done
+    check "with a colour of the options" inked wire.obj 0 --color white
+    gltf_wire loop.gltf 2 '\0\1\2\3' 4
+    gltf_wire strip.gltf 3 '\0\1\2\3\0' 5
+    gltf_wire list.gltf 1 '\0\1\1\2\2\3\3\0' 8
+    for k in loop strip list; do same "lines of glTF" wire.obj $k.gltf 0 "--up y"; done
+    check "too many lines" refused "more than 3 lines" "$THUMBNAIL" "$T/list.gltf" "$T/none.ppm" --max-triangles 3
+    cube="v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv .2 .5 .5\nv .8 .5 .5\nv .2 .5 1\nv .8 .5 1\n"
+    cube="mtllib wire.mtl\n${cube}f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n"
+    printf "$cube" >"$T/cube.obj"
+    printf "${cube}usemtl red\nl 9 10\n" >"$T/inside.obj"
+    printf "${cube}usemtl red\nl 11 12\n" >"$T/upon.obj"
+    same "faces hide a line" cube.obj inside.obj 0 "--view front"
+    check "a line upon a face" draw upon.obj a.ppm --view front --size 121x121 --samples 4
+    check "without a word" test ! -s "$T/err"
+    check "shows" pixel 0.5 0.5 1 0 0
+    check "as long as it is" no pixel 0.2 0.5 1 0 0
+    printf "${cube}usemtl red\nl 11 12\nl 2\nv 3 .5 .5\nl 10 13\n" >"$T/far.obj"
+    check "the camera sees a line whole" draw far.obj a.ppm --view front --size 121x121 --samples 4
+    check "to its end" pixel 0.9 0.5 1 0 0
+    check "a section cuts it" draw inside.obj a.ppm --view front --section z=0.6 --size 121x121 --samples 4
+    check "shows none in front" no pixel 0.5 0.5 1 0 0
+    check "drawings leave lines out" "$THUMBNAIL" "$T/far.obj" "$T/a.ppm" --views front
+    printf 'v 0 0 0\nv 1 1 1\nl 1 9\n' >"$T/nowhere.obj"
+    bad_model "a line to nowhere" nowhere.obj "there is no v number 9: the file has 2"
+    printf 'v 0 0 0\nv 1 1 1\nv nan 0 0\nl 1 2 3\n' >"$T/nan.obj"
+    check "a line from nowhere" draw nan.obj a.ppm
+    check "is told" grep "nan.obj: 1 lines have ends that are no finite numbers (left out)" "$T/err"
 }

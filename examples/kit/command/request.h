@@ -48,6 +48,7 @@ typedef struct model_options {
     int up;                                 /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */
     int quiet, verbose;
+    int no_lines;                /* lines of the model are left out */
     int outside;                 /* pictures outside of the model's folder are read */
     int plain, no_shadow;        /* plain: one material instead of the file's */
     int quick;                   /* no maps of shadows are drawn */

@@ -409,6 +409,26 @@ static inline int section_join(section *s, model *m, const model_options *o)
     return s->failed || s->index.count > INT_MAX / 2;
 }
 
+/* Clips the lines. */
+static inline void section_lines(const section *s, model *m)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < m->line_count; i++) {
+        model_line line = m->line[i];
+        float at[2][3];
+        double out[2];
+        memcpy(at, line.end, sizeof at);
+        for (int k = 0; k < 2; k++) out[k] = s->sign * ((double)at[k][s->axis] - s->where);
+        if (out[0] > 0 && out[1] > 0) continue;
+        for (int k = 0; k < 2; k++)
+            if (out[k] > 0)
+                line.end[k] = shade_lerp(line.end[k], line.end[1 - k],
+                                         (float)(out[k] / (out[k] - out[1 - k])));
+        m->line[kept++] = line;
+    }
+    m->line_count = kept;
+}
+
 /* Hands the arrays over to the model; the old ones become those of the section. */
 static inline void section_hand_over(section *s, model *m)
 {
@@ -473,6 +493,7 @@ static inline int section_cut(section *s, model *m, const model_options *o)
                                        : "filled between each second pair of its lines");
     if (!failed && state != SECTION_OPEN) failed = section_fill(s, 2 * extent / SECTION_LINES);
     failed = failed || section_join(s, m, o);
+    if (!failed) section_lines(s, m);
     if (!failed) section_hand_over(s, m);
     section_free(s);
     return failed;
@@ -486,6 +507,8 @@ static inline int model_cut(model *m, const model_options *o, int picture, float
     const int k = o->section - 1;
     section s = { .from = m, .axis = k };
     if (k < 0) return 0;
+    if (!m->mesh.view.index_count)
+        return complain("--section cuts faces, and there are lines alone");
     m->up = 1 + model_up(m, o, picture);
     mesh_box(&m->mesh, s.low, s.high);
     s.sign = section_side(k, m->up - 1, turn, eye);

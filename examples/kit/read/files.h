@@ -125,6 +125,7 @@ typedef struct model_request {
     mesh_progress *progress;
     void *user;
     size_t most;
+    int lines;                /* lines are drawn, and not left out */
     int outside;              /* pictures outside of the folder of the model are read, too */
     const volatile int *stop; /* as in mesh_reader */
 } model_request;
@@ -161,6 +162,9 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     else
         failed = obj_read(&r, m);
     if (failed) model_free(m);
+    if (!failed) model_warn_dropped(m, name, m->lines_dropped, "lines have ends");
+    if (!failed && m->line_count && !m->mesh.view.index_count) /* l may have been meant as f */
+        model_warn(m, name, "it has no faces: its lines are drawn");
     if (!failed) known_tell(m, name);
     return failed;
 }
@@ -182,7 +186,8 @@ static inline int model_middle(const model *m, double middle[3])
 /* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
    with model_free; else m is empty and error, if error_size > 0, holds one line.
 
-   said has what the reader is told, and nothing else: path, beside, points_wanted, polish_wanted.
+   said has what the reader is told, and nothing else: path, beside, points_wanted, polish_wanted,
+   lines_wanted.
 
    Text and doubles have more digits than floats.  Where the first position is far from all that the
    faces have, the file is read again about their middle. */
@@ -229,6 +234,7 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     model said = empty;
     said.inflate = model_inflate;
     said.polish_wanted = 1;
+    said.lines_wanted = q->lines;
     return model_read_with(bytes, size, name, m, q, &said);
 }
 
@@ -374,6 +380,7 @@ static inline int model_read_file(const char *path, model *m, const model_reques
     said.beside = model_load_file;
     said.inflate = model_inflate;
     said.polish_wanted = 1;
+    said.lines_wanted = q->lines;
     if (!failed) failed = model_read_with(bytes, size, path, m, q, &said);
     free(bytes);
     if (!failed) model_read_libraries(path, m);

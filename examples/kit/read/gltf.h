@@ -4,7 +4,7 @@
 
    An extension is drawn, or it changes nothing that a picture of shade.h has, or a file that
    requires it is refused by its name (gltf_known).  A picture that only an extension could decode
-   is a warning, and so are lines, and points beside faces. */
+   is a warning, and so are points beside faces, and lines where they are not wanted. */
 #ifndef MODEL_GLTF_H
 #define MODEL_GLTF_H
 
@@ -39,10 +39,10 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_materials_pbrSpecularGlossiness", KNOWN_DRAWN },
                                          { "EXT_mesh_gpu_instancing", KNOWN_DRAWN },
                                          { "KHR_node_visibility", KNOWN_DRAWN },
-                                         { "KHR_materials_specular", KNOWN_SILENT },
-                                         { "KHR_materials_ior", KNOWN_SILENT },
+                                         { "KHR_materials_specular", KNOWN_DRAWN },
+                                         { "KHR_materials_ior", KNOWN_DRAWN },
                                          { "KHR_materials_volume", KNOWN_SILENT },
-                                         { "KHR_materials_anisotropy", KNOWN_SILENT },
+                                         { "KHR_materials_anisotropy", KNOWN_TOLD },
                                          { "KHR_materials_dispersion", KNOWN_SILENT },
                                          { "KHR_materials_variants", KNOWN_SILENT },
                                          { "KHR_lights_punctual", KNOWN_SILENT },
@@ -97,7 +97,7 @@ typedef struct gltf {
     int counting, nodes, depth, lines; /* lines: there are some */
     int cut;                           /* faces are left out, for all of them are holes */
     int cloud;                         /* there are points, and no faces */
-    double triangles, vertices, points;
+    double triangles, vertices, points, segments; /* segments: of lines */
 } gltf;
 
 /* ---- numbers and objects of the JSON --------------------------------------------------------- */
@@ -651,6 +651,25 @@ static inline int gltf_gloss(gltf *g, uint32_t gloss, double base[3], double *me
     return gltf_told(g, gloss, "specularGlossinessTexture");
 }
 
+/* Highlights of what is no metal: by how much more than 0.04 it reflects from the front, which k_s
+   of 0.25 stands for.  The mirror image of the studio stays that of 0.04. */
+static inline int gltf_shine(gltf *g, uint32_t material, model_surface *s)
+{
+    const uint32_t shine = gltf_extended(g, material, "KHR_materials_specular");
+    const uint32_t glass = gltf_extended(g, material, "KHR_materials_ior");
+    const double n = json_number_of(&g->j, glass, "ior", 1.5), r = (n - 1) / (n + 1);
+    const double factor = fmin(1, fmax(0, json_number_of(&g->j, shine, "specularFactor", 1)));
+    double color[3] = { 1, 1, 1 }, k_s[3];
+    if (gltf_numbers(g, shine, "specularColorFactor", 3)) return 1;
+    json_array(&g->j, shine, "specularColorFactor", color, 3);
+    for (int k = 0; k < 3; k++) { /* n of 0 stands for a mirror, says the extension */
+        const double front = n >= 1 ? r * r : n == 0 ? 1 : 0.04;
+        k_s[k] = factor * fmin(1, fmax(0, 6.25 * front * color[k]));
+    }
+    if (glass || shine) s->shine = gltf_color(k_s);
+    return gltf_told(g, shine, "specularTexture") || gltf_told(g, shine, "specularColorTexture");
+}
+
 /* The picture of metal and roughness */
 static inline int gltf_polish(gltf *g, gltf_place *place, uint32_t rough, model_surface *s)
 {
@@ -666,7 +685,6 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     const uint32_t shine = gltf_extended(g, material, "KHR_materials_emissive_strength");
     const uint32_t rough = json_of(&g->j, material, "pbrMetallicRoughness", JSON_OBJECT);
     const uint32_t unlit = gltf_extended(g, material, "KHR_materials_unlit");
-    const int physical = !gloss && !unlit;
     const uint32_t from = gloss ? gloss : rough, named = json_member(&g->j, material, "name");
     const uint32_t bumps = json_of(&g->j, material, "normalTexture", JSON_OBJECT);
     double base[4] = { 1, 1, 1, 1 }, glow[3] = { 0, 0, 0 }, metal, roughness, strength;
@@ -683,22 +701,25 @@ static inline int gltf_material(gltf *g, uint32_t material, model_surface *s, gl
     s->material.diffuse = gltf_color(base);
     s->material.emission = shade_scale(gltf_color(glow), (float)strength);
     /* an exporter's material that says nothing: white, rough metal, without a name */
-    s->set = named || gloss || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
+    s->set = named || gloss || unlit || metal < 1 || roughness < 1 || base[0] < 1 || base[1] < 1 ||
              base[2] < 1 || glow[0] + glow[1] + glow[2] > 0;
+    if (!gloss && !unlit && gltf_shine(g, material, s)) return 1;
     model_rough(s, (float)metal, (float)roughness);
-    if (unlit) {
-        s->material.diffuse = s->material.ambient = gltf_color(base);
-        s->material.specular = shade_v3(0, 0, 0);
-        s->metal = 0;
-    }
     gltf_alpha(g, s, material, base[3]);
     if (gltf_texture(g, place, from, gloss ? "diffuseTexture" : "baseColorTexture", PICTURE_COLORS,
-                     &s->map, &s->picture) ||
-        gltf_texture(g, place, material, "normalTexture", PICTURE_RELIEF, &s->relief.map,
+                     &s->map, &s->picture))
+        return 1;
+    if (unlit) { /* its other members count for who cannot draw it unlit */
+        s->material = (shade_material){ .diffuse = gltf_color(base), .ambient = gltf_color(base) };
+        s->metal = 0;
+        s->unlit = 1;
+        return 0;
+    }
+    if (gltf_texture(g, place, material, "normalTexture", PICTURE_RELIEF, &s->relief.map,
                      &s->relief.picture) ||
         gltf_texture(g, place, material, "emissiveTexture", PICTURE_COLORS, &s->glow_map,
                      &s->glow_picture) ||
-        (physical && gltf_polish(g, place, rough, s)))
+        (!gloss && gltf_polish(g, place, rough, s)))
         return 1;
     if (s->relief.map) /* 0 would stand for a file that does not say */
         s->relief.strength = (float)fmax(1e-6, fabs(json_number_of(&g->j, bumps, "scale", 1)));
@@ -891,8 +912,8 @@ static inline gltf_turn gltf_turned(gather_matrix m)
     return t;
 }
 
-static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const gltf_turn *at,
-                              const gltf_place *place)
+static inline gather_corner gltf_corner(const gltf_vertices *v, size_t i, const gltf_turn *at,
+                                        const gltf_place *place)
 {
     gather_corner c = { .color = { 1, 1, 1 } };
     const double *m = at->m.at;
@@ -913,7 +934,7 @@ static inline int gltf_vertex(gltf *g, const gltf_vertices *v, size_t i, const g
         c.uv = shade_v2(mesh_or_zero(t[0] * uv[0] + t[1] * uv[1] + t[2]),
                         mesh_or_zero(t[3] * uv[0] + t[4] * uv[1] + t[5]));
     }
-    return gather_vertex(g->r, &g->all, &c);
+    return c;
 }
 
 /* The triangles of a list (4), a strip (5) or a fan (6) */
@@ -938,6 +959,35 @@ static inline int gltf_faces(gltf *g, const gltf_vertices *v, double mode, size_
     return mesh_check_triangles(g->r, g->all.faces.triangles);
 }
 
+/* The segments of a list (1), a loop (2) or a strip (3) of so many corners */
+static inline double gltf_segments(double mode, double corners)
+{
+    return mode == 1 ? floor(corners / 2) : fmax(0, corners - (mode == 3)) * (corners > 1);
+}
+
+/* The lines of a primitive, in one place, each with the mean colour of its ends */
+static inline int gltf_lines(gltf *g, const gltf_vertices *v, double mode, int surface,
+                             const gather_matrix *at)
+{
+    const size_t n = v->index.width ? v->index.count : v->position.count;
+    const size_t segments = (size_t)gltf_segments(mode, (double)n);
+    for (size_t i = 0; i < segments; i++) {
+        const size_t first = mode == 1 ? 2 * i : i;
+        gather_corner c[2];
+        float end[2][3];
+        for (size_t k = 0; k < 2; k++) {
+            const size_t which = (first + k) % n;
+            const size_t own = v->index.width ? (size_t)gltf_value(&v->index, which, 0) : which;
+            const gltf_turn turn = { gltf_bone(v, own, at), { { 0 } } };
+            c[k] = gltf_corner(v, own, &turn, NULL);
+            mesh_relative(&g->all.origin, c[k].position, end[k]);
+        }
+        if (model_add_line(g->m, end[0], end[1], shade_lerp(c[0].color, c[1].color, 0.5f), surface))
+            return mesh_fail(g->r, "out of memory");
+    }
+    return 0;
+}
+
 /* Counts what a primitive makes, before memory is taken. */
 static inline int gltf_count(gltf *g, uint32_t primitive, double mode, size_t instances)
 {
@@ -948,11 +998,14 @@ static inline int gltf_count(gltf *g, uint32_t primitive, double mode, size_t in
     if (gltf_count_of(g, json_member(&g->j, attributes, "POSITION"), &vertices)) return 1;
     corners = vertices;
     if (index && gltf_count_of(g, index, &corners)) return 1;
-    if (mode > 0) {
+    if (mode > 0 && mode < 4) {
+        g->segments += gltf_segments(mode, corners) * (double)instances;
+    } else if (mode > 0) {
         g->vertices += vertices * (double)instances;
         g->triangles += (mode == 4 ? floor(corners / 3) : fmax(0, corners - 2)) * (double)instances;
     } else
         g->points += corners * (double)instances;
+    if (g->segments > most) return mesh_fail(g->r, "more than %lu lines", (unsigned long)most);
     if (g->triangles > most) return mesh_fail(g->r, "more than %lu triangles", (unsigned long)most);
     if (fmax(g->vertices, g->points) > 4 * most + 1e6)
         return mesh_fail(g->r, "more than %lu vertices", (unsigned long)(4 * most + 1e6));
@@ -987,33 +1040,42 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
     const uint32_t at = json_member(&g->j, attributes, "POSITION");
     gltf_vertices v = none;
     double mode;
-    int surface = 0, failed;
+    int surface = 0, failed, wire;
     gltf_place *place;
     if (gltf_whole(g, primitive, "mode", 4, &mode)) return 1;
     if (!at) return 0; /* nothing to draw, says glTF */
     if (gltf_extended(g, primitive, "KHR_draco_mesh_compression") && gltf_bare(g, at))
         return mesh_fail(g->r, "it needs KHR_draco_mesh_compression, which is not read");
-    if (mode > 0 && (mode < 4 || mode > 6)) {
+    wire = mode > 0 && mode < 4;
+    if (mode > 6 || (wire && !g->m->lines_wanted)) {
         g->lines = 1;
         return 0;
     }
     if (g->counting) return gltf_count(g, primitive, mode, in->count);
-    if (g->cloud != !(mode > 0)) return 0;
+    if (!wire && g->cloud != !(mode > 0)) return 0;
     if (gltf_surface(g, primitive, &surface)) return 1;
     if (g->m->surface[surface].alpha_cutoff > 1) { /* no alpha of a picture is enough */
         g->cut = 1;
         return 0;
     }
     place = surface == g->plain ? NULL : &g->place[surface];
-    if (place && place->used > 0 && g->cloud)
-        model_leave_out(g->m, g->r->name, "the pictures of its points");
-    v.tint = gltf_tint(g, surface);
+    if (place && place->used > 0 && (wire || g->cloud))
+        model_leave_out(g->m, g->r->name,
+                        wire ? "the pictures of its lines" : "the pictures of its points");
+    v.tint = wire ? shade_v3(1, 1, 1) : gltf_tint(g, surface);
     failed = gltf_load(g, primitive, surface, &v);
-    if (!failed && place && place->used > 0 && !v.uv.width && !g->cloud)
+    if (!failed && place && place->used > 0 && !v.uv.width && !g->cloud && !wire)
         model_leave_out(g->m, g->r->name, "a picture has no texture coordinates");
     if (!failed)
         failed = gltf_morph(g, primitive, mesh, node, &v) ||
                  gltf_joints(g, node, &v.bone, &v.bones) || faces_surface(&g->all.faces, surface);
+    for (size_t k = 0; k < in->count && wire && !failed; k++)
+        failed = gltf_lines(g, &v, mode, surface, &in->at[k]);
+    if (wire) {
+        free(v.bone);
+        gltf_free_vertices(&v);
+        return failed;
+    }
     g->all.textured |= v.uv.width && place && place->used > 0;
     g->all.colored |= v.color.width > 0 || v.tint.x * v.tint.y * v.tint.z < 1;
     g->all.texcoords_kept = g->all.textured;
@@ -1026,8 +1088,10 @@ static inline int gltf_primitive(gltf *g, uint32_t primitive, uint32_t mesh, uin
         const int mirrored = gather_determinant(&turn.m) < 0;
         for (size_t i = 0; i < n && !failed; i++) {
             const size_t own = named ? (size_t)gltf_value(&v.index, i, 0) : i;
+            gather_corner corner;
             if (gltf_is_boned(&v)) turn = gltf_turned(gltf_bone(&v, own, &in->at[k]));
-            failed = gltf_vertex(g, &v, own, &turn, place && place->used > 0 ? place : NULL);
+            corner = gltf_corner(&v, own, &turn, place && place->used > 0 ? place : NULL);
+            failed = gather_vertex(g->r, &g->all, &corner);
         }
         if (!failed && !g->cloud) failed = gltf_faces(g, &v, mode, first, mirrored);
     }
@@ -1219,21 +1283,30 @@ static inline int gltf_version(gltf *g)
 
 static inline int gltf_build(gltf *g)
 {
-    int plain;
+    int plain, points;
     if (gltf_version(g) || gltf_extensions(g, "extensionsRequired", 1) || gltf_index(g)) return 1;
     g->buffer = (gltf_bytes *)calloc((size_t)g->count[GLTF_BUFFERS] + 1, sizeof *g->buffer);
     if (!g->buffer) return mesh_fail(g->r, "out of memory");
     if (gltf_parents(g) || gltf_scene(g, 1)) return 1;
     g->cloud = g->triangles <= 0 && g->points > 0;
-    if (g->triangles <= 0 && !g->cloud)
+    if (g->triangles <= 0 && !g->cloud && g->segments <= 0)
         return mesh_fail(g->r, g->lines ? "lines alone are not drawn" : "no faces in it");
     if (gltf_materials(g) || gltf_scene(g, 0)) return 1;
-    if (g->lines || (g->points > 0 && !g->cloud))
-        model_leave_out(g->m, g->r->name, g->cloud ? "its lines" : "its points and lines");
-    if (g->cut && !(g->cloud ? g->all.positions.count : g->all.faces.triangles))
+    points = g->points > 0 && !g->cloud;
+    if (g->lines || points)
+        model_leave_out(g->m, g->r->name,
+                        !points    ? "its lines"
+                        : g->lines ? "its points and lines"
+                                   : "its points");
+    if (g->cut && !g->m->line_count &&
+        !(g->cloud ? g->all.positions.count : g->all.faces.triangles))
         return mesh_fail(g->r, "nothing of it can be seen: its alpha is below its alphaCutoff");
     if (g->cut) model_leave_out(g->m, g->r->name, "faces whose alpha is below their alphaCutoff");
     if (gltf_extensions(g, "extensionsUsed", 0)) return 1;
+    if (g->triangles <= 0 && !g->cloud) {
+        model_placed(g->m, &g->all.origin);
+        return 0;
+    }
     if (!g->cloud) return gather_finish(g->r, &g->all, g->m);
     if (gltf_plain(g, &plain) || gather_points(g->r, &g->all, g->m)) return 1;
     if (g->m->part) g->m->part->surface = plain;

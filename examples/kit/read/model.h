@@ -3,6 +3,7 @@
 #ifndef MODEL_MODEL_H
 #define MODEL_MODEL_H
 
+#include "../draw/wires.h"
 #include "zip.h"
 
 /* Larger files are refused. */
@@ -48,7 +49,9 @@ typedef struct model_surface {
     char *name, *map;        /* names in the file; map: the picture for k_d, or NULL */
     shade_material material; /* linear light */
     float transparency, alpha_cutoff;
+    shade_vec3 shine;    /* k_s of a smooth surface that is no metal, before model_rough */
     float metal, rough;  /* of physically based materials; rough 0: by the shininess */
+    int unlit;           /* no lamp changes its colour, k_d */
     int set;             /* 0: the file says nothing about it */
     int section;         /* it is the cut of a section */
     int opaque, blended; /* the alpha of the map is ignored; is blended by */
@@ -67,6 +70,12 @@ typedef struct model_part {
     int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
 } model_part;
 
+/* A line of a file, in the coordinates of its mesh */
+typedef struct model_line {
+    shade_vec3 end[2], color; /* color: a factor, linear */
+    int surface;              /* -1: none */
+} model_line;
+
 /* Loads a file of at most so many bytes that the model of a path names: its bytes and where it was,
    both to be freed.  Returns non-zero with a line in error. */
 typedef int model_load_beside(const char *path, const char *name, double most,
@@ -79,6 +88,9 @@ typedef struct model {
     model_surface *surface; /* NULL: the file has no surfaces */
     model_part *part;
     model_picture *picture;
+    model_line *line;
+    size_t line_count, line_room, lines_dropped;
+    wires wires;    /* the lines, once the model is prepared */
     char **library; /* files that describe the surfaces */
     int surface_count, part_count, picture_count, library_count;
     size_t surface_room, picture_room, library_room;
@@ -93,6 +105,7 @@ typedef struct model {
     double origin[3];          /* of the positions, in the coordinates of the file */
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
     int polish_wanted;         /* said to the reader: pictures of metal and roughness count */
+    int lines_wanted;          /* said to the reader: it has lines, and they are not left out */
     const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
     model_load_beside *beside;
     zip_inflate *inflate; /* what unpacks files of archives; NULL: nothing */
@@ -128,6 +141,8 @@ static inline void model_free(model *m)
     free(m->surface);
     free(m->part);
     free(m->picture);
+    free(m->line);
+    wires_free(&m->wires);
     free(m->library);
     *m = empty;
 }
@@ -239,13 +254,13 @@ static inline float model_roughness(float shininess)
 static inline void model_rough(model_surface *s, float metal, float rough)
 {
     shade_material *k = &s->material;
-    const shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
+    const shade_vec3 base = k->diffuse;
     float square, gloss;
     metal = fminf(1, fmaxf(0, metal));
     rough = fminf(1, fmaxf(0.2f, rough));
     square = rough * rough;
     gloss = (1 - rough) * (1 - 0.5f * rough);
-    k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
+    k->specular = shade_scale(shade_lerp(s->shine, base, metal), gloss);
     k->diffuse = k->ambient = shade_scale(base, 1 - MODEL_METAL_DARK * metal);
     s->metal = metal;
     s->rough = rough;
@@ -283,6 +298,7 @@ static inline int model_add_surface(model *m, const void *name, size_t n)
 {
     static const model_surface fresh = { .material = { .ambient = { 0.32f, 0.32f, 0.32f },
                                                        .diffuse = { 0.32f, 0.32f, 0.32f } },
+                                         .shine = { 0.25f, 0.25f, 0.25f },
                                          .picture = -1,
                                          .move = { 0, 0, 1, 1 },
                                          .relief = { .picture = -1 },
@@ -348,6 +364,24 @@ static inline int model_find_object(model *m, const void *name, size_t n)
     for (int i = m->object_count - 1; i >= 0; i--)
         if (strlen(m->object_name[i]) == n && !memcmp(m->object_name[i], name, n)) return i;
     return model_add_object(m, name, n);
+}
+
+/* Adds a line, or counts it where an end is not finite.  1: out of memory */
+static inline int model_add_line(model *m, const float *a, const float *b, shade_vec3 color,
+                                 int surface)
+{
+    const model_line line = { { shade_v3(a[0], a[1], a[2]), shade_v3(b[0], b[1], b[2]) },
+                              color,
+                              surface };
+    model_line *grown =
+        (model_line *)mesh_grow(m->line, m->line_count, &m->line_room, sizeof *grown);
+    if (!grown || m->line_count >= INT_MAX / 8) return 1;
+    m->line = grown;
+    if (mesh_finite(a) && mesh_finite(b))
+        grown[m->line_count++] = line;
+    else
+        m->lines_dropped++;
+    return 0;
 }
 
 static inline int model_add_library(model *m, const unsigned char *name, size_t n)

@@ -1,7 +1,7 @@
 /* obj.h - reads OBJ: v (with optional w or red green blue, or #MRGB of ZBrush), vt, vn and f, every
    form of index (v, v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any
-   shape, usemtl, mtllib, o and g, continued lines, comments, any line ends.  obj_known has the
-   other statements.  One vertex is made for each different v/vt/vn. */
+   shape, l where lines are wanted, usemtl, mtllib, o and g, continued lines, comments, any line
+   ends.  obj_known has the other statements.  One vertex is made for each different v/vt/vn. */
 #ifndef MODEL_OBJ_H
 #define MODEL_OBJ_H
 
@@ -21,7 +21,7 @@ static const known_name obj_known[] = {
     { "d_interp", KNOWN_SILENT },  { "lod", KNOWN_SILENT },    { "ctech", KNOWN_SILENT },
     { "stech", KNOWN_SILENT },     { "maplib", KNOWN_SILENT }, { "shadow_obj", KNOWN_SILENT },
     { "trace_obj", KNOWN_SILENT }, { "usemap", KNOWN_TOLD },   { "p", KNOWN_TOLD },
-    { "l", KNOWN_TOLD },           { "curv", KNOWN_TOLD },     { "curv2", KNOWN_TOLD },
+    { "l", KNOWN_DRAWN },          { "curv", KNOWN_TOLD },     { "curv2", KNOWN_TOLD },
     { "surf", KNOWN_TOLD },        { "call", KNOWN_TOLD },     { "csh", KNOWN_TOLD },
     { NULL, KNOWN_TOLD }
 };
@@ -46,6 +46,8 @@ typedef struct obj_data {
     mesh_origin origin;
     mesh_set corners; /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
+    mesh_uints lines; /* three for each: two numbers of v, and the surface from 1 on, or 0 */
+    uint32_t surface; /* of the lines that come, counted so */
     obj_corner_place waiting[OBJ_WAITING]; /* corners that corners does not have yet */
     size_t waits;
     int has_objects;     /* an o was read: groups do not count */
@@ -206,6 +208,24 @@ static inline int obj_face(mesh_reader *r, obj_data *o)
     return mesh_check_triangles(r, o->faces.triangles);
 }
 
+/* A line through vertices, whose texture coordinates do not count */
+static inline int obj_line(mesh_reader *r, obj_data *o, model *m)
+{
+    uint32_t last = 0, next = 0;
+    if (!m->lines_wanted) {
+        model_leave_out(m, r->name, "its lines");
+        return 0;
+    }
+    for (mesh_skip_blanks(r, 1); !mesh_at_word_end(r); mesh_skip_blanks(r, 1)) {
+        if (obj_index(r, o, OBJ_V, &next)) return 1;
+        while (!mesh_at_word_end(r)) r->at++;
+        if (last && mesh_push_triangle(&o->lines, last, next, o->surface))
+            return mesh_fail(r, "out of memory");
+        last = next;
+    }
+    return 0;
+}
+
 /* usemtl and mtllib: a name to the end of the line, which may have spaces */
 static inline int obj_surface(mesh_reader *r, obj_data *o, model *m)
 {
@@ -213,6 +233,7 @@ static inline int obj_surface(mesh_reader *r, obj_data *o, model *m)
     int none = !m->surface_count && o->faces.stream.count && model_find_surface(m, "", 0, 1) < 0;
     int surface = none ? -1 : model_find_surface(m, begin, (size_t)(r->at - begin), 1);
     if (surface < 0) return mesh_fail(r, "out of memory, or more than 10000 materials");
+    o->surface = (uint32_t)surface + 1;
     return faces_surface(&o->faces, surface) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -243,6 +264,7 @@ static inline int obj_statement(mesh_reader *r, obj_data *o, model *m)
     if (mesh_take_word(r, "vt")) return obj_texcoord(r, o);
     if (mesh_take_word(r, "vn")) return obj_normal(r, o);
     if (mesh_take_word(r, "f")) return obj_face(r, o);
+    if (mesh_take_word(r, "l")) return obj_line(r, o, m);
     if (mesh_take_word(r, "usemtl")) return obj_surface(r, o, m);
     if (mesh_take_word(r, "mtllib")) return obj_library(r, m);
     if (mesh_take_word(r, "o")) return obj_object(r, o, m, 1);
@@ -289,6 +311,26 @@ static inline int obj_points(mesh_reader *r, const obj_data *o, model *out)
     return points_finish(r, out, n);
 }
 
+/* The lines, each with the mean colour of its ends */
+static inline int obj_join(mesh_reader *r, const obj_data *o, model *out)
+{
+    for (size_t i = 0; i < o->lines.count; i += 3) {
+        const uint32_t *line = o->lines.v + i;
+        const float *end[2];
+        shade_vec3 color[2];
+        for (int k = 0; k < 2; k++) {
+            const size_t at = 3 * ((size_t)line[k] - 1);
+            const float *c = o->color.v + at;
+            end[k] = o->list[OBJ_V].v + at;
+            color[k] = at < o->color.count ? shade_v3(c[0], c[1], c[2]) : shade_v3(1, 1, 1);
+        }
+        if (model_add_line(out, end[0], end[1], shade_lerp(color[0], color[1], 0.5f),
+                           (int)line[2] - 1))
+            return mesh_fail(r, "out of memory");
+    }
+    return 0;
+}
+
 /* Faces may name texture coordinates or normals in a file that has none at all: they do without.
    0: the file has some. */
 static inline int obj_forget(obj_data *o, int kind, size_t count, model *out, const char *name)
@@ -311,8 +353,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     if (obj_number(r, o) || obj_paint(r, o, out)) return 1;
     obj_light(r, o, out);
     n = o->corners.count;
-    if (!n && o->list[OBJ_V].count) return obj_points(r, o, out);
-    if (!o->faces.triangles) return obj_no_faces(r, o);
+    if (!n && o->list[OBJ_V].count && !o->lines.count) return obj_points(r, o, out);
+    if (!o->faces.triangles && !o->lines.count) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
         const size_t count = o->list[k].count / (k == OBJ_VT ? 2 : 3);
         if (o->highest[k] <= count || (k != OBJ_V && obj_forget(o, k, count, out, r->name)))
@@ -320,6 +362,11 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
         r->line = o->highest_line[k];
         return mesh_fail(r, "there is no %s number %lu: the file has %lu", obj_names[k],
                          (unsigned long)o->highest[k], (unsigned long)count);
+    }
+    if (obj_join(r, o, out)) return 1;
+    if (!o->faces.triangles) {
+        model_placed(out, &o->origin);
+        return 0;
     }
     m->positions = (float *)malloc(3 * sizeof(float) * n);
     m->normals = (float *)calloc(n, 3 * sizeof(float));
@@ -369,6 +416,7 @@ static inline int obj_read(mesh_reader *r, model *m)
     for (int k = 0; k < 3; k++) free(o.list[k].v);
     free(o.color.v);
     free(o.painted.v);
+    free(o.lines.v);
     mesh_set_free(&o.corners);
     faces_free(&o.faces);
     return failed;

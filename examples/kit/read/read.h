@@ -206,9 +206,12 @@ static int ran_out(const char *error)
     return n >= most && !strcmp(error + n - most, words);
 }
 
-/* 1: a triangle has an area.  In double, where no product of floats overflows. */
+/* 1: a line has a length, or a triangle an area.  In double, where no product of floats
+   overflows. */
 static int model_shows(const model *m)
 {
+    for (size_t i = 0; i < m->line_count; i++)
+        if (memcmp(&m->line[i].end[0], &m->line[i].end[1], sizeof m->line->end[0]) != 0) return 1;
     for (int i = 0; i < m->mesh.view.index_count; i += 3) {
         const uint32_t *corner = m->mesh.indices + i;
         double e[2][3];
@@ -242,6 +245,7 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
                               .progress = progress,
                               .user = user,
                               .most = (size_t)o->max_triangles,
+                              .lines = !o->no_lines,
                               .outside = o->outside };
     int failed;
     if (!strcmp(path, "-")) path = model_input;
@@ -272,6 +276,80 @@ static int model_up(const model *m, const model_options *o, int picture)
     return up;
 }
 
+/* Appends the ends of the lines to the vertices, which no triangle has: they stand, fit and fall as
+   these do.  1: out of memory */
+static int model_join_lines(model *m)
+{
+    owned_mesh *mesh = &m->mesh;
+    const size_t from = (size_t)mesh->view.vertex_count, n = 2 * m->line_count;
+    float **const all[4] = { &mesh->positions, &mesh->normals, &mesh->colors, &mesh->texcoords };
+    if (!n) return 0;
+    if (from + n > INT_MAX / 3) return 1;
+    for (int k = 0; k < 4; k++) {
+        const size_t width = k < 3 ? 3 : 2;
+        float *grown = NULL;
+        if (k < 2 || *all[k]) grown = (float *)realloc(*all[k], (from + n) * width * sizeof *grown);
+        if (!grown && (k < 2 || *all[k])) return 1;
+        if (grown) memset(grown + from * width, 0, n * width * sizeof *grown);
+        *all[k] = grown;
+    }
+    for (size_t i = 0; i < n; i++)
+        memcpy(mesh->positions + 3 * (from + i), &m->line[i / 2].end[i % 2], 3 * sizeof(float));
+    mesh_link(mesh, (int)(from + n), mesh->view.index_count);
+    return 0;
+}
+
+/* Takes them from there, to where they have come. */
+static void model_part_lines(model *m)
+{
+    const size_t n = 2 * m->line_count, from = (size_t)m->mesh.view.vertex_count - n;
+    if (!n) return;
+    for (size_t i = 0; i < n; i++)
+        memcpy(&m->line[i / 2].end[i % 2], m->mesh.positions + 3 * (from + i), 3 * sizeof(float));
+    mesh_link(&m->mesh, (int)from, m->mesh.view.index_count);
+}
+
+/* The colour of lines of which the file says nothing: white, which the colours of vertices
+   multiply, or that of the options.  Thin lines of clay would hardly stand out from paper: they
+   are darker. */
+static shade_vec3 model_ink(const model *m, const model_options *o)
+{
+    for (size_t i = 0; i < m->line_count && !o->plain; i++)
+        if (m->line[i].color.x * m->line[i].color.y * m->line[i].color.z < 1)
+            return shade_v3(1, 1, 1);
+    return shade_scale(o->material.diffuse, o->plain ? 1 : 0.3f);
+}
+
+/* The colour of a line: that of its surface, or ink */
+static shade_vec4 model_line_color(const model *m, const model_options *o, const model_line *line,
+                                   shade_vec3 ink)
+{
+    const model_surface *s = line->surface >= 0 ? &m->surface[line->surface] : NULL;
+    const int told = s && s->set && !o->plain;
+    shade_vec3 color =
+        told ? shade_scale(s->material.diffuse, 1 / (1 - MODEL_METAL_DARK * s->metal)) : ink;
+    if (!o->plain) color = shade_mul(color, line->color);
+    return shade_v4(color.x, color.y, color.z, told ? 1 - s->transparency : 1);
+}
+
+/* Makes the lines ready to be drawn.  1: out of memory */
+static int model_wire(model *m, const model_options *o)
+{
+    const size_t n = m->line_count;
+    const shade_vec3 ink = model_ink(m, o);
+    wires *w = &m->wires;
+    if (!n) return 0;
+    w->point = (shade_vec3 *)malloc(2 * n * sizeof *w->point);
+    w->color = (shade_vec4 *)malloc(n * sizeof *w->color);
+    if (!w->point || !w->color) return 1;
+    w->points = 2 * (int)n;
+    for (size_t i = 0; i < n; i++) {
+        memcpy(w->point + 2 * i, m->line[i].end, sizeof m->line->end);
+        w->color[i] = model_line_color(m, o, &m->line[i], ink);
+    }
+    return wires_find_runs(w) || model_join_lines(m);
+}
+
 /* Makes a model ready for a picture: upright, turned, with normals and chunks.  Returns 1 with a
    line on stderr, also where a picture would show nothing. */
 static int model_prepare(model *m, const model_options *o, float turn)
@@ -279,9 +357,12 @@ static int model_prepare(model *m, const model_options *o, float turn)
     const int flat = o->shading == SHADE_SHADING_PER_FACE;
     int failed = 0;
     if (model_blank(m)) return 1;
+    if (model_join_lines(m)) return complain("out of memory");
     relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
-    if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat, CREASE_40_DEGREES);
-    if (!failed) failed = mesh_chunk_parts(m);
+    model_part_lines(m);
+    if (m->mesh.view.index_count && (flat || !m->normals_given))
+        failed = mesh_crease(&m->mesh, flat, CREASE_40_DEGREES);
+    failed = failed || mesh_chunk_parts(m) || model_wire(m, o);
     return failed ? complain("out of memory") : 0;
 }
 #endif

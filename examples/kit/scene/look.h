@@ -2,7 +2,7 @@
    packages, and the order of a model's parts.
 
        if (exhibit_open(&e, &model, &studio, &options, eye)) ...                  (out of memory)
-       exhibit_draw(&e, &rows, view, projection);                  (for each band of the picture)
+       exhibit_draw(&e, &rows, view, projection, samples);         (for each band of the picture)
        exhibit_close(&e); */
 #ifndef MODEL_LOOK_H
 #define MODEL_LOOK_H
@@ -42,7 +42,8 @@ typedef struct look {
     int aimed;       /* it is known where in the picture chunks lie */
     look_note *note; /* NULL: none */
     const void *noted;
-    int unlit; /* only note is wanted */
+    int unlit;      /* no lamp changes its colour: that of map, vertices and k_d */
+    int notes_only; /* only note is wanted */
 } look;
 
 /* Varyings: P, N, then the albedo of the vertex and the place in the pictures, where there are any.
@@ -131,6 +132,12 @@ static void look_light(const look *k, const float *P, const float *N, const floa
     float visibility[2 * SHADE_LANES]; /* of the large lamp, and of the other one: 1 */
     look_rows sky = { { 0 } }, mirror = { { 0 } };
     shade_rows rows = { .position = P, .normal = N, .albedo = albedo };
+    for (int a = 0; a < 3 && k->unlit; a++) SHADE_EACH_LANE(i)
+        {
+            out[a][i] = component(k->material.diffuse, a);
+            out[a][i] *= albedo ? albedo[i + a * SHADE_LANES] : 1;
+        }
+    if (k->unlit) return;
     for (int first = 0; first < count && k->shadows; first += STUDIO_BLOCK)
         look_studio(k, P, N, albedo, first, count, sky, mirror, visibility);
     for (int i = k->shadows ? count : 2 * SHADE_LANES; i < 2 * SHADE_LANES; i++) visibility[i] = 1;
@@ -269,13 +276,13 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
                           shade_colors *SHADE_RESTRICT out)
 {
     const look *k = (const look *)uniforms;
-    const int mapped = k->map && (!k->unlit || k->alpha_cutoff > 0);
+    const int mapped = k->map && (!k->notes_only || k->alpha_cutoff > 0);
     float texel[4][SHADE_LANES];
     if (mapped) {
         const float *uv = in->varying[look_uv(k)];
         shade_sample_lanes(k->map, uv, uv + SHADE_LANES, in->lod, texel[0]);
     }
-    if (!k->unlit) look_color(k, in, k->map ? texel : NULL, out->color);
+    if (!k->notes_only) look_color(k, in, k->map ? texel : NULL, out->color);
     SHADE_EACH_LANE(i)
     {
         const float alpha = mapped && !k->map_is_opaque ? texel[3][i] : 1;
@@ -406,11 +413,13 @@ static void look_dress(look *k, const model_options *o, const model *m, int surf
     k->alpha = 1;
     k->alpha_cutoff = 0;
     k->map_is_opaque = 0;
+    k->unlit = 0;
     k->metal = 0;
     k->material = o->material;
     k->rough = model_roughness(k->material.shininess);
     if (!s || !s->set || (o->plain && !s->section)) return;
     k->material = s->material;
+    k->unlit = s->unlit;
     k->metal = s->metal;
     k->rough = s->rough > 0 ? s->rough : model_roughness(k->material.shininess);
     k->alpha = 1 - s->transparency;
@@ -595,15 +604,30 @@ static inline void exhibit_aim(exhibit *e, shade_mat4 clip_from_world)
     e->look.aimed = 1;
 }
 
-/* Draws a band of the picture, over its background. */
+/* Draws the lines of a model, 1.5 pixels wide, which have so many samples along their edges.  Lines
+   often lie on faces, and so are drawn a little nearer, by 1/2000 of their distance. */
+static inline shade_result model_draw_lines(const model *m, const shade_target *target,
+                                            shade_mat4 view, shade_mat4 projection, int samples)
+{
+    const float s = 1 - 5e-4f;
+    const shade_mat4 nearer = shade_mat4_scaling(shade_v3(s, s, s));
+    shade_line_state pen = { .width = 1.5f * (float)samples, .cap = SHADE_CAP_SQUARE };
+    pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    pen.clip_from_points = shade_mat4_mul(projection, shade_mat4_mul(nearer, view));
+    return wires_draw(&m->wires, target, pen);
+}
+
+/* Draws a band of the picture, of so many samples along the edge of a pixel, over its
+   background. */
 static inline shade_result exhibit_draw(const exhibit *e, const shade_target *rows, shade_mat4 view,
-                                        shade_mat4 projection)
+                                        shade_mat4 projection, int samples)
 {
     static const shade_mat4 no_turn; /* zero: the identity */
     look k = e->look;
     shade_result result;
     k.clip_from_mesh = shade_mat4_mul(projection, view);
     result = draw_opaque(rows, &k, e->options, e->model, e->see_through, e->near_chunks);
+    if (!result) result = model_draw_lines(e->model, rows, view, projection, samples);
     if (!result && e->ground.shadow)
         result = ground_draw(&e->ground, rows, no_turn, view, projection);
     if (!result) result = draw_far_first(rows, &k, e->options, e->model, &e->far_list);

@@ -184,7 +184,7 @@ typedef struct portrait_work {
     const shade_target *target;
     const exhibit *exhibit;
     camera camera;
-    int bands;
+    int samples, bands;
     shade_result result[PORTRAIT_BANDS];
 } portrait_work;
 
@@ -192,7 +192,8 @@ static inline void portrait_band(void *data, int band)
 {
     portrait_work *w = (portrait_work *)data;
     const shade_target rows = bands_rows(w->target, band, w->bands);
-    w->result[band] = exhibit_draw(w->exhibit, &rows, w->camera.view, w->camera.projection);
+    w->result[band] =
+        exhibit_draw(w->exhibit, &rows, w->camera.view, w->camera.projection, w->samples);
 }
 
 /* What a program says where light or picture failed */
@@ -209,6 +210,7 @@ static inline shade_result portrait_draw(const canvas *c, const model *m, const 
     exhibit e;
     portrait_work w = { .target = &c->target, .exhibit = &e };
     shade_result result = SHADE_ERROR_CAPACITY;
+    w.samples = c->samples;
     w.bands = c->target.height / PORTRAIT_ROWS + 1;
     if (w.bands > PORTRAIT_BANDS) w.bands = PORTRAIT_BANDS;
     w.camera = camera_frame(&m->mesh, (float)p->width / (float)p->height, how);

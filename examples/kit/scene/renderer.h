@@ -37,8 +37,9 @@ enum { /* renderer_object.flags */
        RENDERER_HIDDEN = 1,
        RENDERER_TWO_SIDED = 2,
        RENDERER_CASTS_NO_SHADOW = 4,
-       RENDERER_BLENDED = 8, /* by the alpha of its texture too */
-       RENDERER_HEIGHTS = 16 /* its relief holds heights, and no normals */
+       RENDERER_BLENDED = 8,  /* by the alpha of its texture too */
+       RENDERER_HEIGHTS = 16, /* its relief holds heights, and no normals */
+       RENDERER_UNLIT = 32    /* no lamp changes its colour */
 };
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
@@ -964,13 +965,13 @@ typedef struct renderer_batch {
     int several;                    /* more than one object */
     int uv, colors;                 /* the varyings that they are; 0: there are none */
     int notes, blended, two_sided, holes;
-    int meshes;                    /* whether any of its objects is one */
-    int glossy, glows, metals;     /* whether any of its objects is so */
-    int maps;                      /* the varyings that u, v of relief and glow_map are */
-    relief relief;                 /* of its one object */
-    const shade_texture *glow_map; /* NULL: none */
-    int glow_finer;                /* levels from the texture whose lod is known */
-    shade_mesh mesh;               /* that the relief lies on */
+    int meshes;                       /* whether any of its objects is one */
+    int glossy, glows, metals, unlit; /* whether any of its objects is so */
+    int maps;                         /* the varyings that u, v of relief and glow_map are */
+    relief relief;                    /* of its one object */
+    const shade_texture *glow_map;    /* NULL: none */
+    int glow_finer;                   /* levels from the texture whose lod is known */
+    shade_mesh mesh;                  /* that the relief lies on */
 } renderer_batch;
 
 /* How u and v follow from coordinates or texcoords */
@@ -1085,7 +1086,7 @@ typedef struct renderer_surface {
     float albedo[3][SHADE_LANES], alpha[SHADE_LANES];
     float specular[3][SHADE_LANES], shininess[SHADE_LANES], emission[SHADE_LANES];
     float glow[3][SHADE_LANES];
-    float sag[SHADE_LANES], metal[SHADE_LANES], tint[SHADE_LANES];
+    float sag[SHADE_LANES], metal[SHADE_LANES], tint[SHADE_LANES], unlit[SHADE_LANES];
     int glossy, glows, alike; /* alike: one shininess for all lanes */
 } renderer_surface;
 
@@ -1132,6 +1133,7 @@ static inline void renderer_surface_of(const renderer_batch *b, const renderer_e
     if (b->blended) renderer_fill(s->alpha, o->rgba[3], first, last);
     if (b->glows) renderer_fill(s->emission, o->emission, first, last);
     for (int k = 0; k < 3 && b->glows; k++) renderer_fill(s->glow[k], o->glow[k], first, last);
+    if (b->unlit) renderer_fill(s->unlit, o->flags & RENDERER_UNLIT ? 1 : 0, first, last);
     if (b->v->p->shadows) renderer_fill(s->sag, e->sag, first, last);
     if (first)
         s->alike &= o->shininess == s->shininess[0];
@@ -1470,6 +1472,10 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
         rows.visibility = visible[0];
     }
     renderer_light(b, &s, &rows, in->count, out->color);
+    for (int k = 0; k < 3 && b->unlit; k++) SHADE_EACH_LANE(i)
+        {
+            out->color[k][i] = s.unlit[i] > 0 ? s.albedo[k][i] : out->color[k][i];
+        }
     for (int k = 0; k < 3 && s.glows; k++) SHADE_EACH_LANE(i)
         {
             out->color[k][i] += s.emission[i] * s.albedo[k][i] + s.glow[k][i];
@@ -1650,12 +1656,13 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     b->colors = b->lighting && (key & RENDERER_KEY_COLORS) ? (b->texture ? 9 : 6) : 0;
     b->several = count > 1;
     b->two_sided = (key & RENDERER_KEY_TWO_SIDED) != 0;
-    b->glossy = b->glows = b->metals = b->meshes = 0;
+    b->glossy = b->glows = b->metals = b->unlit = b->meshes = 0;
     for (int k = 0; k < count; k++) {
         const renderer_object *o = &b->v->p->objects[e[k].object];
         b->metals |= o->metal > 0 || o->tint > 0;
         b->glossy |= renderer_is_glossy(o) || o->metal > 0;
         b->glows |= renderer_glows(o);
+        b->unlit |= (o->flags & RENDERER_UNLIT) != 0;
         b->meshes |= o->kind == RENDERER_MESH;
     }
     index_count = renderer_join(r, b, e, count, &vertex_count);

@@ -100,9 +100,7 @@ typedef struct scene {
     const char *title; /* the name of the model's file */
     char said[64];     /* the effect of the last key */
     ground shadow;
-    shade_vec3 *wires; /* pairs of points; NULL until they are shown */
-    int wire_points;
-    shade_chunk *runs; /* runs of 256 wires, and the box around each */
+    wires wires;       /* without points until they are shown */
     outline outline;   /* found with the wires */
     float wire_length; /* their mean */
     shade_vec3 *few;   /* instead of wires too dense to be parted: those of the outline */
@@ -215,33 +213,8 @@ static inline void scene_close(scene *s)
     exhibit_close(&s->exhibit);
     studio_close(&s->studio);
     outline_free(&s->outline);
-    free(s->wires);
-    free(s->runs);
+    wires_free(&s->wires);
     free(s->few);
-}
-
-enum { WIRE_RUN = 256 }; /* wires in a box */
-static inline int scene_run_count(const scene *s)
-{
-    return (s->wire_points / 2 + WIRE_RUN - 1) / WIRE_RUN;
-}
-
-/* Finds the boxes around runs of wires, by which bands skip wires that they do not see.  Without
-   memory the scene has no wires. */
-static inline void scene_find_runs(scene *s)
-{
-    s->runs = (shade_chunk *)malloc(((size_t)scene_run_count(s) + 1) * sizeof *s->runs);
-    if (!s->runs) s->wire_points = 0;
-    for (int k = 0; k < scene_run_count(s); k++) {
-        const int first = 2 * WIRE_RUN * k, rest = s->wire_points - first;
-        shade_chunk run = { s->wires[first], s->wires[first], first, 0 };
-        run.count = rest < 2 * WIRE_RUN ? rest : 2 * WIRE_RUN;
-        for (int i = first; i < first + run.count; i++) {
-            run.low = shade_min(run.low, s->wires[i]);
-            run.high = shade_max(run.high, s->wires[i]);
-        }
-        s->runs[k] = run;
-    }
 }
 
 /* Finds every edge once, as pairs of points; none where memory is out. */
@@ -250,16 +223,17 @@ static inline void scene_find_wires(scene *s)
     outline *o = &s->outline;
     const size_t room = outline_find(o, &s->model) ? 0 : 2 * (size_t)o->count;
     double length = 0;
-    s->wires = (shade_vec3 *)malloc((room + 1) * sizeof *s->wires);
+    wires *w = &s->wires;
+    w->point = (shade_vec3 *)malloc((room + 1) * sizeof *w->point);
     s->few = (shade_vec3 *)malloc((room + 1) * sizeof *s->few);
-    s->wire_points = s->wires && s->few && room <= INT_MAX ? (int)room : 0;
-    for (int i = 0; i < s->wire_points; i += 2) {
-        s->wires[i] = outline_place(o, o->edge[i / 2].a);
-        s->wires[i + 1] = outline_place(o, o->edge[i / 2].b);
-        length += (double)shade_length(shade_sub(s->wires[i + 1], s->wires[i]));
+    w->points = w->point && s->few && room <= INT_MAX ? (int)room : 0;
+    for (int i = 0; i < w->points; i += 2) {
+        w->point[i] = outline_place(o, o->edge[i / 2].a);
+        w->point[i + 1] = outline_place(o, o->edge[i / 2].b);
+        length += (double)shade_length(shade_sub(w->point[i + 1], w->point[i]));
     }
-    s->wire_length = (float)(length / fmax(1, s->wire_points / 2));
-    scene_find_runs(s);
+    s->wire_length = (float)(length / fmax(1, w->points / 2));
+    if (wires_find_runs(w)) w->points = 0;
 }
 
 /* The model's name and size */
@@ -288,7 +262,7 @@ static inline void scene_step(scene *s, int choice, int step)
     s->choice[choice] = (s->choice[choice] + step + c->count) % c->count;
     snprintf(s->said, sizeof s->said, "%s %s", c->what,
              scene_choice_name(choice, s->choice[choice]));
-    if (choice == CHOICE_WIRE && s->choice[choice] && !s->wires) scene_find_wires(s);
+    if (choice == CHOICE_WIRE && s->choice[choice] && !s->wires.point) scene_find_wires(s);
 }
 
 static inline void scene_turn(scene *s, float right, float down)
@@ -661,6 +635,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
 {
     static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
                                       SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
+    const shade_lighting unlit = { .ambient = { 1, 1, 1 } }; /* k_a is k_d there */
     const model_options o = scene_options(s);
     shade_draw_state state = *lit;
     scene_relief bent;
@@ -674,6 +649,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
         look_dress(&k, &o, &s->model, s->model.part[i].surface);
         if (k.map && k.glow_map == k.map) k.material.emission = k.glow;
         state.material = &k.material;
+        state.lighting = k.unlit ? unlit : lit->lighting;
         state.diffuse_map = k.map;
         state.alpha_cutoff = k.alpha_cutoff;
         state.transparency = 1 - k.alpha;
@@ -714,30 +690,12 @@ static inline void scene_trace(scene *s, const scene_camera *c, int height)
     const outline *o = &s->outline;
     s->few_points = 0;
     if (!s->choice[CHOICE_WIRE] || s->wire_length * unit >= 3) return;
-    for (int i = 0; 2 * i < s->wire_points && i < o->bent; i++) {
-        const shade_vec3 *wire = &s->wires[2 * i];
+    for (int i = 0; 2 * i < s->wires.points && i < o->bent; i++) {
+        const shade_vec3 *wire = &s->wires.point[2 * i];
         if (i >= o->sharp && !outline_is_seen(o, &o->edge[i], shade_sub(eye, wire[0]))) continue;
         memcpy(s->few + s->few_points, wire, 2 * sizeof *wire);
         s->few_points += 2;
     }
-}
-
-/* Draws the wires that reach the band; the test widens the band by the width of the pen. */
-static inline shade_result scene_draw_wires(const scene *s, const shade_target *band,
-                                            const shade_line_state *pen)
-{
-    const int wider = (int)pen->width + 2;
-    shade_result result = SHADE_OK;
-    shade_target near_band = *band;
-    if (s->few_points) return shade_draw_lines(band, s->few, s->few_points, pen, NULL);
-    near_band.clip_y -= wider;
-    near_band.clip_height += 2 * wider;
-    for (int k = 0; k < scene_run_count(s) && !result; k++) {
-        const shade_chunk *run = &s->runs[k];
-        if (shade_box_visible(&near_band, pen->clip_from_points, 0, run->low, run->high))
-            result = shade_draw_lines(band, s->wires + run->first, run->count, pen, NULL);
-    }
-    return result;
 }
 
 /* How the quick lamps light the scene; lamps has room for 4. */
@@ -769,16 +727,23 @@ static inline shade_result scene_draw_band(const scene *s, const shade_target *t
     shade_result result;
     scene_backdrop(s, target, c->top, c->bottom, samples);
     if (s->lit)
-        return exhibit_draw(&s->exhibit, target, shade_mat4_mul(c->view, c->model), c->projection);
+        return exhibit_draw(&s->exhibit, target, shade_mat4_mul(c->view, c->model), c->projection,
+                            samples);
     if (s->choice[CHOICE_WIRE] == WIRE_ALONE) {
         body.color = NULL;
         pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
     }
     result = scene_draw_parts(s, &body, &state, 0);
+    if (!result)
+        result = model_draw_lines(&s->model, target, shade_mat4_mul(c->view, c->model),
+                                  c->projection, samples);
     if (!result && s->choice[CHOICE_GROUND] == 0)
         result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
     if (!result) result = scene_draw_parts(s, &body, &state, 1);
-    if (!result && s->choice[CHOICE_WIRE]) result = scene_draw_wires(s, target, &pen);
+    if (!result && s->few_points)
+        result = shade_draw_lines(target, s->few, s->few_points, &pen, NULL);
+    else if (!result && s->choice[CHOICE_WIRE])
+        result = wires_draw(&s->wires, target, pen);
     return result;
 }
 

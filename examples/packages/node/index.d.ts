@@ -72,6 +72,9 @@ export interface MeshSource {
     metal?: number;
     /** How blurred that is, 0 .. 1; default 0: by the exponent of the material. */
     roughness?: number;
+    /** Whether neither lamps nor shadows change its color: the diffuse one of the material, times texture and
+        colors; default false. */
+    unlit?: boolean;
 }
 
 /** A mesh that is prepared once and may be drawn many times. */

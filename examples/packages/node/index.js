@@ -24,7 +24,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 27, ITEM = 48, VIEW = 67, LIGHT = 21;
+const MESH = 27, ITEM = 50, VIEW = 67, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -136,7 +136,7 @@ function gloss(color) {
 const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
 const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
                       "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff", "metal", "roughness",
-                      "relief", "strength", "glow", "glowFactor"];
+                      "relief", "strength", "glow", "glowFactor", "unlit"];
 // What needs uv, in the order of asked_mesh
 const PICTURES = ["texture", "relief", "glow"];
 
@@ -166,6 +166,7 @@ export class Mesh {
         this.cutoff = check.number("cutoff", got.cutoff ?? 0, 0, 1000);
         this.metal = check.number("metal", got.metal ?? 0, 0, 1);
         this.roughness = check.number("roughness", got.roughness ?? 0, 0, 1);
+        this.unlit = check.flag("unlit", got.unlit ?? false);
         this.strength = check.number("strength", got.strength ?? 1, -1e9, 1e9);
         this.glowFactor = check.vector("glowFactor", got.glowFactor ?? [1, 1, 1], 3);
         this.own = got.material !== undefined;
@@ -272,6 +273,7 @@ function writeItems(at, meshes, camera) {
         words(start + 156, 1)[0] = mesh.blend ? 1 : 0;
         floats(start + 160, 8).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness, mesh.strength,
                                     ...mesh.glowFactor]);
+        words(start + 192, 1)[0] = mesh.unlit ? 1 : 0;
     });
 }
 

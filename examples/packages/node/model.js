@@ -3,7 +3,7 @@
 import { ShadeError, WRAPS, choice, encoded, record, texture } from "./arguments.js";
 
 // module_model, python_part and python_picture of module.c, in words of four bytes
-const MODEL = 16, PART = 30, PICTURE = 8;
+const MODEL = 16, PART = 31, PICTURE = 8;
 
 /** Alpha that does not count becomes 255. */
 function opaque(image) {
@@ -101,6 +101,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
                  indices: corners.map((vertex) => place.get(vertex)),
                  ...(isSet ? { material, metal: values[21], roughness: values[22] } : {}),
+                 ...(ints[30] ? { unlit: true } : {}),
                  ...(blend ? { blend: true, opacity: 1 - transparency } : {}),
                  ...(map && cutoff > 0 ? { cutoff } : {}),
                  ...(all.smooth ? { normals: of("normals", 3) } : {}),

@@ -40,6 +40,7 @@ typedef struct asked_item {
     float opacity, alpha_cutoff, metal, rough;
     float strength;                    /* of the relief */
     shade_vec3 glow;                   /* a factor of the picture of what shines */
+    int unlit;
 } asked_item;
 
 typedef struct asked_view {
@@ -421,6 +422,7 @@ static shade_result item_of(const asked_item *asked, python_item *item)
     item->alpha_cutoff = asked->alpha_cutoff;
     item->metal = asked->metal;
     item->rough = asked->rough;
+    item->unlit = asked->unlit;
     return asked->edges ? lines_of(asked, item) : SHADE_OK;
 }
 

@@ -15,7 +15,7 @@ const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box:
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
                 cylinder: [0, 0, 1], box: [0, 1, 2] };
 export const HIDDEN = 1;
-const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, LAMPS = 8;
+const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS = 8;
 // Where the fields of renderer_object begin, in words
 export const AT = { kind: 0, mesh: 1, texture: 2, flags: 3, id: 4, first: 5, count: 6, size: 7, turn: 10, place: 19,
                     rgba: 22, specular: 26, shininess: 29, emission: 30, glow: 31, repeat: 34, metal: 36, tint: 37,
@@ -141,7 +141,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** What a Mesh looks like. */
-        #dress(shape, { maps, tint, opacity, blend, cutoff, own, material, strength, glowFactor, address }) {
+        #dress(shape, { maps, tint, opacity, blend, cutoff, own, material, strength, glowFactor, unlit, address }) {
             const { floats, ints } = shape.record, shown = (rgb) => (this.srgb ? rgb : rgb.map(check.encoded));
             ["texture", "relief", "glow_map"].forEach((name, i) => {
                 if (!maps[i]) return;
@@ -152,6 +152,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             });
             floats[AT.strength] = strength;
             floats.set(shown(glowFactor), AT.glow_factor);
+            if (unlit) ints[AT.flags] |= UNLIT;
             if (library.mesh_heights(address)) ints[AT.flags] |= HEIGHTS;
             if (tint) floats.set(shown(tint), AT.rgba);
             if (own) {

@@ -56,9 +56,11 @@ static void report_next(progress *p, const char *what)
 
 static int read_model(const options *o, model *m, progress *p)
 {
+    model_options how = o->how;
     int failed;
+    how.no_lines = o->drawing.view_count > 0;
     report_next(p, "reading the model");
-    failed = model_open(o->input, &o->how, m, report, p);
+    failed = model_open(o->input, &how, m, report, p);
     report_next(p, "");
     if (!failed) failed = check_inputs(o, m);
     if (failed) return failed;

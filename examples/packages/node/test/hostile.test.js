@@ -244,6 +244,26 @@ test("a GLB is what its nodes and material say", () => {
     assert.deepEqual([...readGltf(glb(strip))[0].indices], [0, 1, 2, 1, 0, 2, 2, 0, 2, 0, 3, 2]);
 });
 
+test("an unlit material has its own colour in every light", () => {
+    const [mesh] = readGltf(glb((json) => {
+        json.materials[0] = { pbrMetallicRoughness: { baseColorFactor: [0.6, 0.3, 0.2, 1] },
+                              extensions: { KHR_materials_unlit: {} } };
+    }));
+    assert.equal(mesh.unlit, true);
+    const wanted = [203, 149, 124];    // sRGB of the linear 0.6, 0.3, 0.2
+    for (const light of ["quick", "studio"]) {
+        const { data } = render(mesh, { ...front, light });
+        assert.deepEqual([...data.subarray(4 * (16 * 32 + 16)).subarray(0, 3)], wanted);
+    }
+    const renderer = new Renderer(32, 32);
+    renderer.add(renderer.mesh(new Mesh(mesh)));
+    renderer.light([]);
+    const { color } = renderer.render({ view: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5, -0.5, -3, 1],
+                                        projection: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.202, 0] });
+    renderer.free();
+    assert.deepEqual([...color.subarray(3 * (16 * 32 + 16)).subarray(0, 3)], wanted);
+});
+
 test("pictures of a GLB are decoded by the caller", () => {
     const textured = glb((json) => {
         json.materials[0].pbrMetallicRoughness = { baseColorTexture: { index: 0 }, metallicFactor: 0 };

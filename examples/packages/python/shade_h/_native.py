@@ -93,7 +93,7 @@ class Item(Structure):
                 ("id", c_int), ("blended", c_int), ("opacity", c_float), ("alpha_cutoff", c_float),
                 ("metal", c_float), ("rough", c_float), ("relief", POINTER(Texture)),
                 ("glow_map", POINTER(Texture)), ("relief_strength", c_float),
-                ("relief_heights", c_int), ("glow", c_float * 3)]
+                ("relief_heights", c_int), ("glow", c_float * 3), ("unlit", c_int)]
 
 
 class View(Structure):
@@ -140,7 +140,7 @@ class Run(Structure):
                 ("opaque", c_int), ("blended", c_int), ("transparency", c_float),
                 ("alpha_cutoff", c_float), ("material", Material), ("metal", c_float),
                 ("rough", c_float), ("map", c_int), ("relief", c_int), ("glow", c_int),
-                ("relief_strength", c_float), ("glow_factor", c_float * 3)]
+                ("relief_strength", c_float), ("glow_factor", c_float * 3), ("unlit", c_int)]
 
 
 class FilePicture(Structure):

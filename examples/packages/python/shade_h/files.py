@@ -116,7 +116,7 @@ def _look(owned: Any, run: Any, images: list[Any]) -> Surface:
                    opacity=1 - run.transparency, cutoff=run.alpha_cutoff if holes else 0.0,
                    wrap=(arguments.WRAPS[wrap.wrap[0]], arguments.WRAPS[wrap.wrap[1]]), squares=bool(wrap.squares),
                    metal=run.metal, roughness=run.rough, strength=run.relief_strength,
-                   glow_factor=tuple(run.glow_factor[:]),
+                   glow_factor=tuple(run.glow_factor[:]), unlit=bool(run.unlit),
                    **{name: images[number] for name, number in shown.items()})
 
 

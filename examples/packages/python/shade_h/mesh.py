@@ -53,7 +53,10 @@ class Surface:
     relief is a normal map, green up, or a bump map, whose brightness is height: its colours tell
     which.  strength is a factor of the slopes of a normal map, and of a bump map how high white is
     above black, in units of the mesh.  glow is the light that a surface sends by itself, a picture
-    that glow_factor, linear red, green and blue, multiplies."""
+    that glow_factor, linear red, green and blue, multiplies.
+
+    With unlit neither lamps nor shadows change its color: it is the diffuse one of the material, times
+    texture and colors of the mesh."""
 
     material: Material | None = None
     texture: object = None
@@ -68,6 +71,7 @@ class Surface:
     strength: float = 1.0
     glow: object = None
     glow_factor: Sequence[float] = (1.0, 1.0, 1.0)
+    unlit: bool = False
 
     @property
     def mapped(self) -> bool:
@@ -107,6 +111,7 @@ class Piece:
         """Sets the surface of an item of the library, but its material."""
         look = self.surface
         item.blended, item.opacity, item.alpha_cutoff = look.blend, look.opacity, look.cutoff
+        item.unlit = arguments.flag("unlit", look.unlit)
         item.metal = arguments.number("metal", look.metal, 0, 1)
         item.rough = arguments.number("roughness", look.roughness, 0, 1)
         if self.map is not None:

@@ -20,7 +20,7 @@ from .picture import Picture
 #: The shapes that are made once for all scenes, and the numbers that their size is.
 SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, "box": 3}
 _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cylinder": 5, "box": 6}
-_HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED, _HEIGHTS = 1, 2, 4, 8, 16
+_HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED, _HEIGHTS, _UNLIT = 1, 2, 4, 8, 16, 32
 _LAMPS = 8
 _PLAIN = np.zeros(1, SOLID)    # white, without a texture
 _PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = 1, 32, np.eye(3)
@@ -239,7 +239,7 @@ class Renderer:
             record["flags"] |= _BLENDED if record["texture"] else 0
         record["cutoff"] = surface.cutoff
         record["strength"], record["glow_factor"] = piece.strength, shown(piece.glow_factor)
-        record["flags"] |= _HEIGHTS if piece.heights else 0
+        record["flags"] |= (_HEIGHTS if piece.heights else 0) | (_UNLIT if surface.unlit else 0)
 
     def _keep_mesh(self, number: int | None, positions: Any, normals: Any, uv: Any, colors: Any,
                    indices: Any, smooth: bool = False) -> Shape:

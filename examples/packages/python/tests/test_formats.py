@@ -116,6 +116,68 @@ def test_materials_and_alpha_of_glb():
     assert ids == [0, -1]    # what blends does not count
 
 
+def test_unlit_surfaces_have_their_own_colour_in_every_light():
+    base, dot = np.array([0.8, 0.4, 0.1]), np.array([0.5, 0.25, 1.0])
+    encoded = np.array([188, 99, 255])    # about linear 0.5, 0.125, 1
+    linear = np.where(encoded / 255 <= 0.04045, encoded / 255 / 12.92, ((encoded / 255 + 0.055) / 1.055) ** 2.4)
+    wanted = base * dot * linear
+    wanted = np.where(wanted <= 0.0031308, 12.92 * wanted, 1.055 * wanted ** (1 / 2.4) - 0.055) * 255
+    made = Glb()
+    material = colored(*base, emissiveFactor=[1, 1, 1], extensions={"KHR_materials_unlit": {}})
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+    mesh = made.quad(material, [[0, 1], [1, 1], [1, 0], [0, 0]])
+    made.json["meshes"][mesh]["primitives"][0]["attributes"]["COLOR_0"] = made.accessor(
+        np.array([dot] * 4, "<f4"), "VEC3")
+    png = shade.Picture(np.full((4, 4, 4), [*encoded, 255], np.uint8)).png()
+    made.json["textures"] = [{"source": 0}]
+    made.json["images"] = [{"bufferView": made.view(png), "mimeType": "image/png"}]
+    made.node(mesh=mesh)
+    made.node(mesh=mesh, translation=[-0.2, -0.2, 0.5], scale=[0.5, 0.5, 1])    # throws a shadow on it
+    loaded = shade.load(io.BytesIO(made.bytes()))
+    assert [piece.surface.unlit for piece in loaded.pieces if piece.count] == [True]
+    scene = shade.Scene([shade.Light.directional((0.5, 0, -1))])
+    scene.add(loaded)
+    for got in (drawn(made.bytes()), drawn(made.bytes(), light="studio"),
+                scene.render("front", ortho=True, size=(64, 48), samples=1, background="white")):
+        rgb = got.rgba[..., :3].astype(int)[got.ids >= 0]
+        assert len(rgb) > 500 and np.abs(rgb - wanted).max() <= 1
+    renderer, ids = shade.Renderer(48, 48), {}
+    shape, other = renderer.mesh(loaded), renderer.mesh([[0, 0, 0], [0.4, 0, 0], [0, 0.4, 0]], [[0, 1, 2]])
+    ids["unlit"] = renderer.add(shape)
+    ids["lit"] = renderer.add(other, at=(1.1, 0, 0), color=(1.0, 1.0, 1.0))
+    renderer.light([shade.Light.directional((0, 0.8, -0.6))], shadow=0)
+    camera = shade.Camera.look_at((0.6, 0.5, 4), (0.6, 0.5, 0), up=(0, 1, 0))
+    seen = renderer.render(camera)
+    of = {name: seen.color[seen.ids[..., 0] == k].astype(int) for name, k in ids.items()}
+    assert len(of["unlit"]) > 100 and len(of["lit"]) > 10
+    assert np.abs(of["unlit"] - wanted).max() <= 1 and abs(of["lit"] - 203).max() <= 1    # sRGB of 0.6
+
+
+@pytest.mark.parametrize("extensions, front", [
+    ({}, 0.04),
+    ({"KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 0]}}, (0.02, 0.01, 0)),
+    ({"KHR_materials_specular": {"specularFactor": 0}}, 0),
+    ({"KHR_materials_specular": {"specularColorFactor": [2, 1, 1]}}, (0.08, 0.04, 0.04)),
+    ({"KHR_materials_ior": {"ior": 1.0}}, 0),
+    ({"KHR_materials_ior": {"ior": 1.4}}, (0.4 / 2.4) ** 2),
+    ({"KHR_materials_ior": {"ior": 0}, "KHR_materials_specular": {"specularColorFactor": [0.04, 0, 0]}}, (0.04, 0, 0)),
+])
+def test_highlights_follow_what_reflects_from_the_front(extensions, front):
+    made = Glb()
+    material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.4}, "extensions": extensions}
+    made.node(mesh=made.quad(material))
+    def specular():
+        pieces = shade.load(io.BytesIO(made.bytes())).pieces
+        return next(piece.surface.material.specular for piece in pieces if piece.count)
+    # the law for 0.04 is 1/4, and less on rough surfaces
+    assert specular() == pytest.approx(np.full(3, front) / 0.04 * 0.25 * 0.6 * 0.8, abs=1e-6)
+    material["pbrMetallicRoughness"].update(metallicFactor=1, baseColorFactor=[1, 0.5, 0.25, 1])
+    assert specular() == pytest.approx(np.array([1, 0.5, 0.25]) * 0.6 * 0.8, abs=1e-6)    # metal has its own
+    material["extensions"]["KHR_materials_specular"] = {"specularTexture": {"index": 0}}
+    with pytest.warns(UserWarning, match="it has specularTexture, which is not read"):
+        specular()
+
+
 def test_pictures_and_holes_of_glb():
     texels = np.full((2, 2, 4), 255, np.uint8)
     texels[:, :, :3] = [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 0]]]
