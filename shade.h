@@ -78,10 +78,10 @@
        >>shape     7102  normals, edges        >>chunks    7479  sorting and boxes
        >>rays      7638  shade_pick            >>survey    7829  experiments on a draw
        >>explain   8291  why nothing is seen   >>replay    9471  the same for lines, pipelines
-       >>image     9799  makes mipmaps, PPM    >>presets  10141  classic materials
+       >>image     9799  makes mipmaps, PPM    >>presets  10142  classic materials
      Sources
-       >>refs     10226                        >>history  10256
-       >>license  10262
+       >>refs     10227                        >>history  10257
+       >>license  10263
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -9835,17 +9835,18 @@ typedef struct shade__decoder {
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *table[4];
-    float value[512];    /* of colours, then of alpha; channels of equal size share values */
+    float value[512];    /* of colours, of alpha, then 0; channels of equal size share values */
 } shade__decoder;
 
 static void shade__open_decoder(const shade_target *t, int factor, shade__decoder *d)
 {
-    const shade__layout l = d->layout = shade__layouts[t->format];
+    const shade__layout l = shade__layouts[t->format];
     const int encoded = shade__is_encoded(t->srgb, &l);
     float *at = d->value;
+    SHADE__ZERO(*d);
+    d->layout = l;
     d->from = t;
     d->factor = factor;
-    d->halving = NULL;
     for (int k = 0; k < 4; k++) {
         d->table[k] = at;
         if ((k == 1 || k == 2) && l.full[k] == l.full[0]) {

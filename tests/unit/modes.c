@@ -105,6 +105,66 @@ static void modes_check_flags(const char *what)
     feclearexcept(FE_ALL_EXCEPT);
 }
 
+/* Leaves signalling NaNs on the stack: arithmetic with what was never written raises FE_INVALID. */
+static void modes_soil_stack(void)
+{
+    static volatile uint32_t seen;
+    volatile uint32_t words[1 << 16];
+    for (int i = 0; i < 1 << 16; i++) words[i] = 0x7FA00000u;
+    seen = words[rnd_int(0, 65535)];
+    (void)seen;
+}
+
+static int modes_swallow(void *user, const void *bytes, size_t count)
+{
+    (void)user, (void)bytes, (void)count;
+    return 0;
+}
+
+/* Pictures of each format, and the shape of a finite mesh, between open and close */
+static void modes_tools(void (*open)(const char *what), void (*close)(const char *what))
+{
+    static unsigned char bytes[16 * 64], small[16 * 64];    /* zero; floats too */
+    static uint32_t memory[4 * 64];
+    static test_mesh m;
+    int count;
+    random_ball(&m, 0, 0);
+    const int corners = m.mesh.index_count;
+    const size_t room = shade_mesh_corner_normals_bytes(&m.mesh);
+    shade_vec3 *n = (shade_vec3 *)malloc(sizeof *n * (size_t)corners), low, high;
+    shade_edge *edges = (shade_edge *)malloc(sizeof *edges * (size_t)corners);
+    shade_chunk *chunks = (shade_chunk *)malloc(sizeof *chunks * (size_t)corners);
+    uint32_t *indices = (uint32_t *)malloc(sizeof *indices * (size_t)corners);
+    void *scratch = malloc(room);
+    for (int k = 0; k < 12; k++) {
+        const shade_format format = (shade_format)(k / 2);
+        shade_texture map = { .pixels = bytes, .width = 7, .height = 8, .format = format,
+                              .srgb = k & 1 }, levels[4];
+        shade_target from = { .width = 8, .height = 8, .color = bytes, .format = format,
+                              .srgb = k & 1 }, to = from;
+        to.width = to.height = 4;
+        to.color = small;
+        open("mipmaps");
+        CHECK_INT(shade_build_mipmaps(&map, levels, memory, sizeof memory), SHADE_OK);
+        close("mipmaps");
+        if (format == SHADE_FORMAT_A8) continue;
+        open("resolve and PPM");
+        CHECK_INT(shade_resolve(&to, &from, 2), SHADE_OK);
+        CHECK_INT(shade_encode_ppm(modes_swallow, NULL, &to), SHADE_OK);
+        close("resolve and PPM");
+    }
+    open("shape");
+    CHECK_INT(shade_mesh_normals(&m.mesh, n), SHADE_OK);
+    CHECK_INT(shade_mesh_corner_normals(&m.mesh, 0.5f, n, scratch, room), SHADE_OK);
+    CHECK_INT(shade_mesh_edges(&m.mesh, edges, corners, &count), SHADE_OK);
+    CHECK_INT(shade_mesh_chunks(&m.mesh, 8, chunks, corners, indices), SHADE_OK);
+    CHECK_INT(shade_mesh_bounds(&m.mesh, &low, &high), SHADE_OK);
+    shade_mat4_fit(shade_mat4_perspective(1, 1, 0.1f, 100), low, high, shade_v3(1, 2, 3),
+                   shade_v3(0, 1, 0));
+    close("shape");
+    free(n), free(edges), free(chunks), free(indices), free(scratch);
+}
+
 /* Draws what is finite and in range, between open and close; then says what it was. */
 static void modes_ordinary(void (*open)(const char *what), void (*close)(const char *what))
 {
@@ -134,6 +194,7 @@ static void modes_ordinary(void (*open)(const char *what), void (*close)(const c
         close("a line in the plane of the eye");
         canvas_close(&picture);
     }
+    modes_tools(open, close);
     open("a ray in the triangle's plane");
     CHECK_INT(shade_intersect(along, a, b, c, NULL, NULL), 0);
     close("a ray in the triangle's plane");
@@ -145,6 +206,7 @@ static void modes_ordinary(void (*open)(const char *what), void (*close)(const c
 static void modes_clear_flags(const char *what)
 {
     (void)what;
+    modes_soil_stack();
     feclearexcept(FE_ALL_EXCEPT);
 }
 
@@ -172,6 +234,7 @@ static void modes_trapped(int signal_number)
 static void modes_arm(const char *what)
 {
     modes_drawing = what;
+    modes_soil_stack();
     feclearexcept(FE_ALL_EXCEPT);
     feenableexcept(MODES_TRAPS);
 }
