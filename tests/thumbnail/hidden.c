@@ -41,7 +41,7 @@ static void draw(exhibit *e, int which, shade_mat4 view, shade_mat4 projection)
     shade_clear(&t, shade_v4(0.2f, 0.3f, 0.4f, 1), 1);
     for (int b = 0; b < BANDS; b++) {
         const shade_target rows = bands_rows(&t, b, BANDS);
-        if (exhibit_draw(e, &rows, view, projection)) exit(1);
+        if (exhibit_draw(e, &rows, view, projection, 1)) exit(1);
     }
 }
 

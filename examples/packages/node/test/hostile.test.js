@@ -501,8 +501,8 @@ test("a model of any format", async () => {
         "a.mtl: the option beside has no such file (left out)",
         "a.png: the option beside has no such file; its faces are drawn without it",
         "it has pictures, which the option picture decodes; its faces are drawn without them",
-        "it has l, which is not read", balls,
-        `1 points have coordinates that are no finite numbers (left out); ${balls}; it has l, which is not read`]);
+        "its lines (left out)", balls,
+        `its lines (left out); 1 points have coordinates that are no finite numbers (left out); ${balls}`]);
     await bad(/^model:1: expected OFF/, obj, { format: "off" });
     await bad(/^model:4: index "4" is out of range|^model:4: there is no v number 4/, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     await bad(/^model:1: the file is empty/, "");
