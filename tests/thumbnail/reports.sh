@@ -181,7 +181,7 @@ color_reports() {
     faces_colored sides.ply uchar 255 "property uchar red\nproperty uchar green\nproperty uchar blue\n" " 255 0 0"
     { printf "$wedge" | sed "s/$/ 1 0 0/"; printf "$faces"; } >"$T/sides.obj"
     same "those of vertices count before them" sides.obj sides.ply 0 "$plain"
-    check "which is told" said "sides.ply: it has red, green, blue, which are not read"
+    check "which is told" told "sides.ply: it has red, green, blue, which are not read"
 
     printf "COFF\n4 4 0\n0 0 0 255 0 0 1\n2 0 0 0 255 0 1\n0 1.5 0 0 0 255 1\n0 0 1 255 255 255 1
 $ply_faces" >"$T/tint.off"
