@@ -196,8 +196,8 @@ static void prove_resolve(shade_format format, int factor)
     out.height = HEIGHT;
     in.color = fine + sizeof fine - (size_t)(WIDTH * HEIGHT * factor * factor) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(WIDTH * HEIGHT) * bytes;
-    shade__open_decoder(&in, &decoder);
-    shade__convert(&decoder, &out, factor, NULL, NULL);
+    shade__open_decoder(&in, factor, &decoder);
+    shade__convert(&decoder, &out, NULL, NULL);
 }
 
 /* a level of mipmaps from the one before, in memory that ends with the last texel of each */
@@ -211,10 +211,10 @@ static void prove_shrink(shade_format format, int width, int height)
     out.height = height / 2 > 0 ? height / 2 : 1;
     in.color = fine + sizeof fine - (size_t)(width * height) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(out.width * out.height) * bytes;
-    shade__open_decoder(&in, &decoder);
+    shade__open_decoder(&in, 2, &decoder);
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     decoder.halving = &halving;
-    shade__convert(&decoder, &out, 2, NULL, NULL);
+    shade__convert(&decoder, &out, NULL, NULL);
 }
 
 /* offsets of pixels in the greatest picture, its rows however far apart */
