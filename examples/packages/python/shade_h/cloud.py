@@ -19,8 +19,7 @@ def balls(points: object, options: dict[str, Any],
           about: str = "") -> tuple[Doubles, Array, dict[str, Any]]:
     """Vertices, faces and options of Mesh that show points as octahedra, shaded as balls, of a
     radius that follows from their number: 0.4 of the distance between as many on a square as large
-    as the box around them.  A warning, which begins with
-    about, says so."""
+    as the box around them.  A warning says so; about stands before it."""
     given = arguments.array("points", points, (None, 3)).astype(np.float64)
     step = max(1, -(-len(given) // MOST))
     with np.errstate(invalid="ignore"):
