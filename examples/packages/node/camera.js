@@ -216,7 +216,7 @@ export function rotationOf(name, view) {
     const rows = [0, 1, 2].map((k) => [view[k], view[4 + k], view[8 + k]]);
     const last = [3, 7, 11].every((k) => view[k] === 0) && view[15] === 1;
     const apart = rows.map((a, i) => rows.map((b, k) => Math.abs(dot(a, b) - (i === k ? 1 : 0))));
-    if (last && Math.max(...apart.flat()) <= 1e-2) return rows;    // two digits will do
+    if (last && Math.max(...apart.flat()) <= 1e-3) return rows;
     throw new ShadeError(`${name} must be a rotation and a translation, without scale`);
 }
 
