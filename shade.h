@@ -1001,8 +1001,14 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
+/* The same pixels as a PNG, which browsers and every desktop open: RGB of 8 bits, with an sRGB chunk
+   if srgb is set.  Pictures of smooth light take a fifth of their PPM on average.  Noise may take
+   more: at most 13 % and 90 bytes, and one byte a row.  The encoder uses less than 4 kB of stack. */
+SHADEDEF shade_result shade_encode_png(shade_write_fn *sink, void *user,
+                                       const shade_target *target);
 #ifndef SHADE_NO_STDIO
 SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
+SHADEDEF shade_result shade_write_png(const char *path, const shade_target *target);
 #endif
 
 /* Supersampling: each pixel of out becomes the mean of factor x factor pixels of in, in linear
@@ -9797,12 +9803,11 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
 }
 
 /*------------------------------------------------------------------------------------------ >>image
-   Makes pictures from pictures: smaller ones, mipmaps, files.
-     in      a picture of any format
-     out     means in linear light, or a file
-     way     resolve, build_mipmaps and encode_ppm: open_decoder; convert: reduce: means, halve or
-             shrink; store_run of >>store
-     method  A channel has few values: each is decoded once a call.                     >>presets */
+   Makes pictures from pictures: smaller ones, and mipmaps.
+     in      a picture of any format             out  means in linear light
+     way     resolve and build_mipmaps: open_decoder; convert: reduce: means, halve or shrink;
+             store_run of >>store
+     method  A channel has few values: each is decoded once a call.                       >>files */
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
 {
@@ -9977,14 +9982,11 @@ static void shade__reduce(const shade__decoder *d, const shade_target *to, int x
     else shade__means(d, p, factor, n, bytes, mean);
 }
 
-/* Makes the clip rectangle of a picture from the decoder's picture.  With a sink, the new picture
-   is one row of RGBA8, and the sink gets it as R, G, B bytes. */
-static shade_result shade__convert(const shade__decoder *d, const shade_target *to,
-                                   shade_write_fn *sink, void *user)
+/* Makes the clip rectangle of a picture from the decoder's picture. */
+static void shade__convert(const shade__decoder *d, const shade_target *to)
 {
     shade__halving *h = d->halving;
     float rgba[4 * SHADE_LANES] = { 0 };
-    uint8_t pixels[4 * SHADE_LANES], rgb[3 * SHADE_LANES];
     int clip[4];
     shade__clip_rectangle(to, clip);
     for (int x = clip[0]; x < clip[2]; x += SHADE_LANES) {
@@ -9994,14 +9996,9 @@ static shade_result shade__convert(const shade__decoder *d, const shade_target *
                 h->column[i] = shade__shares_of(d->from->width, to->width, x + i);
         for (int y = clip[1]; y < clip[3]; y++) {
             shade__reduce(d, to, x, y, n, rgba);
-            shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
-            if (!sink) continue;
-
-            for (int i = 0; i < n; i++) SHADE_MEMCPY(rgb + 3 * i, pixels + 4 * i, 3);
-            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
+            shade__store_run(to, rgba, x, y, n, shade__pixel_at(to, x, y));
         }
     }
-    return SHADE_OK;
 }
 
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
@@ -10018,7 +10015,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
         return SHADE_ERROR_ARGUMENT;
 
     shade__open_decoder(in, factor, &decoder);
-    return shade__convert(&decoder, out, NULL, NULL);
+    shade__convert(&decoder, out);
+    return SHADE_OK;
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
@@ -10069,7 +10067,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        shade__convert(&decoder, &to, NULL, NULL);
+        shade__convert(&decoder, &to);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -10084,8 +10082,45 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     return SHADE_OK;
 }
 
-/* Binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on, as a target of
-   RGBA8 would store them. */
+/*------------------------------------------------------------------------------------------ >>files
+   Pictures as files: PPM and PNG.
+     in      a picture of any format             out  the bytes of a file, for a sink
+     way     encode_ppm: rgb_run.  encode_png: png_head, png_pixels: png_row, to try filters and to
+             pack: rgb_run, filtered, take_byte: end_run: put_symbol, put_bits: put_byte: put_chunk
+     holds   The bytes of a file depend on the pixels alone, not on SHADE_LANES or the processor.
+     method  PNG: each row takes the filter that makes it shortest.  Its bytes are packed by the
+             fixed codes of deflate; those that repeat the bytes one or three before them are a run.
+                                                                  [PNG03] [Deutsch96] >>presets */
+
+enum {
+    SHADE__FILE_RUN = 64,      /* pixels that are converted at a time */
+    SHADE__PNG_DATA = 2816,    /* bytes of data in a chunk; the 12 around them are 0.5 % */
+    SHADE__PNG_REPEAT = 257    /* the longest run; 258 would have a symbol by a rule of its own */
+};
+
+/* Channel k of a pixel as a byte.  Stored sRGB passes unchanged; only floats are encoded. */
+static uint8_t shade__byte_of(const shade_target *t, const shade__layout *l, const uint8_t *p, int k)
+{
+    float c;
+    if (l->bytes == 16) {
+        SHADE_MEMCPY(&c, p + 4 * k, 4);
+        c = t->srgb ? shade__encode(c) : shade__saturate(c);
+    } else {
+        c = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k) / (float)l->full[k];
+    }
+    return (uint8_t)(c * 255 + 0.5f);
+}
+
+/* R, G and B of the pixels x .. x + n - 1 of row y. */
+static void shade__rgb_run(const shade_target *t, int x, int y, int n, uint8_t *rgb)
+{
+    const shade__layout l = shade__layouts[t->format];
+    const uint8_t *p = shade__pixel_at(t, x, y);
+    for (int i = 0; i < n; i++, p += l.bytes)
+        for (int k = 0; k < 3; k++)
+            *rgb++ = l.bytes == 4 ? p[l.shift[k] / 8] : shade__byte_of(t, &l, p, k);
+}
+
 static char *shade__decimal(char *p, int n)
 {
     if (n > 9) p = shade__decimal(p, n / 10);
@@ -10093,11 +10128,11 @@ static char *shade__decimal(char *p, int n)
     return p + 1;
 }
 
+/* Binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on. */
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const shade_target *target)
 {
     char head[32] = "P6\n", *p = head + 3;
-    shade_target from, to;
-    shade__decoder decoder;
+    uint8_t rgb[3 * SHADE__FILE_RUN];
     shade_result result = sink ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
     if (result) return result;
     p = shade__decimal(p, target->width);
@@ -10105,19 +10140,236 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user, const s
     p = shade__decimal(p, shade__rows_held(target));
     SHADE_MEMCPY(p, "\n255\n", 5);
     if (sink(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
-    from = to = *target;
-    from.srgb = 0;    /* stored sRGB passes unchanged; only floats are encoded */
-    to.format = SHADE_FORMAT_RGBA8;
-    to.srgb = target->srgb && target->format == SHADE_FORMAT_RGBA32F;
-    to.clip_x = 0;
-    to.clip_width = to.width;
-    to.clip_height = 1;
-    shade__open_decoder(&from, 1, &decoder);
-    for (int y = 0; y < shade__rows_held(target) && !result; y++) {
-        to.clip_y = to.row_offset + y;
-        result = shade__convert(&decoder, &to, sink, user);
+
+    for (int y = 0; y < shade__rows_held(target); y++)
+        for (int x = 0; x < target->width; x += SHADE__FILE_RUN) {
+            const int n = shade__min(SHADE__FILE_RUN, target->width - x);
+            shade__rgb_run(target, x, target->row_offset + y, n, rgb);
+            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
+        }
+    return SHADE_OK;
+}
+
+/* A PNG that is being written. */
+typedef struct shade__png {
+    const shade_target *target;
+    shade_write_fn *sink;
+    void *user;
+    int failed;              /* non-zero: the sink has failed, and is not called again */
+    int before[3];           /* the bytes taken last, the last one first; -1: none yet */
+    int repeats;             /* how many of them are not packed yet, because they repeat others */
+    int apart;               /* which ones: 1 one byte before them, 2 three, 3 both */
+    uint32_t sum[2];         /* Adler-32 of the bytes taken */
+    uint32_t bits;           /* packed bits that are no whole byte yet, from the lowest on */
+    int bit_count;
+    uint32_t size;           /* of the data in chunk */
+    uint8_t chunk[SHADE__PNG_DATA + 12];    /* size, name, data, CRC-32 */
+} shade__png;
+
+/* The highest byte first, as in all numbers of a PNG. */
+static void shade__store_big(uint8_t *p, uint32_t number)
+{
+    for (int k = 0; k < 4; k++) p[k] = (uint8_t)(number >> (24 - 8 * k));
+}
+
+static uint32_t shade__crc32(const uint8_t *p, size_t n)
+{
+    uint32_t crc = 0xFFFFFFFFu;
+    for (size_t i = 0; i < n; i++) {
+        crc ^= p[i];
+        for (int k = 0; k < 8; k++) crc = crc >> 1 ^ (0xEDB88320u & shade__mask(crc & 1));
     }
-    return result;
+    return ~crc;
+}
+
+/* Hands the data in the chunk to the sink, and empties the chunk. */
+static void shade__put_chunk(shade__png *f, const char *name)
+{
+    uint8_t *crc = f->chunk + 8 + f->size;
+    shade__store_big(f->chunk, f->size);
+    SHADE_MEMCPY(f->chunk + 4, name, 4);
+    shade__store_big(crc, shade__crc32(f->chunk + 4, 4 + f->size));
+    if (!f->failed) f->failed = f->sink(f->user, f->chunk, 12 + f->size);
+    f->size = 0;
+}
+
+static void shade__put_byte(shade__png *f, uint32_t byte)
+{
+    if (f->size == SHADE__PNG_DATA) shade__put_chunk(f, "IDAT");
+    f->chunk[8 + f->size++] = (uint8_t)byte;
+}
+
+/* Packs count bits, from the lowest on.   pre: count <= 16 */
+static void shade__put_bits(shade__png *f, uint32_t bits, int count)
+{
+    f->bits |= bits << f->bit_count;
+    f->bit_count += count;
+    for (; f->bit_count >= 8; f->bit_count -= 8) {
+        shade__put_byte(f, f->bits & 255);
+        f->bits >>= 8;
+    }
+}
+
+/* Packs the fixed code of a symbol, from its highest bit on: 0 .. 255 is a byte, 256 the end,
+   257 .. 285 a length. */
+static void shade__put_symbol(shade__png *f, uint32_t symbol)
+{
+    uint32_t code = symbol + 48, turned = 0;
+    int count = 8;
+    if (symbol > 279) code = symbol - 88;
+    else if (symbol > 255) {
+        code = symbol - 256;
+        count = 7;
+    } else if (symbol > 143) {
+        code = symbol + 256;
+        count = 9;
+    }
+    for (int k = 0; k < count; k++) turned = turned << 1 | (code >> k & 1);
+    shade__put_bits(f, turned, count);
+}
+
+/* Packs the bytes that repeat others: three or more as a length and a distance.  A length of n + 3
+   has the symbol 257 + n for n < 8; above, its symbol has the 3 highest bits of n, and the others
+   follow. */
+static void shade__end_run(shade__png *f)
+{
+    const uint32_t n = (uint32_t)f->repeats - 3;
+    int more = 0;
+    if (f->repeats < 3)
+        for (int k = f->repeats - 1; k >= 0; k--) shade__put_symbol(f, (uint32_t)f->before[k]);
+    else {
+        while (n >> more > 7) more++;
+        shade__put_symbol(f, 257 + 4 * (uint32_t)more + (n >> more));
+        shade__put_bits(f, n & ((1u << more) - 1), more);
+        shade__put_bits(f, f->apart & 1 ? 0 : 8, 5);    /* distance 1, or 3 */
+    }
+    f->repeats = 0;
+}
+
+static void shade__take_byte(shade__png *f, int byte)
+{
+    const int same = (byte == f->before[0]) | (byte == f->before[2]) << 1;
+    f->sum[0] = (f->sum[0] + (uint32_t)byte) % 65521;
+    f->sum[1] = (f->sum[1] + f->sum[0]) % 65521;
+    if (f->repeats && (!(f->apart & same) || f->repeats == SHADE__PNG_REPEAT)) shade__end_run(f);
+    f->apart = f->repeats ? f->apart & same : same;
+    if (f->apart) f->repeats++;
+    else shade__put_symbol(f, (uint32_t)byte);
+    f->before[2] = f->before[1];
+    f->before[1] = f->before[0];
+    f->before[0] = byte;
+}
+
+/* A run of pixels, and the pixels above, each behind the pixel to its left.  Beyond the edges of the
+   picture all are 0. */
+typedef struct shade__png_rows {
+    uint8_t here[3 * SHADE__FILE_RUN + 3], above[3 * SHADE__FILE_RUN + 3];
+} shade__png_rows;
+
+static void shade__png_rows_at(const shade_target *t, int x, int y, int n, shade__png_rows *rows)
+{
+    const int left = x > 0, at = 3 - 3 * left;
+    SHADE__ZERO(*rows);
+    shade__rgb_run(t, x - left, y, n + left, rows->here + at);
+    if (y > t->row_offset) shade__rgb_run(t, x - left, y - 1, n + left, rows->above + at);
+}
+
+/* Byte i of a run minus a guess.  Filter 0 guesses 0; filter 2 the byte above; filter 4 that one of
+   left, above and corner (above left) which is nearest to left + above - corner. */
+static int shade__filtered(const shade__png_rows *rows, int filter, int i)
+{
+    const int left = rows->here[i], above = rows->above[i + 3], corner = rows->above[i];
+    const int from_left = shade__max(above - corner, corner - above);
+    const int from_above = shade__max(left - corner, corner - left);
+    const int sum = left + above - 2 * corner, from_corner = shade__max(sum, -sum);
+    int guess = filter ? above : 0;
+    if (filter == 4) {
+        if (from_corner < from_above) guess = corner;
+        if (from_left <= from_above && from_left <= from_corner) guess = left;
+    }
+    return (rows->here[i + 3] - guess) & 255;
+}
+
+/* Takes a row in a filter.  With pack 0 it only returns about how many bits that would need: 1 for
+   a byte that repeats the one three before it, else those of its code. */
+static uint32_t shade__png_row(shade__png *f, int y, int filter, int pack)
+{
+    const shade_target *t = f->target;
+    shade__png_rows rows;
+    uint32_t bits = 0;
+    int before[3] = { 0, 0, 0 };
+    if (pack) shade__take_byte(f, filter);
+    for (int x = 0; x < t->width; x += SHADE__FILE_RUN) {
+        const int n = shade__min(SHADE__FILE_RUN, t->width - x);
+        shade__png_rows_at(t, x, y, n, &rows);
+        for (int i = 0; i < 3 * n; i++) {
+            const int byte = shade__filtered(&rows, filter, i);
+            if (pack) shade__take_byte(f, byte);
+            bits += byte == before[i % 3] ? 1 : byte < 144 ? 8 : 9;
+            before[i % 3] = byte;
+        }
+    }
+    return bits;
+}
+
+/* The chunks before the pixels: the size of the picture, 8 bits, RGB, and the only methods that
+   there are; and whether it is sRGB. */
+static void shade__png_head(shade__png *f)
+{
+    static const uint8_t rest[5] = { 8, 2, 0, 0, 0 };
+    shade__store_big(f->chunk + 8, (uint32_t)f->target->width);
+    shade__store_big(f->chunk + 12, (uint32_t)shade__rows_held(f->target));
+    SHADE_MEMCPY(f->chunk + 16, rest, 5);
+    f->size = 13;
+    shade__put_chunk(f, "IHDR");
+    if (!f->target->srgb) return;
+    shade__put_byte(f, 0);    /* for perception, as photographs are */
+    shade__put_chunk(f, "sRGB");
+}
+
+/* One stream of zlib: two bytes, one block of deflate with fixed codes, and Adler-32.  Filters 1
+   and 3 would save 0.2 % of the gallery. */
+static void shade__png_pixels(shade__png *f)
+{
+    const int top = f->target->row_offset, end = top + shade__rows_held(f->target);
+    shade__put_bits(f, 0x0178, 16);
+    shade__put_bits(f, 3, 3);
+    for (int y = top; y < end && !f->failed; y++) {
+        uint32_t least = UINT32_MAX;
+        int best = 0;
+        for (int filter = 0; filter < 5; filter += 2) {
+            const uint32_t bits = shade__png_row(f, y, filter, 0);
+            if (bits < least) best = filter;
+            least = bits < least ? bits : least;
+        }
+        shade__png_row(f, y, best, 1);
+    }
+    shade__end_run(f);
+    shade__put_symbol(f, 256);
+    shade__put_bits(f, 0, 7);    /* fills the last byte */
+    for (int k = 1; k >= 0; k--) {
+        shade__put_byte(f, f->sum[k] >> 8);
+        shade__put_byte(f, f->sum[k]);
+    }
+    shade__put_chunk(f, "IDAT");
+}
+
+SHADEDEF shade_result shade_encode_png(shade_write_fn *sink, void *user, const shade_target *target)
+{
+    shade__png file;
+    const shade_result result = sink ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
+    if (result) return result;
+    SHADE__ZERO(file);
+    file.target = target;
+    file.sink = sink;
+    file.user = user;
+    for (int k = 0; k < 3; k++) file.before[k] = -1;
+    file.sum[0] = 1;
+    file.failed = sink(user, "\x89PNG\r\n\x1A\n", 8);
+    shade__png_head(&file);
+    shade__png_pixels(&file);
+    shade__put_chunk(&file, "IEND");
+    return file.failed ? SHADE_ERROR_IO : SHADE_OK;
 }
 
 #ifndef SHADE_NO_STDIO
@@ -10126,16 +10378,28 @@ static int shade__write_file(void *user, const void *bytes, size_t size)
     return fwrite(bytes, 1, size, (FILE *)user) != size;
 }
 
-SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target)
+typedef shade_result shade__encoder(shade_write_fn *sink, void *user, const shade_target *target);
+static shade_result shade__write(const char *path, const shade_target *target,
+                                 shade__encoder *encode)
 {
     FILE *file;
     shade_result result = path ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
     if (result) return result;
     SHADE__CREATE(file, path);
     if (!file) return SHADE_ERROR_IO;
-    result = shade_encode_ppm(shade__write_file, file, target);
+    result = encode(shade__write_file, file, target);
     if (fclose(file)) result = SHADE_ERROR_IO;
     return result;
+}
+
+SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target)
+{
+    return shade__write(path, target, shade_encode_ppm);
+}
+
+SHADEDEF shade_result shade_write_png(const char *path, const shade_target *target)
+{
+    return shade__write(path, target, shade_encode_png);
 }
 #endif
 
