@@ -54,36 +54,36 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     132  options               >>types      261  materials, targets, states
-       >>light      446  the equation, colour  >>draw       554  shaders, meshes, pixels
-       >>tools      713  explain, lines, rays  >>plumbing   917  compilers, flags and bits
-       >>math      1058  vectors and matrices
+       >>light      446  the equation, colour  >>draw       555  shaders, meshes, pixels
+       >>tools      714  explain, lines, rays  >>plumbing   927  compilers, flags and bits
+       >>math      1068  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1422  processors            >>base      1657  bits, masks, rows of vectors
-       >>matrix    1854  cameras, inverses     >>power     2137  x^n
-       >>pixels    2203  formats, sRGB
+       >>machine   1436  processors            >>base      1671  bits, masks, rows of vectors
+       >>matrix    1868  cameras, inverses     >>power     2156  x^n
+       >>pixels    2222  formats, sRGB
      Inside: light
-       >>lamps     2514  attenuation, cones    >>terms     2766  one term at one point
-       >>surface   2841  material and lights   >>lit       2958  the whole sum, at many points
+       >>lamps     2533  attenuation, cones    >>terms     2785  one term at one point
+       >>surface   2860  material and lights   >>lit       2977  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3348  fields by owner       >>vertices  3561  shading, projection
-       >>triangles 3763  culling, edge setup   >>clip      4117  near, far, guard band
-       >>tiles     4304  edges and depth test  >>cover     4666  triangles, tile by tile
-       >>fragments 4934  interpolation, lod    >>texture   5209  texels, filters
-       >>store     5659  blending, packing
+       >>state     3367  fields by owner       >>vertices  3580  shading, projection
+       >>triangles 3782  culling, edge setup   >>clip      4136  near, far, guard band
+       >>tiles     4323  edges and depth test  >>cover     4685  triangles, tile by tile
+       >>fragments 4953  interpolation, lod    >>texture   5228  texels, filters
+       >>store     5678  blending, packing
      Inside: calls of the renderer
-       >>check     5910  refusals              >>seen      6117  view volume, chunks
-       >>drive     6237  shade_draw            >>mesh      6427  shade_draw_mesh
+       >>check     5929  refusals              >>seen      6187  view volume, chunks
+       >>drive     6307  shade_draw            >>mesh      6497  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6831  shade_draw_lines      >>camera    7023  eye and line of sight
-       >>shape     7117  normals, edges        >>chunks    7494  sorting and boxes
-       >>rays      7653  shade_pick            >>image     7844  smaller pictures, mipmaps
-       >>files     8124  PPM and PNG           >>presets   8445  classic materials
+       >>lines     6901  shade_draw_lines      >>camera    7093  eye and line of sight
+       >>shape     7187  normals, edges        >>chunks    7574  sorting and boxes
+       >>rays      7737  shade_pick            >>image     7928  smaller pictures, mipmaps
+       >>files     8241  PPM and PNG           >>presets   8560  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>survey    8528  experiments on a draw >>explain   8990  why nothing is seen
-       >>replay   10170  the same for lines, pipelines
+       >>survey    8643  experiments on a draw >>explain   9105  why nothing is seen
+       >>replay   10285  the same for lines, pipelines
      Sources
-       >>refs     10540                        >>history  10573
-       >>license  10579
+       >>refs     10655                        >>history  10688
+       >>license  10694
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -478,7 +478,7 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: point and to_light are three rows of SHADE_LANES floats, amount is one
-   row.  to_light and amount may be NULL. */
+   row.  to_light and amount may be NULL, or lie in the rows of point. */
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount);
 
@@ -505,7 +505,8 @@ typedef struct shade_rows {
 } shade_rows;
 
 /* shade_lit for a packet: call it in your fragment shader.  Lane i of the rows gives lane i of rgb,
-   three rows that must not overlap the others.  A lane depends on itself alone and has the bits of
+   three rows.  If they overlap the others, these change while they are read, and rgb means nothing.
+     A lane depends on itself alone and has the bits of
    shade_lit.  Visibility 0 is full shadow; 0.5, for example, halves the lamp, and values are not
    clamped.  It never hides ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting,
    rows, position or normal is NULL. */
@@ -571,8 +572,8 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
    log2 of texels per pixel: for example 1 where a pixel is two texels wide.  A negative lod counts
    as 0, and so do NaN and infinity in u, v and lod. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
-/* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0; rgba is 4 rows that must
-   not overlap the others. */
+/* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0.  rgba is 4 rows: if they
+   overlap the others, these change while they are read, and rgba means nothing. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
 
@@ -750,7 +751,8 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and the
    halves again, in n log n steps, without further memory.  The order is the same on every machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
-   nothing changes.  chunks and indices must not overlap the mesh's arrays. */
+   nothing changes.  chunks and indices must overlap neither each other nor the mesh's positions and
+   indices: the result is SHADE_ERROR_ARGUMENT, and nothing changes. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
 
@@ -790,8 +792,9 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
-   direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
-   as -w <= x, y <= w allows at all eight corners; near and far do not count.  Sides of an
+   direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye, which
+   shade_mat4_eye gives, is as near as -w <= x, y <= w allows at all eight corners; near and far do
+   not count.  Sides of an
    off-centre frustum that exclude the view axis are ignored.  If your projection turns or moves the
    eye, the view undoes it: for example a left-handed one, which looks along +z.  Without
    perspective the eye is one diagonal of the box away.  Returns the identity for NaN, infinity and
@@ -801,14 +804,18 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_
 
 /* Fills normals[vertex_count].  The normal of a vertex is the mean of the normals of its faces,
    weighted by the angle of each face there, and made unit.  Faces with all corners exactly on a
-   line do not count.  The normal of a vertex without faces is zero.                  [Thurmer98] */
+   line do not count.  The normal of a vertex without faces is zero.                  [Thurmer98]
+     What a function of this part fills must not overlap the mesh's positions, indices and chunks:
+   the result is SHADE_ERROR_ARGUMENT, and nothing changes.  Its normals are not read: normals may
+   be mesh->normals.  Between the vertices of an interleaved array is room for other data. */
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
 /* Fills one normal for each corner of each triangle, index_count of them or, without indices,
    vertex_count.  It is the mean, as above, over those faces around the corner's position that
    differ from the corner's own face by at most the crease angle: n . n_face >= cos_crease.  For
    example, cos_crease 0.5 keeps edges of more than 60 degrees hard.  Vertices of equal position
    count as one.  Time grows with the square of the number of faces around a position.  memory must
-   be aligned to 4 and have shade_mesh_corner_normals_bytes bytes (0 for a bad mesh). */
+   be aligned to 4, have shade_mesh_corner_normals_bytes bytes (0 for a bad mesh), and must overlap
+   neither the mesh nor normals. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
@@ -866,9 +873,9 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
-/* The same pixels as a PNG, which browsers and every desktop open: RGB of 8 bits, with an sRGB chunk
-   if srgb is set.  Pictures of smooth light take a fifth of their PPM on average.  Noise may take
-   more: at most 13 % and 90 bytes, and one byte a row.  The encoder uses less than 4 kB of stack. */
+/* The same pixels as a PNG, which browsers and desktops open: 8 bits of R, G and B, and an sRGB
+   chunk if srgb is set.  It is a fifth as long as the PPM on average (tests/scripts/png.sh), and
+   never longer by more than 13 %, a byte a row, and 90 bytes.  It takes less than 4 kB of stack. */
 SHADEDEF shade_result shade_encode_png(shade_write_fn *sink, void *user,
                                        const shade_target *target);
 #ifndef SHADE_NO_STDIO
@@ -879,7 +886,9 @@ SHADEDEF shade_result shade_write_png(const char *path, const shade_target *targ
 /* Supersampling: each pixel of out becomes the mean of factor x factor pixels of in, in linear
    light.  in must be factor times as wide and high, and so must row_offset and row_count of its
    strip; factor is 1 .. 8.  Factor 1 converts formats, and may do so in place where the pixels are
-   of equal size.  Only the clip rectangle of out changes, and depth never. */
+   of equal size: out then has the color and stride of in.  Only the clip rectangle of out changes,
+   and depth never.  If it would otherwise overlap the pixels of in that are read, the result is
+   SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
 /* The number of levels below the full size (each halves both sides, rounding down, until 1 x 1),
@@ -887,7 +896,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
 SHADEDEF int    shade_mipmap_count(int width, int height);
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
 /* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means by
-   area in linear light, and points the texture at them. */
+   area in linear light, and points the texture at them.  levels, memory, the texels and the texture
+   itself must not overlap: the result is SHADE_ERROR_ARGUMENT, and nothing changes. */
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes);
 
@@ -1390,6 +1400,10 @@ SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
    y-z plane.  If up is parallel to the line of sight, another up is chosen.  If eye = center, the
    camera looks down -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
+
+/* Where a view looks from: the point that it takes to the origin, computed in double.  0, 0, 0 if
+   the view is singular, or not finite. */
+SHADEDEF shade_vec3 shade_mat4_eye(shade_mat4 view);
 
 /* Eye to clip space.  fovy is the whole vertical angle in radians, aspect is width / height, near
    and far (n, f) are distances along the line of sight.  l, r, b, t are the left, right, bottom and
@@ -2041,6 +2055,11 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
         row[12] = (-x * o[3] + y * o[1] - z * o[0]) * k;
     }
     return shade__finite_or(1, inverse, 0);
+}
+
+SHADEDEF shade_vec3 shade_mat4_eye(shade_mat4 view)
+{
+    return shade_mat4_transform_point(shade_mat4_inverse(view), shade_v3(0, 0, 0));
 }
 
 /* Rodrigues' formula: c 1 + s [a]x + (1 - c) a a^T, with a the unit axis. */
@@ -6114,6 +6133,57 @@ static shade_result shade__check_corners(const shade_mesh *m)
     return shade__check_indices(shade__indices_of(m), 0, shade__corner_count(m), m->vertex_count);
 }
 
+/* Pieces of memory: count pieces of size bytes, each stride bytes behind the one before. */
+typedef struct shade__pieces {
+    const void *first;
+    size_t count, size, stride;
+} shade__pieces;
+
+static shade__pieces shade__array(const void *first, size_t bytes)
+{
+    const shade__pieces one = { first, first && bytes, bytes, 1 };
+    return one;
+}
+
+/* Is a byte in both?  For example, an array that lies between the positions of interleaved vertices
+   does not overlap them.  k is the first piece of b that ends behind the start of a piece of a. */
+static int shade__overlap(shade__pieces a, shade__pieces b)
+{
+    const uintptr_t b0 = (uintptr_t)b.first;
+    for (size_t i = 0; i < a.count; i++) {
+        const uintptr_t low = (uintptr_t)a.first + i * a.stride;
+        const size_t k = low < b0 + b.size ? 0 : (low - b0 - b.size) / b.stride + 1;
+        if (k < b.count && b0 + k * b.stride < low + a.size) return 1;
+    }
+    return 0;
+}
+
+/* Does one of the first `outs` of n arrays overlap another of them? */
+static int shade__any_overlap(const shade__pieces *array, int outs, int n)
+{
+    for (int i = 0; i < outs; i++)
+        for (int k = i + 1; k < n; k++)
+            if (shade__overlap(array[i], array[k])) return 1;
+    return 0;
+}
+
+/* Two arrays to be filled from a mesh, the second maybe empty: SHADE_ERROR_ARGUMENT if they overlap
+   each other, the positions, indices or chunks of the mesh, or itself. */
+static shade_result shade__check_outs(const shade_mesh *m, shade__pieces out, shade__pieces other)
+{
+    const size_t corners = (size_t)shade__corner_count(m), chunks = (size_t)m->chunk_count;
+    const size_t size = sizeof(shade_vec3);
+    const shade__pieces array[] = {
+        out, other, shade__array(m, sizeof *m),
+        { m->positions, (size_t)m->vertex_count, size,
+          m->position_stride ? (size_t)m->position_stride : size },
+        shade__array(m->indices, corners * sizeof *m->indices),
+        shade__array(m->indices16, corners * sizeof *m->indices16),
+        shade__array(m->chunks, chunks * sizeof *m->chunks)
+    };
+    return shade__any_overlap(array, 2, 7) ? SHADE_ERROR_ARGUMENT : SHADE_OK;
+}
+
 /*------------------------------------------------------------------------------------------- >>seen
    The clip rectangle, and tests of boxes against the planes of the view volume.
      in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn
@@ -6718,7 +6788,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
                                         const shade_draw_state *state, shade__scene *s)
 {
     const unsigned matte = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
-    shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
+    const shade_mat4 view = shade__or_identity(state->view);
     s->mesh = mesh;
     s->state = state;
     s->has_picture = target->color != NULL;
@@ -6730,8 +6800,8 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     s->clip_from_object = shade__mat4_product(&s->clip_from_object, &s->world_from_object);
     s->normal_matrix = shade_normal_matrix(shade__sized(s->world_from_object));
     s->eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
-                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
-                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+                 ? shade_mat4_transform_direction(shade_mat4_inverse(view), shade_v3(0, 0, 1))
+                 : shade_mat4_eye(view);
 
     s->lighting = state->lighting;
     if (s->map && state->shading != SHADE_SHADING_PER_FRAGMENT) {
@@ -7225,9 +7295,13 @@ static shade_result shade__check_range(const shade_mesh *m, const shade_chunk *c
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
+    size_t bytes;
     if (!result) result = shade__check_corners(mesh);
     if (result) return result;
-    SHADE_MEMSET(normals, 0, (size_t)mesh->vertex_count * sizeof *normals);
+    bytes = (size_t)mesh->vertex_count * sizeof *normals;
+    result = shade__check_outs(mesh, shade__array(normals, bytes), shade__array(NULL, 0));
+    if (result) return result;
+    SHADE_MEMSET(normals, 0, bytes);
     for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
         shade_vec3 n = shade__triangle_normal(mesh, t);
         for (uint32_t k = 3 * t; k < 3 * t + 3; k++) {
@@ -7304,6 +7378,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     const int usable = (memory || !corners) && (uintptr_t)memory % 4 == 0;
     shade_result result = shade__check_shape(mesh, usable ? out : NULL);
     uint32_t *order, count;
+    size_t used;
     float *angle;
     shade_vec3 *face;
     if (result) return result;
@@ -7311,8 +7386,11 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     if (cos_crease != cos_crease) return SHADE_ERROR_STATE;
     result = shade__check_corners(mesh);
     if (result) return result;
-    if (bytes < 16 * (size_t)count) return SHADE_ERROR_CAPACITY;
-    if (!count) return SHADE_OK;
+    used = 16 * (size_t)count;
+    if (bytes < used) return SHADE_ERROR_CAPACITY;
+    result = shade__check_outs(mesh, shade__array(out, count * sizeof *out),
+                               shade__array(memory, used));
+    if (result || !count) return result;
     order = (uint32_t *)memory;
     angle = (float *)(void *)(order + 2 * (size_t)count);
     face = (shade_vec3 *)(void *)(angle + count);
@@ -7355,7 +7433,9 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
         *count = corners;
         return SHADE_ERROR_CAPACITY;
     }
-    if (!corners) return SHADE_OK;
+    result = shade__check_outs(mesh, shade__array(edges, (size_t)corners * sizeof *edges),
+                               shade__array(NULL, 0));
+    if (result || !corners) return result;
     order = (uint32_t *)(void *)edges + 3 * (size_t)corners;
     shade__sort_corners(mesh, 1, (uint32_t)corners, order, order - corners);
     for (int i = 0; i < corners; i++) {
@@ -7628,6 +7708,7 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, s
     if (!mesh || triangles < 0 || capacity < 0 || (!chunks && capacity))
         return SHADE_ERROR_ARGUMENT;
     listed = *mesh;
+    listed.chunks = NULL;
     listed.chunk_count = 0;
     result = shade__check_mesh(&listed);
     if (!result) result = shade__check_corners(&listed);
@@ -7635,9 +7716,12 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, s
     corners = shade__corner_count(&listed);
     count = shade_chunk_count(corners, triangles);
     if (capacity < count) return SHADE_ERROR_CAPACITY;
+    result = shade__check_outs(&listed, shade__array(chunks, (size_t)count * sizeof *chunks),
+                               shade__array(indices, (size_t)corners * sizeof *indices));
+    if (result) return result;
     if (indices && corners) {
-        for (int i = 0; i < corners; i++) indices[i] = shade__corner_index(mesh, (uint32_t)i);
-        shade__sort_triangles(mesh, indices, corners / 3, size);
+        for (int i = 0; i < corners; i++) indices[i] = shade__corner_index(&listed, (uint32_t)i);
+        shade__sort_triangles(&listed, indices, corners / 3, size);
         listed.indices = indices;
         listed.indices16 = NULL;
         listed.index_count = corners;
@@ -8040,6 +8124,31 @@ static void shade__convert(const shade__decoder *d, const shade_target *to)
     }
 }
 
+/* The pixels of a picture from x, y on, in rows of width pixels. */
+static shade__pieces shade__pixel_rows(const shade_target *t, int x, int y, int width, int rows)
+{
+    const size_t bytes = shade__pixel_bytes(t->format);
+    const shade__pieces p = { shade__pixel_at(t, x, y), (size_t)rows, (size_t)width * bytes,
+                              (size_t)shade__stride_of(t) * bytes };
+    return p;
+}
+
+/* Would shade_resolve overwrite pixels that it has yet to read?  In place it reads each just before
+   it writes it. */
+static int shade__resolves_into_itself(const shade_target *out, const shade_target *in, int factor)
+{
+    int clip[4], width, rows;
+    const int in_place = factor == 1 && out->color == in->color &&
+                         shade__stride_of(out) == shade__stride_of(in) &&
+                         shade__pixel_bytes(out->format) == shade__pixel_bytes(in->format);
+    if (in_place || !shade__clip_rectangle(out, clip)) return 0;
+    width = clip[2] - clip[0];
+    rows = clip[3] - clip[1];
+    return shade__overlap(shade__pixel_rows(out, clip[0], clip[1], width, rows),
+                          shade__pixel_rows(in, clip[0] * factor, clip[1] * factor, width * factor,
+                                            rows * factor));
+}
+
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
     shade_result result;
@@ -8050,7 +8159,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
     if (result) return result;
     if (factor < 1 || factor > 8 || in->width != out->width * factor ||
         in->height != out->height * factor || in->row_offset != out->row_offset * factor ||
-        shade__rows_held(in) != shade__rows_held(out) * factor)
+        shade__rows_held(in) != shade__rows_held(out) * factor ||
+        shade__resolves_into_itself(out, in, factor))
         return SHADE_ERROR_ARGUMENT;
 
     shade__open_decoder(in, factor, &decoder);
@@ -8084,12 +8194,14 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     shade_target from, to;
     shade__decoder decoder;
     shade__halving halving;
+    shade__pieces array[4];
+    size_t used;
     const int count = texture ? shade_mipmap_count(texture->width, texture->height) : 0;
     if (!texture || (count && (!levels || !memory || (uintptr_t)memory % 4)))
         return SHADE_ERROR_ARGUMENT;
     if (!shade__texture_good(texture)) return SHADE_ERROR_TEXTURE;
-    if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format))
-        return SHADE_ERROR_CAPACITY;
+    used = shade_mipmap_bytes(texture->width, texture->height, texture->format);
+    if (bytes < used) return SHADE_ERROR_CAPACITY;
     SHADE__ZERO(from);
     from.width = texture->width;
     from.height = texture->height;
@@ -8097,6 +8209,11 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     from.format = texture->format;
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
+    array[0] = shade__array(memory, used);
+    array[1] = shade__array(levels, (size_t)count * sizeof *levels);
+    array[2] = shade__array(texture, sizeof *texture);
+    array[3] = shade__pixel_rows(&from, 0, 0, from.width, from.height);
+    if (shade__any_overlap(array, 3, 4)) return SHADE_ERROR_ARGUMENT;
     shade__open_decoder(&from, 2, &decoder);
     decoder.halving = &halving;
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
@@ -8138,7 +8255,8 @@ enum {
 };
 
 /* Channel k of a pixel as a byte.  Stored sRGB passes unchanged; only floats are encoded. */
-static uint8_t shade__byte_of(const shade_target *t, const shade__layout *l, const uint8_t *p, int k)
+static uint8_t shade__byte_of(const shade_target *t, const shade__layout *l, const uint8_t *p,
+                              int k)
 {
     float c;
     if (l->bytes == 16) {
@@ -8299,8 +8417,8 @@ static void shade__take_byte(shade__png *f, int byte)
     f->before[0] = byte;
 }
 
-/* A run of pixels, and the pixels above, each behind the pixel to its left.  Beyond the edges of the
-   picture all are 0. */
+/* A run of pixels, and the pixels above, each behind the pixel to its left; 0 beyond the edges of
+   the picture. */
 typedef struct shade__png_rows {
     uint8_t here[3 * SHADE__FILE_RUN + 3], above[3 * SHADE__FILE_RUN + 3];
 } shade__png_rows;
@@ -8386,10 +8504,7 @@ static void shade__png_pixels(shade__png *f)
     shade__end_run(f);
     shade__put_symbol(f, 256);
     shade__put_bits(f, 0, 7);    /* fills the last byte */
-    for (int k = 1; k >= 0; k--) {
-        shade__put_byte(f, f->sum[k] >> 8);
-        shade__put_byte(f, f->sum[k]);
-    }
+    for (int k = 3; k >= 0; k--) shade__put_byte(f, f->sum[k / 2] >> k % 2 * 8);
     shade__put_chunk(f, "IDAT");
 }
 
