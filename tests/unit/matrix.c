@@ -161,7 +161,8 @@ TEST(matrix, the_eye_is_the_point_that_a_view_takes_to_the_origin)
     for (int i = 0; i < 2000; i++) {
         const double far = (double)rnd_log(1e-3, 1e8);
         const shade_vec3 eye = shade_scale(d3_round(rnd_direction()), (float)far);
-        shade_mat4 view = shade_mat4_look_at(eye, d3_round(rnd_direction()), d3_round(rnd_direction()));
+        const shade_vec3 center = d3_round(rnd_direction());
+        shade_mat4 view = shade_mat4_look_at(eye, center, d3_round(rnd_direction()));
         if (i % 4 == 3) view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, -3, 0.5f)), view);
         dmat inverse;
         dmat_invert(dmat_from(view), 4, &inverse);
@@ -179,7 +180,8 @@ TEST(matrix, the_eye_is_the_point_that_a_view_takes_to_the_origin)
 TEST(matrix, a_view_that_is_singular_or_not_finite_looks_from_the_origin)
 {
     for (int i = 0; i < 200; i++) {
-        shade_mat4 view = shade_mat4_look_at(shade_v3(1, 2, 3), d3_round(rnd_direction()), d3_round(rnd_direction()));
+        const shade_vec3 up = d3_round(rnd_direction());
+        shade_mat4 view = shade_mat4_look_at(shade_v3(1, 2, 3), shade_v3(0, 0, 0), up);
         float *entry = (float *)&view;
         if (i % 2) entry[rnd_int(0, 15)] = i % 4 == 1 ? (float)NAN : rnd_sign() * (float)INFINITY;
         else memset(&view.col[rnd_int(0, 3)], 0, sizeof(shade_vec4));

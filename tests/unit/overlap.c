@@ -146,8 +146,8 @@ static size_t row_bytes_of(const shade_target *t)
     return canvas_pixel_bytes(t->format) * (size_t)(t->stride * t->height);
 }
 
-/* Pictures of any strides, formats and clip rectangles, side by side in the same rows too.  In place
-   means the same color and stride, and pixels of one size. */
+/* Pictures of any strides, formats and clip rectangles, side by side in the same rows too.  In
+   place means the same color and stride, and pixels of one size. */
 TEST(overlap, pictures_are_not_resolved_into_themselves)
 {
     static block b, before, own;
@@ -194,8 +194,8 @@ TEST(overlap, pictures_are_not_resolved_into_themselves)
         if (wide > 0 && high > 0) {
             const size_t f = (size_t)factor, x = (size_t)clip[0], y = (size_t)clip[1];
             const size_t row = ib * (size_t)in.stride, other = ob * (size_t)out.stride;
-            mark_input(&b, from + y * f * row + x * f * ib, (size_t)high * f, (size_t)wide * f * ib,
-                       row);
+            mark_input(&b, from + y * f * row + x * f * ib, (size_t)high * f,
+                       (size_t)wide * f * ib, row);
             mark_output(&b, to + y * other + x * ob, (size_t)high, (size_t)wide * ob, other);
         }
         if (factor == 1 && from == to && ob == ib && in.stride == out.stride) {
