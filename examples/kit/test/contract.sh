@@ -3,7 +3,7 @@
 # examples/kit/read name, and one that no list names: each is drawn, told by a warning that names it,
 # or refused by its name, in the same words by the programs, the package for Python and that for
 # Node.js, as far as these can be built here.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
 FLAGS="-std=c99 -O1 -I. -ffp-contract=off"
@@ -40,7 +40,7 @@ if there node && sh "$T/tree/examples/packages/node/build.sh" >"$T/log" 2>&1 &&
 else left_out "Node.js: no node, or no clang for wasm"; fi
 contract() {
     "$T/names" | PYTHONPATH="$T/python" PYTHONDONTWRITEBYTECODE=1 \
-        $python tests/contract/contract.py "$T/files" "$T/thumbnail" $node
+        $python examples/kit/test/contract.py "$T/files" "$T/thumbnail" $node
 }
 check "drawn, told or refused" contract
 tail -n 1 "$T/log"
