@@ -69,11 +69,11 @@ step all "$MAKE -s $few all"
 step test "$MAKE -s T=math test"
 step pictures "$MAKE -s $few build/golden pictures; build/golden out/[0-9]*.ppm"
 long_step readme "sh tests/scripts/readme.sh"
-step course "sh tests/scripts/course.sh; $MAKE -s course || [ ! -d '$REVEAL' ]"
+step course "sh examples/teaching/course/test/course.sh; $MAKE -s course || [ ! -d '$REVEAL' ]"
 step board "sh tests/scripts/microcontroller.sh"
 step microcontroller "$MAKE -s -C examples/microcontroller"
 step install "$MAKE -s install PREFIX=\$PWD/build/usr; $MAKE -s uninstall PREFIX=\$PWD/build/usr"
-long_step install-test "sh tests/scripts/install.sh"
+long_step install-test "sh examples/programs/install/test/install.sh"
 step programs "$MAKE -s build/view build/batch build/thumbnail build/compare build/shade.o"  # view.sh, batch.sh
 step bench "sh bench/run.sh maths kernel"
 long_step against "BASE=HEAD LEVELS=0 $MAKE -s bench"
@@ -105,23 +105,24 @@ done
 # These write into a directory of mktemp alone and name no product of the tree ...
 apart="abi dialects compare contract coverage drawing embed lint matrix mutation node packages prove
        python rows static threads thumbnail user_files vector_report"
+scripts=$(grep -l '^#!/bin/sh' tests/scripts/*.sh examples/*/test/*.sh examples/*/*/test/*.sh .ci/test/*.sh)
 for name in $apart; do
+    script=$(printf '%s\n' $scripts | grep "/$name\.sh\$")
     check "$name.sh has a directory of its own" \
-        grep -qE 'T=\$\(mktemp -d\)|^\. tests/scripts/tools.sh$|>/tmp/lint_.*\$\$' "tests/scripts/$name.sh"
-    check "$name.sh writes nowhere else" no grep -nE '^[^#]*(^|[ ="])(\$PWD/)?(build|out)/' \
-        "tests/scripts/$name.sh"
+        grep -qE 'T=\$\(mktemp -d\)|^\. tests/scripts/tools.sh$|>/tmp/lint_.*\$\$' "$script"
+    check "$name.sh writes nowhere else" no grep -nE '^[^#]*(^|[ ="])(\$PWD/)?(build|out)/' "$script"
 done
 # ... and these are said above in other words: all.sh test, view.sh, batch.sh, explain.sh and
 # assignments.sh their make, dist.sh, github.sh and windows.sh directories of their own,
 # compilers.sh and playground.sh build/zig, build/playwright and the page.  bench/size.sh measures for
 # a minute; what it writes in build/ is size.* and stack*.
-others="all view batch explain compilers playground any_order tools assignments dist github windows"
+others="all view batch explain compilers playground any_order assignments dist github windows"
 # course.sh packs what course-zip packs, and the step fuzz runs the script that make fuzz runs
-elsewhere="assignments clean conformance course-zip dist format format-check fuzz lint matrix programs
+elsewhere="assignments clean conformance course-zip dist findings format format-check fuzz lint matrix programs
     vector-report"
 { there pnmenlarge && there pngquant; } || elsewhere="$elsewhere gallery"
 forgotten() {                   # scripts and targets that are neither a step nor named here
-    for script in tests/scripts/*.sh; do
+    for script in $scripts; do
         name=$(basename "$script" .sh)
         case " $(echo $apart) $others " in *" $name "*) continue ;; esac
         grep -qF "$script" "$T"/steps/* || echo "$script"

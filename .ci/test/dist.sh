@@ -55,7 +55,7 @@ check "they pass" $clean sh -c "cd '$T/own/shade-$V' && build/test_main"
 
 # ---- shade.h alone, and each library: a triangle with the same bits everywhere
 mkdir "$T/alone" && cp "$D/shade.h" "$T/alone"
-cp tests/scripts/dist.c "$T/alone"
+cp .ci/test/dist.c "$T/alone"
 check "shade.h alone" cc -std=c99 -Wall -Werror -O2 -DSHADE_IMPLEMENTATION "$T/alone/dist.c" -I"$T/alone" -lm -o "$T/alone/own"
 want=$("$T/alone/own")
 check "it draws" sh -c "echo '$want' | grep -Eqx '[0-9a-f]{8}'"

@@ -2,7 +2,7 @@
 # embed.sh - examples/embed: the commands of its README in a copy of this tree; the same projects
 # with shade.h from a git repository, as submodule, by FetchContent, by a wrap file; what they draw
 # and print.  What is not installed is named and left out.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD CC=${CC:-cc}
 
@@ -172,7 +172,7 @@ if printf '#include <linux/fb.h>\n' | cc -fsyntax-only -x c - 2>/dev/null; then
     check "the framebuffer, as the README says" commands framebuffer.c
     check "no such device" sh -c "! '$B/framebuffer' '$T/none'"
     check "no device at all" sh -c "! '$B/framebuffer' '$T/saddle.ppm'"
-    check "the device of the test" cc -O1 -I. tests/embed/framebuffer.c \
+    check "the device of the test" cc -O1 -I. examples/embed/test/framebuffer.c \
         examples/embed/cmake/saddle.c -lm -o "$T/framebuffer"
     "$T/framebuffer" "$T/device" >"$T/run" 2>"$T/messages"
     grep -vE '^[0-9]+ passed, ' "$T/run"

@@ -1,14 +1,14 @@
 /* framebuffer.c - examples/embed/framebuffer.c on a device made of a file: what it shows is the
    saddle, pixel by pixel, in the device's layout, and no other byte has changed.
 
-   cc -I. tests/embed/framebuffer.c examples/embed/cmake/saddle.c -lm && ./a.out scratch */
+   cc -I. examples/embed/test/framebuffer.c examples/embed/cmake/saddle.c -lm && ./a.out scratch */
 #define _DEFAULT_SOURCE
 #define SHADE_IMPLEMENTATION
 #include <stdarg.h>
 #include "shade.h"
 #define ioctl device_ioctl
 #define main framebuffer_main
-#include "../../examples/embed/framebuffer.c"
+#include "../framebuffer.c"
 #undef main
 
 enum { WIDTH = 150, HEIGHT = 110, UNTOUCHED = 0xa5 };

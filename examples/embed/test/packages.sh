@@ -2,7 +2,7 @@
 # packages.sh - examples/embed/packages: each recipe by its own tool, or in the place of a tool that is
 # not there by CMake with a stand-in for the functions that the recipe calls, or by its syntax alone.
 # Zig: npm's 0.11 in build/node_modules, or $ZIG.  Meson's wrap is tested by embed.sh, versions by dist.sh.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD P=$PWD/examples/embed/packages
 V=$(sed -n 's/^version = "\(.*\)"/\1/p' examples/packages/python/pyproject.toml)

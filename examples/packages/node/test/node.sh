@@ -1,7 +1,7 @@
 #!/bin/sh
 # node.sh - the package for JavaScript: packed, installed into an empty folder, README's programs,
 # the bytes of the package for Python, PNG files read by Pillow, hostile arguments, and a browser.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 there node && there npm || { left_out "everything: no node with npm"; finish; }
 
@@ -82,7 +82,7 @@ if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco
         "38 2.0527708530426025 0"
     rm -r "$T/use/node_modules/@mujoco"
     check "what MuJoCo steps" env MUJOCO="$T/mujoco/node_modules/@mujoco/mujoco/mujoco.js" \
-        RECORDING="$T/tree/examples/packages/python/tests/robots.json" \
+        RECORDING="$T/tree/examples/packages/python/test/robots.json" \
         sh -c "cd '$T/use' && node --test test/robots.test.js"
 else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # python.sh - the package for Python: an sdist from the tree and a wheel from that sdist, in
 # an empty environment of its own; its tests by pytest; mypy --strict; the notebook.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONDONTWRITEBYTECODE
@@ -50,8 +50,8 @@ done
 mkdir -p "$T/run/examples/packages/python" "$T/run/tests"
 ln -s "$OLDPWD/tests/scripts" "$T/run/tests/scripts"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
-cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/packages/python"
-check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/tests"
+cp -R "$P/test" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/packages/python"
+check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/test"
 
 # objects that come and go, by a library that stops where memory or behaviour is undefined
 address=$(gcc -print-file-name=libasan.so 2>/dev/null) undefined=$(gcc -print-file-name=libubsan.so 2>/dev/null)
@@ -63,7 +63,7 @@ if [ -f "$address" ] && [ -f "$undefined" ]; then
         -o "$T/checked/shade_h/libshade.so" "$P/library.c" -lm -pthread
     check "no undefined behaviour in a Renderer" env ASAN_OPTIONS=detect_leaks=0 \
         LD_PRELOAD="$address $undefined" PYTHONPATH="$T/checked" $python -m pytest -q -p no:cacheprovider \
-        "$T/run/examples/packages/python/tests/test_living.py" -k "not thousand"
+        "$T/run/examples/packages/python/test/test_living.py" -k "not thousand"
 else left_out "the library with sanitizers: no libasan"; fi
 check "the scenes of bench/python.py are drawn" sh -c "
     $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # batch.sh - build/batch: pieces that are whole or absent, resumed, over several jobs and machines,
 # into ffmpeg.  What is not installed is named and left out.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 HERE=$PWD BATCH=$PWD/build/batch CC=${CC:-cc}
 export LC_ALL=C PARALLEL_HOME=/nonexistent

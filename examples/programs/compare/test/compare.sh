@@ -1,7 +1,7 @@
 #!/bin/sh
 # compare.sh - examples/programs/compare/compare.c: its numbers beside sums by awk, its exit status, its difference
 # picture, models in place of pictures, and what it says of bad input.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # install.sh - make install into scratch directories: which files, a client that finds the header
 # through pkg-config, the thumbnailer's line run as a file manager runs it; make uninstall.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc} MAKE=${MAKE:-make}
 number=$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h)

@@ -1,12 +1,12 @@
 #!/bin/sh
-# drawing.sh - build/thumbnail --views: sheets, maps and JSON of known parts (thumbnail/drawing.py
-# with thumbnail/parts.py), every error of an option, and the same bytes from other builds.
-cd "$(dirname "$0")/../.." || exit 1
+# drawing.sh - build/thumbnail --views: sheets, maps and JSON of known parts (drawing.py
+# with parts.py), every error of an option, and the same bytes from other builds.
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
 export LC_ALL=C
 there python3 || { left_out "everything: no python3"; finish; }
-python3 tests/thumbnail/parts.py "$T" || exit 1
+python3 examples/programs/thumbnail/test/parts.py "$T" || exit 1
 
 # ---- programs ------------------------------------------------------------------------------------
 find_libraries
@@ -24,7 +24,7 @@ THUMBNAIL=$T/thumbnail
 find_python "numpy, PIL"
 if [ "$STB" ] && [ "$python" ]; then
     [ "$ASSIMP" ] || left_out "nodes as parts: no libassimp-dev"
-    "$python" tests/thumbnail/drawing.py "$THUMBNAIL" "$T" ${ASSIMP:+assimp} >"$T/python.log" 2>&1
+    "$python" examples/programs/thumbnail/test/drawing.py "$THUMBNAIL" "$T" ${ASSIMP:+assimp} >"$T/python.log" 2>&1
     grep -v ' passed, ' "$T/python.log"
     counts=$(sed -n 's/^\([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p' "$T/python.log")
     check "drawing.py ends" [ "$counts" ]
@@ -44,10 +44,10 @@ sheets() {                      # program
         done
     done
 }
-if [ "$1" = --update ]; then sheets thumbnail >tests/golden/drawing.txt; exit; fi
+if [ "$1" = --update ]; then sheets thumbnail >examples/programs/thumbnail/test/drawing.txt; exit; fi
 for k in thumbnail alone; do
     sheets $k >"$T/sums" 2>"$T/err"
-    check "$k: the bits of golden/drawing.txt" diff tests/golden/drawing.txt "$T/sums"
+    check "$k: the bits of drawing.txt" diff examples/programs/thumbnail/test/drawing.txt "$T/sums"
 done
 
 # ---- what goes wrong -----------------------------------------------------------------------------

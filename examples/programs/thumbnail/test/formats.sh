@@ -1,4 +1,4 @@
-# formats.sh - what assimp gives, and real files.  Read by tests/scripts/thumbnail.sh.
+# formats.sh - what assimp gives, and real files.  Read by thumbnail.sh.
 
 same "glTF as OBJ" torus.obj torus.gltf 0
 same "nodes that move, turn, stretch and mirror" nodes.obj nodes.gltf 1 "--up y"
@@ -13,7 +13,7 @@ check "too many triangles in glTF" refused "more than 100" "$THUMBNAIL" "$T/toru
     "$T/none.ppm" --max-triangles 100
 
 # what assimp itself writes of matte.obj; of these formats two keep its colors and sharp edges
-if compile tests/thumbnail/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
+if compile examples/programs/thumbnail/test/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
     check "matte" draw matte.obj a.ppm
     for k in collada:dae fbxa:fbx glb2:glb 3ds:3ds x:x 3mf:3mf; do
         check "${k%:*} is written" "$T/convert" "$T/matte.obj" "${k%:*}" "$T/matte.${k#*:}"
@@ -63,7 +63,7 @@ alike() {                       # two such lines: as many triangles, edges in th
 }
 formats=$(sed -n '/model_by_assimp\[\] = {/,/};/{s/^[^{]*{//;s/NULL//;s/[^a-z0-9]/ /g;p;}' examples/kit/read/read.h)
 check "formats of assimp" test $(echo $formats | wc -w) -gt 15
-for k in $formats; do check "$k is compared" grep -qi "^[^# ]*\.$k " tests/thumbnail/compared.txt; done
+for k in $formats; do check "$k is compared" grep -qi "^[^# ]*\.$k " examples/programs/thumbnail/test/compared.txt; done
 for k in $("$THUMBNAIL" --help | sed -n 's/^formats: .* by assimp \(.*\) and more$/\1/p' | tr -d , | tr A-Z a-z); do
     check "$k, which --help names" among "$k" "$(echo $formats)"
 done
@@ -76,7 +76,7 @@ if [ -d "$CORPUS" ]; then
         case $file in "#"*) continue ;; esac
         case $other in *.*/* | */*.*) other=$(shape "$CORPUS/$other") ;; esac
         check "$file as another reader has it" alike "$(shape "$CORPUS/$file")" "$other"
-    done <tests/thumbnail/compared.txt
+    done <examples/programs/thumbnail/test/compared.txt
     cp "$CORPUS/BLEND/BlenderDefault_276.blend" "$T/nameless"
     bad_model "nor without a name" nameless "nameless:"
     cp "$CORPUS/AC/Wuson.ac" "$T/nameless"
@@ -105,14 +105,14 @@ if [ "$STB" ]; then
 fi
 
 # ---- real files of two packages, their pictures beside goldens of 64 x 64 pixels in
-# tests/thumbnail/real, and a memory bomb.  Versions of assimp read some files differently: of 4096
+# real/, and a memory bomb.  Versions of assimp read some files differently: of 4096
 # pixels 3 % may differ by more than 24 of 255.  A package that is not there is named and left out.
 # REAL_GOLDENS=write draws the goldens anew.
 [ "$STB" ] || return 0
 MODELS=/usr/share/assimp/models PROFILES=build/node_modules/@webxr-input-profiles/assets/dist/profiles
 
 real() {                        # name, model
-    golden=tests/thumbnail/real/$1.png
+    golden=examples/programs/thumbnail/test/real/$1.png
     check "$1 drawn" "$THUMBNAIL" "$2" "$T/$1.png" --size 64x64 --samples 4 --quiet
     [ "$REAL_GOLDENS" != write ] || cp "$T/$1.png" "$golden"
     check "$1 as it was" "$T/compare" --limit 24 --count 3% "$golden" "$T/$1.png"
@@ -130,7 +130,7 @@ if [ -d "$MODELS" ]; then
         real "$(real_file $k)" "$MODELS/$k"
     done
     check "goldens differ from one another" no "$T/compare" --limit 24 --count 3% \
-        tests/thumbnail/real/obj-spider.png tests/thumbnail/real/stl-spider_binary.png
+        examples/programs/thumbnail/test/real/obj-spider.png examples/programs/thumbnail/test/real/stl-spider_binary.png
 else echo "no assimp-testmodels: twelve real files are left out"
 fi
 if [ -d "$PROFILES" ]; then
@@ -142,9 +142,9 @@ fi
 
 # memory: 520 kB that unpack to gigabytes, and the same file with fewer vertices
 if there python3; then
-    check "a small bomb" python3 tests/thumbnail/bomb.py "$T/small.3mf" 10000
+    check "a small bomb" python3 examples/programs/thumbnail/test/bomb.py "$T/small.3mf" 10000
     check "is a triangle" draw small.3mf a.ppm $flat --max-memory 512
-    check "a large bomb" python3 tests/thumbnail/bomb.py "$T/large.3mf" 8000000
+    check "a large bomb" python3 examples/programs/thumbnail/test/bomb.py "$T/large.3mf" 8000000
     check "is refused" refused "large.3mf: out of memory; see --max-memory" "$THUMBNAIL" "$T/large.3mf" "$T/none.ppm" --max-memory 512
 else echo "no python3: a memory bomb is left out"
 fi

@@ -1,4 +1,4 @@
-/* look.c - questions about pictures, for tests/scripts/thumbnail.sh.  Prints what it found, exit
+/* look.c - questions about pictures, for thumbnail.sh.  Prints what it found, exit
    status 0 where the answer is yes.
 
      look same A B MOST           no two bytes differ by more than MOST

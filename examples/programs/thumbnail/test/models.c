@@ -1,4 +1,4 @@
-/* models.c DIR - writes the model files that tests/scripts/thumbnail.sh draws. */
+/* models.c DIR - writes the model files that thumbnail.sh draws. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
 # pictures.sh - what stb gives: PNG, its alpha, textures, bump and normal maps.  Read by
-# tests/scripts/thumbnail.sh.
+# thumbnail.sh.
 
 check "PNG by its name" draw torus.obj a.png --samples 1
 check "PPM" draw torus.obj a.ppm --samples 1
@@ -176,7 +176,7 @@ check "without the picture" draw sheet.obj b.ppm $relief
 check "they are not" no "$T/look" near "$T/a.ppm" "$T/b.ppm" 4
 
 # glTF as assimp writes it: the same normal map through assimp
-if [ "$ASSIMP" ] && compile tests/thumbnail/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
+if [ "$ASSIMP" ] && compile examples/programs/thumbnail/test/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
     square tilt 0.3 -0.2 -1 0 0 1
     normals x 0.3 -0.2 -1 0 0 1 >"$T/relief.ppm"
     check "glTF is written" "$T/convert" "$T/tilt.obj" gltf2 "$T/tilt.gltf"

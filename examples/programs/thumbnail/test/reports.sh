@@ -1,5 +1,5 @@
 # reports.sh - files as other programs write them, each beside a plain OBJ of the same picture: a
-# wedge of four triangles.  Read by tests/scripts/thumbnail.sh.
+# wedge of four triangles.  Read by thumbnail.sh.
 
 wedge="v 0 0 0\nv 2 0 0\nv 0 1.5 0\nv 0 0 1\n"
 faces="f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"

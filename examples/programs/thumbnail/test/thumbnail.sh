@@ -1,7 +1,7 @@
 #!/bin/sh
 # thumbnail.sh - build/thumbnail without libraries, and with those that are here: polygons, readers,
 # surfaces, formats, options, and what goes wrong.  What is not installed is named and left out.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
 export LC_ALL=C
@@ -27,10 +27,10 @@ compile -DSHADE__IMPLEMENTED examples/programs/thumbnail/thumbnail.c "$T/shade.o
 [ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/programs/thumbnail/thumbnail.c "$T/shade.o" \
     $LIBRARIES $ZLIB -lm -o "$T/full"
 compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/programs/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/alone"
-compile tests/thumbnail/models.c -lm -o "$T/models"
-compile $STB tests/thumbnail/look.c -lm -o "$T/look"
-compile tests/thumbnail/ears.c -lm -o "$T/ears"
-compile -pthread -Wno-unused-function tests/thumbnail/hidden.c -lm -o "$T/hidden"
+compile examples/programs/thumbnail/test/models.c -lm -o "$T/models"
+compile $STB examples/programs/thumbnail/test/look.c -lm -o "$T/look"
+compile examples/kit/test/ears.c -lm -o "$T/ears"
+compile -pthread -Wno-unused-function examples/kit/test/hidden.c -lm -o "$T/hidden"
 check "models" "$T/models" "$T"
 
 for build in ears hidden; do
@@ -143,7 +143,7 @@ ended() {                       # signal, status, line
     echo "status $status"; cat "$T/err"
     [ $status -eq "$2" ] && [ "$(cat "$T/err")" = "thumbnail: $3 while reading standard input" ]
 }
-. tests/thumbnail/reports.sh
+. examples/programs/thumbnail/test/reports.sh
 
 bad_input() {
     : >"$T/empty.obj"
@@ -697,6 +697,6 @@ build=full THUMBNAIL=$T/full
 [ -x "$THUMBNAIL" ] || finish
 both
 [ "$STB" ] && map_reports
-[ "$STB" ] && . tests/thumbnail/pictures.sh
-[ "$ASSIMP" ] && . tests/thumbnail/formats.sh
+[ "$STB" ] && . examples/programs/thumbnail/test/pictures.sh
+[ "$ASSIMP" ] && . examples/programs/thumbnail/test/formats.sh
 finish

@@ -1,7 +1,7 @@
 """pixels.py - view in terminals that this program plays: what it asks, what it does with the answers,
 and whether the pictures it sends, decoded here, are those that shade.h draws.
 
-    python3 tests/view/pixels.py VIEW CHECK
+    python3 examples/programs/view/test/pixels.py VIEW CHECK
 """
 
 import base64

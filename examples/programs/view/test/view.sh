@@ -1,8 +1,8 @@
 #!/bin/sh
-# view.sh - build/view: its command line, in a terminal (tests/view/terminal.sh), in terminals that
-# a program plays (tests/view/pixels.py) and in a window.  What is not installed is named and left
+# view.sh - build/view: its command line, in a terminal (terminal.sh), in terminals that
+# a program plays (pixels.py) and in a window.  What is not installed is named and left
 # out.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 VIEW=$PWD/build/view CC=${CC:-cc}
 export LC_ALL=C.UTF-8
@@ -18,7 +18,7 @@ ulimit -c 0
 
 ${MAKE:-make} -s build/view build/batch build/compare || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$VIEW" ] || { echo "view: left out, it needs POSIX"; finish; }
-$CC -std=c99 -O1 -pthread -I. -DSHADE__IMPLEMENTED tests/view/check.c build/shade.o -lm \
+$CC -std=c99 -O1 -pthread -I. -DSHADE__IMPLEMENTED examples/programs/view/test/check.c build/shade.o -lm \
     -o "$T/check" || { echo "0 passed, 1 failed"; exit 1; }
 check "encoding and decoding" "$T/check"
 
@@ -53,11 +53,11 @@ printf 'v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n' >"$T/point.obj"
 head -c 90 "$VIEW" >"$T/cut.stl"
 head -c 100000 "$VIEW" >"$T/noise.obj"
 
-if command -v tmux >/dev/null; then . tests/view/terminal.sh
+if command -v tmux >/dev/null; then . examples/programs/view/test/terminal.sh
 else echo "no tmux: the terminal is left out"
 fi
 if command -v python3 >/dev/null; then
-    check "pixels and cells, as the terminal answers" python3 tests/view/pixels.py "$VIEW" "$T/check"
+    check "pixels and cells, as the terminal answers" python3 examples/programs/view/test/pixels.py "$VIEW" "$T/check"
 else left_out "no python3: answers of terminals"
 fi
 

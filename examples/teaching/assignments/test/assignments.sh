@@ -1,7 +1,7 @@
 #!/bin/sh
 # assignments.sh - the grader of examples/teaching/assignments: graders.py tries right answers, wrong
 # ones and cheats; here are its pages, the steps of a student, and the zip for Gradescope.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 A=examples/teaching/assignments
 there python3 || { left_out "all of it: no python3"; finish; }
@@ -15,7 +15,7 @@ shown() { awk -v n="$2" '/^```/ { k += inside = /^```text/; next } inside && k =
 walk() { (cd "$T/tree" && rm -f ./*.c ./*.py && commands "$1" | sh); }
 mkdir -p "$T/tree/examples/teaching" && cp shade.h "$T/tree" && cp -R $A "$T/tree/$A"
 solved() {                      # a page: its commands again, the starter replaced by a solution
-    commands "$1" | sed "s|^python3 .* --start \(.*\)\(\.[a-z]*\)|cp $PWD/tests/assignments/by_hand\2 \1\2|" >"$T/steps"
+    commands "$1" | sed "s|^python3 .* --start \(.*\)\(\.[a-z]*\)|cp $PWD/examples/teaching/assignments/test/by_hand\2 \1\2|" >"$T/steps"
     (cd "$T/tree" && sh "$T/steps")
 }
 # What a starter is told: cases, what is wrong with them, points, and nothing else
@@ -79,7 +79,7 @@ check "what is there is no place for a starter" sh -c \
 check "without nm or a compiler C is refused in words" sh -c \
     "CC=no_such_cc python3 $A/grade.py 3 '$T/starter.c' | grep -q 'There is no no_such_cc'"
 for number in 01 1 10; do
-    check "grade.py takes $number for the name of a task" python3 $A/grade.py $number tests/assignments/by_hand.c
+    check "grade.py takes $number for the name of a task" python3 $A/grade.py $number examples/teaching/assignments/test/by_hand.c
 done
 printf '#include "shade.h"\nfloat lambert(shade_vec3 N, shade_vec3 L)\n{\n    int k;\n    return 1;\n}\n' >"$T/my own.c"
 python3 $A/grade.py 01 "$T/my own.c" --json "$T/results.json" >"$T/said"
@@ -92,7 +92,7 @@ check "no name of the judge stands beside an error" no grep -qE 'answer|warning|
 check "a file that is not there is told" sh -c \
     "python3 $A/grade.py 01 no_such.c | grep -qx 'There is no file no_such.c.'"
 check "Python needs no compiler" sh -c \
-    "CC=no_such_cc python3 $A/grade.py 01_lambert tests/assignments/by_hand.py"
+    "CC=no_such_cc python3 $A/grade.py 01_lambert examples/teaching/assignments/test/by_hand.py"
 
 # What gradescope.sh packs, where Gradescope unpacks it, with a file that a student hands in
 hands_in() {                    # file, its name, a Python expression about the tests t
@@ -109,7 +109,7 @@ if there zip; then
     python3 -m zipfile -e "$T/gs.zip" "$T/gs/source"
     check "what Gradescope starts lies at the root" test -s "$T/gs/source/setup.sh"
     for file in by_hand.c by_hand.py; do
-        check "$file gets full points" hands_in tests/assignments/$file my.${file#*.} "sum(x['score'] for x in t) == 10"
+        check "$file gets full points" hands_in examples/teaching/assignments/test/$file my.${file#*.} "sum(x['score'] for x in t) == 10"
     done
     check "a starter in Python gets less than half, and sentences" hands_in "$T/starter.py" my.py \
         "sum(x['score'] for x in t) < 5 and all(x['output'] for x in t if x['score'] < x['max_score'])"
@@ -126,7 +126,7 @@ if there zip; then
     done
 else left_out "gradescope.sh: no zip"; fi
 
-python3 tests/assignments/graders.py >"$T/said" 2>&1
+python3 examples/teaching/assignments/test/graders.py >"$T/said" 2>&1
 check "graders.py" test $? -eq 0
 tail -n 60 "$T/said"
 finish

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tests of the judge of examples/teaching/assignments: right answers, wrong ones, cheats.
 
-    python3 tests/assignments/graders.py [WORDS]     only checks that have the words in their name
+    python3 examples/teaching/assignments/test/graders.py [WORDS]     only checks that have the words in their name
 """
 import inspect
 import os
@@ -15,7 +15,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+ROOT = HERE.parents[3]
 ASSIGNMENTS = ROOT / "examples/teaching/assignments"
 sys.path.insert(0, str(ASSIGNMENTS))
 import grade  # noqa: E402

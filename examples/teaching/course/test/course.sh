@@ -2,7 +2,7 @@
 # course.sh - the pages of the courses: each line of C compiles, its value is what the page says,
 # pictures and links are there. rows.sh holds their words to the lecture notes, playground.sh opens
 # the links in a browser.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
 COURSES="uw massey shirley berkeley"

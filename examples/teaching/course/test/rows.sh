@@ -1,7 +1,7 @@
 #!/bin/sh
 # rows.sh - the courses say what the lecture notes say: examples/teaching/course/rows.txt has each
 # equation with its number, each name of a listing, each figure, and where it stands.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 COURSE=examples/teaching/course
 COURSES="uw massey shirley berkeley"

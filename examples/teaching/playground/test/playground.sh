@@ -1,7 +1,7 @@
 #!/bin/sh
 # playground.sh - builds the playground and tries it in a browser.  What that needs - clang and lld
 # for wasm32, node, chromium, npm's playwright-core - is named and left out where it is missing.
-cd "$(dirname "$0")/../.." || exit 1
+cd "$(dirname "$0")/../../../.." || exit 1
 CC=${CC:-cc}
 B=build/playground
 DRIVER=build/playwright            # npm's packages
@@ -29,7 +29,7 @@ FLAGS="-std=c11 -O2 -Wall -Wextra -Wno-unused-function -ffp-contract=off -I."
 $CC $FLAGS examples/teaching/playground/native.c -lm -o $B/native &&
 $CC -std=c99 -O2 -I. -DSHADE_IMPLEMENTATION -x c -c shade.h -o $B/native-shade.o ||
     { echo "0 passed, 1 failed"; exit 1; }
-cp tests/scripts/playground.mjs tests/scripts/slides.mjs $DRIVER/
+cp examples/teaching/playground/test/playground.mjs examples/teaching/course/test/slides.mjs $DRIVER/
 failed=0
 if ls $B/slides-*.html >/dev/null 2>&1; then
     node $DRIVER/slides.mjs "$PWD/$B" "$browser" || failed=1
