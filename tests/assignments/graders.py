@@ -84,7 +84,9 @@ class Library(Student):
 def right_answers(task):
     """The judge's right answers beside shade.h's, and solutions by hand in both languages."""
     # Depth and texture coordinates are what the library does inside of a draw.
-    file = "by_hand.c" if task.name in ("08_depth", "09_texture") else "solutions.c"
+    # Of the tasks from 11 on it has no function of its own.
+    within = task.name in ("08_depth", "09_texture") or task.name > "11"
+    file = "by_hand.c" if within else "solutions.c"
     library = Library(task.name, HERE / file, task.sent, task.outputs, 20)
     for seed in (1, 2, 3):
         results = Judge(task, seed).judge(library.ask)
@@ -325,8 +327,8 @@ def main():
         check("nine of ten are named", len(named) >= 0.9 * len(some), (len(named), len(some)))
         tried = {f"{task.name} {name}" for task, names, _ in some for name in names.split("+")}
         missed = [f"{t.name} {m[0]}" for t in TASKS.values() for m in t.mistakes
-                  if f"{t.name} {m[0]}" not in tried]
-        check("wrong.txt has each known mistake", not missed, missed)
+                  if f"{t.name} {m[0]}" not in tried and t.name < "11"]
+        check("wrong.txt has each known mistake of the tasks 01 to 10", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
     refused()
     for checks in (allowed, once, bases, loops, names, links):

@@ -134,7 +134,7 @@ if there zip; then
         "$none 'does not compile' in x['output'] and 'error' in x['output'] for x in t)"
     check "Python that cannot be read says so" hands_in LICENSE my.py "$none 'cannot be read' in x['output'] for x in t)"
     check "nothing handed in says so" hands_in "" "" "$none 'there are 0' in x['output'] for x in t)"
-    printf 'def phong(N, L, V, n):\n    import os\n    os._exit(0)\n' >"$T/cheat.py"
+    printf 'import os\ndef halfway(L, V):\n    os._exit(0)\n' >"$T/cheat.py"
     check "a program that ends itself leaves results" hands_in "$T/cheat.py" my.py "$none 'ended the program' in
         x['output'] or 'case' in x['output'] for x in t)"
     check "the seed stands in one file, and not in a command" same "$(grep -rl 4711 "$T/gs/source")" "$T/gs/source/seed"

@@ -29,6 +29,7 @@ SIDE = 160  # of a picture
 NOTHING = {  # what a starter returns, by the type in C or by the words of a task's page
     "float": "0", "int": "0", "shade_vec2": "shade_v2(0, 0)", "shade_vec3": "shade_v3(0, 0, 0)",
     "shade_mat3": "shade_mat3_identity()",
+    "a list of corners, each a list of four floats": "[]",
     "a float": "0.0", "a bool": "False", "[u, v]": "[0.0, 0.0]",
     "a list of three floats": "[0.0, 0.0, 0.0]",
     "three lists of three floats, column after column": "[model[0:3], model[4:7], model[8:11]]",
@@ -46,7 +47,7 @@ def starter(task, is_c):
     text = f"/* {task}: write what the page of the task asks for. */\n"
     text += '#include "vectors.h"\n#include <math.h>\n'
     for kind, name, given in re.findall(r"(\w+) (\w+)\((.*?)\);", block, re.S):
-        names = re.findall(r"(\w+)(?:\[3\])?(?:,|$)", given)
+        names = re.findall(r"(\w+)(?:\[\d+\])?(?:,|$)", given)
         unused = "".join(f"    (void){one};\n" for one in names)
         text += f"\n{kind} {name}({given})\n{{\n{unused}    return {NOTHING[kind]};\n}}\n"
     return text

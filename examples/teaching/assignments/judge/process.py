@@ -113,7 +113,8 @@ class Compiler:
     def run(self, *arguments):
         """Runs the compiler; returns its exit status and what it says."""
         status, said = self.room.run([*self.words, "-std=gnu99", *arguments], self.home)
-        beyond = r"signal|Killed|too large|memory|limit exceeded|Stack dump"
+        beyond = (r"internal compiler error|\(program \w+\)|Killed|[Ff]ile too large|File size limit|"
+                  r"out of memory|memory exhausted|Stack dump|cannot allocate")
         if status is None or status < 0 or status and re.search(beyond, said):
             raise Refused(TOO_MUCH)
         return status, said

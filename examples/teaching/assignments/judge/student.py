@@ -52,6 +52,13 @@ def pixels(f, v):
     return [bool(f.covers(v[0:3], v[3:6], k % 8, k // 8)) for k in range(64)]
 
 
+def polygon(f, v):
+    """Calls clip_near; returns how many corners are left, and four of them."""
+    kept = [flat(corner) for corner in f.clip_near([v[0:4], v[4:8], v[8:12]])]
+    numbers = [x for corner in kept[:4] for x in corner]
+    return [len(kept)] + numbers + [0.0] * (16 - len(numbers))
+
+
 CALLS = {  # what a task's functions are called with, f by name, from the numbers v
     "01_lambert": lambda f, v: f.lambert(v[0:3], v[3:6]),
     "02_mirror": lambda f, v: f.mirror(v[0:3], v[3:6]),
@@ -63,6 +70,11 @@ CALLS = {  # what a task's functions are called with, f by name, from the number
     "08_depth": lambda f, v: f.depth_at(v[0:3], v[3:6], v[6:9]),
     "09_texture": lambda f, v: f.texture_at(v[0:3], [v[3:5], v[5:7], v[7:9]], v[9:12]),
     "10_iteration_four": scene,
+    "11_barycentric": lambda f, v: f.color_at(v[0:3], v[3:6], [v[6:9], v[9:12], v[12:15]], *v[15:17]),
+    "12_bilinear": lambda f, v: [f.level(*v[0:5]), f.bilinear(v[5:21], v[21], v[22])],
+    "13_clip": polygon,
+    "14_bump": lambda f, v: f.bumped(v[0:3], v[3:6], v[6:9]),
+    "15_shadow": lambda f, v: bool(f.lit(v[0:16], v[16:32], v[32:35], v[35])),
 }
 
 
