@@ -9,8 +9,9 @@
 #include "../scene/relief.h"
 #include "../command/save.h"
 
-/* Formats of our own readers, of which ast is FreeCAD's name for STL of text, and those that assimp reads as another reader does, which
-   tests/thumbnail/compared.txt names.  assimp is asked for no other. */
+/* Formats of our own readers, of which ast is FreeCAD's name for STL of text, and those that assimp
+   reads as another reader does, which examples/programs/thumbnail/test/compared.txt names.  assimp
+   is asked for no other. */
 static const char *const model_by_kit[] = {
     "obj", "stl", "ast", "ply", "off", "gltf", "glb", "3mf", NULL
 };
