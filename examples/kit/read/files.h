@@ -43,7 +43,7 @@ static inline int mesh_is_stl(const char *name, const unsigned char *bytes, size
 {
     model_kind kind = model_kind_of(name);
     if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "ply")) return 0;
-    if (!strcmp(kind.text, "stl")) return 1;
+    if (!strcmp(kind.text, "stl") || !strcmp(kind.text, "ast")) return 1;
     return (size >= 5 && !memcmp(bytes, "solid", 5)) || stl_fits(bytes, size) ||
            stl_has_own(bytes, size);
 }
