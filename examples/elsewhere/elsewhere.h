@@ -1,0 +1,494 @@
+/* elsewhere.h - materials and lamps of other renderers, said in shade.h's words.
+
+   Each program has one function.  It takes the numbers under the program's own names and gives a
+   look: the material, the model and flags of shade_lighting, what lamps must be multiplied by,
+   where V points to and how light becomes bytes.  elsewhere_lit_lanes then lights a packet as the
+   program does, and elsewhere_fragment is that as the fragment shader of a draw state:
+
+       elsewhere_look look = elsewhere_vtk((elsewhere_vtk_numbers){
+           .color = { 1, .8f, .6f }, .specular_color = { 1, 1, 1 },
+           .diffuse = .6f, .specular = .8f, .power = 30 });
+       elsewhere_lamp lamp = elsewhere_lamp_of(shade_directional_light(to, white));
+       elsewhere_scene scene = { &look, &lamp, 1, .ambient = { 1, 1, 1 }, .view = view };
+       state.fragment = elsewhere_fragment;
+       state.uniforms = &scene;
+
+   The colours that come out are display values: draw them to a target without .srgb.  Where
+   look.law is ELSEWHERE_LAW_FOUR and lamps have neither rim nor range, elsewhere_lighting gives a
+   shade_lighting that does the same without a shader.  Where look.refused is not NULL, the program
+   does something that nothing here can say, and the sentence tells what.
+
+   Above each function stand version and source of its law: the specification where there is one,
+   else what its pictures showed.  tables/ has pixels that the real programs drew, measure/ the
+   scripts that made them, README.md by how much they differ. */
+#ifndef ELSEWHERE_H
+#define ELSEWHERE_H
+
+#include "../../shade.h"
+#include <math.h>
+#include <string.h>
+
+typedef enum elsewhere_viewer { /* where V points to */
+    ELSEWHERE_VIEWER_RAY = 0,   /* against the ray of the pixel; under parallel projection the */
+                                /* camera's backward axis */
+    ELSEWHERE_VIEWER_POINT,     /* to the camera's position, under parallel projection too */
+    ELSEWHERE_VIEWER_AXIS       /* along the camera's backward axis, in perspective too */
+} elsewhere_viewer;
+
+typedef enum elsewhere_encoding { /* how light 0 .. 1 becomes a display value */
+    ELSEWHERE_ENCODING_NONE = 0,  /* as it is */
+    ELSEWHERE_ENCODING_SRGB,
+    ELSEWHERE_ENCODING_GAMMA,     /* light^(1/2.2) */
+    ELSEWHERE_ENCODING_ROOT       /* light^(1/2) */
+} elsewhere_encoding;
+
+typedef enum elsewhere_law { /* what lights a point; the number is elsewhere_look.number */
+    ELSEWHERE_LAW_FOUR = 0,  /* iteration four, as shade_lit_lanes */
+    ELSEWHERE_LAW_SCHLICK,   /* k_s becomes F = k_s + (1 - k_s) 2^((-5.55473 V.H - 6.98316) V.H) */
+                             /* and is multiplied by number */
+    ELSEWHERE_LAW_POWER,     /* N.L of the diffuse term becomes (N.L)^number */
+    ELSEWHERE_LAW_STEPS,     /* .7 where N.L < number, also behind, else 1; no highlight */
+    ELSEWHERE_LAW_EXPONENT,  /* k_a + k_s exp(-number (1 - R.V)); no N.L at all */
+    ELSEWHERE_LAW_SIGNED     /* k_a + k_d N.L, which is negative behind */
+} elsewhere_law;
+
+/* A material of another program */
+typedef struct elsewhere_look {
+    shade_material material;
+    shade_model model;
+    unsigned flags;              /* without SHADE_FLAG_INFINITE_VIEWER, which viewer decides */
+    elsewhere_viewer viewer;
+    elsewhere_encoding encoding;
+    int cut;                     /* non-zero: bytes are cut, not rounded */
+    float diffuse, specular;     /* multiply I_d and I_s of every lamp */
+    float head_diffuse;          /* I_d and I_s of a white lamp that the program has at the */
+    float head_specular;         /* camera, which shines along its axis; 0: none */
+    int tilted;                  /* non-zero: I_d of a lamp toward unit L is 2 / (1 + z) as bright, */
+                                 /* z along the camera's backward axis */
+    elsewhere_law law;
+    float number;
+    const char *refused;         /* what cannot be said, or NULL */
+} elsewhere_look;
+
+typedef enum elsewhere_rim { /* how a cone ends, between inner and outer, off the axis */
+    ELSEWHERE_RIM_HARD = 0,  /* the cone of light.spot_cos_cutoff */
+    ELSEWHERE_RIM_ANGLE,     /* falls linearly in the angle; inner and outer are angles */
+    ELSEWHERE_RIM_COSINE,    /* smoothstep of the cosine; inner and outer are angles */
+    ELSEWHERE_RIM_LINEAR     /* falls linearly in the cosine; inner and outer are angles */
+} elsewhere_rim;
+
+typedef enum elsewhere_range { /* what distance r does to a lamp of reach d */
+    ELSEWHERE_RANGE_NONE = 0,  /* nothing but light.constant, linear, quadratic */
+    ELSEWHERE_RANGE_LINEAR,    /* max(0, 1 - r/d) */
+    ELSEWHERE_RANGE_CUT,       /* 1 up to d, 0 beyond */
+    ELSEWHERE_RANGE_WINDOW,    /* max(r, .1)^-power max(0, 1 - (r/d)^4)^2; d 0: no window */
+    ELSEWHERE_RANGE_FADE       /* 2 / (1 + (r/d)^power) */
+} elsewhere_range;
+
+/* A lamp of another program.  Rim and range become a row of visibility. */
+typedef struct elsewhere_lamp {
+    shade_light light;
+    elsewhere_rim rim;
+    float inner, outer;    /* radians */
+    elsewhere_range range;
+    float reach, power;
+    int at_most_one;       /* non-zero: 1 / (a + b r + c r^2) is at most 1 */
+} elsewhere_lamp;
+
+enum { ELSEWHERE_LAMPS = 8 };    /* elsewhere_lit_lanes takes no more lamps; the rest is dark */
+
+/* What elsewhere_lit_lanes and elsewhere_fragment read.  A zero view is the identity. */
+typedef struct elsewhere_scene {
+    const elsewhere_look *look;
+    const elsewhere_lamp *lamps;
+    int lamp_count;
+    shade_vec3 ambient;    /* I_a: most programs have 1, 1, 1 */
+    shade_mat4 view;       /* rotation and translation, from the world to the camera */
+    int parallel;          /* non-zero: the projection is a parallel one */
+} elsewhere_scene;
+
+/*------------------------------------------------------------------------------------------ laws */
+
+static inline elsewhere_lamp elsewhere_lamp_of(shade_light light)
+{
+    elsewhere_lamp lamp;
+    memset(&lamp, 0, sizeof lamp);
+    lamp.light = light;
+    return lamp;
+}
+
+/* The factor of a soft rim at unit L, 0 .. 1 */
+static inline float elsewhere_rim_at(const elsewhere_lamp *lamp, shade_vec3 L)
+{
+    const shade_vec3 aim = shade_normalize(lamp->light.spot_direction);
+    const float cosine = fminf(fmaxf(-shade_dot(L, aim), -1), 1);
+    float t;
+    if (lamp->rim == ELSEWHERE_RIM_HARD) return 1;
+    if (lamp->rim == ELSEWHERE_RIM_ANGLE)
+        t = (lamp->outer - acosf(cosine)) / fmaxf(lamp->outer - lamp->inner, 1e-6f);
+    else
+        t = (cosine - cosf(lamp->outer)) / fmaxf(cosf(lamp->inner) - cosf(lamp->outer), 1e-6f);
+    t = fminf(fmaxf(t, 0), 1);
+    return lamp->rim == ELSEWHERE_RIM_COSINE ? t * t * (3 - 2 * t) : t;
+}
+
+/* The factor of distance r, beside 1 / (a + b r + c r^2) */
+static inline float elsewhere_range_at(const elsewhere_lamp *lamp, float r)
+{
+    const float part = lamp->reach > 0 ? r / lamp->reach : 0;
+    const float window = fmaxf(1 - part * part * part * part, 0);
+    switch (lamp->range) {
+    case ELSEWHERE_RANGE_LINEAR: return fmaxf(1 - part, 0);
+    case ELSEWHERE_RANGE_CUT: return part <= 1 ? 1.0f : 0.0f;
+    case ELSEWHERE_RANGE_WINDOW: return window * window / fmaxf(powf(r, lamp->power), 0.01f);
+    case ELSEWHERE_RANGE_FADE: return 2 / (1 + powf(part, lamp->power));
+    default: return 1;
+    }
+}
+
+/* How much of a lamp is visible at P: the factor of rim and range */
+static inline float elsewhere_visibility(const elsewhere_lamp *lamp, shade_vec3 P)
+{
+    shade_vec3 L;
+    float r, sum, factor;
+    shade_light_at(&lamp->light, P, &L, &r);
+    factor = elsewhere_rim_at(lamp, L);
+    if (lamp->light.position.w == 0) return factor;
+    sum = lamp->light.constant + lamp->light.linear * r + lamp->light.quadratic * r * r;
+    if (lamp->at_most_one && sum > 0 && sum < 1) factor *= sum;
+    return factor * elsewhere_range_at(lamp, r);
+}
+
+/* The camera's backward axis in the world, and its position */
+static inline shade_vec3 elsewhere_axis(const elsewhere_scene *s)
+{
+    const shade_vec4 *c = s->view.col;
+    const shade_vec3 axis = { c[0].z, c[1].z, c[2].z };
+    return shade_dot(axis, axis) > 0 ? shade_normalize(axis) : shade_v3(0, 0, 1);
+}
+static inline shade_vec3 elsewhere_eye(const elsewhere_scene *s)
+{
+    const shade_vec4 *c = s->view.col, t = c[3];
+    return shade_neg(shade_v3(c[0].x * t.x + c[0].y * t.y + c[0].z * t.z,
+                              c[1].x * t.x + c[1].y * t.y + c[1].z * t.z,
+                              c[2].x * t.x + c[2].y * t.y + c[2].z * t.z));
+}
+
+/* The lighting of a scene as shade_lit takes it, with room for ELSEWHERE_LAMPS + 1 lamps; *eye
+   becomes the eye that goes with it. */
+static inline shade_lighting elsewhere_lighting(const elsewhere_scene *s, shade_light *lamps,
+                                                shade_vec3 *eye)
+{
+    const elsewhere_look *k = s->look;
+    const shade_vec3 axis = elsewhere_axis(s);
+    const int far = k->viewer == ELSEWHERE_VIEWER_AXIS ||
+                    (s->parallel && k->viewer == ELSEWHERE_VIEWER_RAY);
+    shade_lighting out;
+    memset(&out, 0, sizeof out);
+    for (int i = 0; i < s->lamp_count && i < ELSEWHERE_LAMPS; i++) {
+        const shade_vec4 at = s->lamps[i].light.position;
+        float tilt = 1;
+        if (k->tilted) tilt = shade_dot(shade_normalize(shade_v3(at.x, at.y, at.z)), axis);
+        if (k->tilted) tilt = 2 / fmaxf(1 + tilt, 1e-6f);
+        lamps[i] = s->lamps[i].light;
+        lamps[i].diffuse = shade_scale(lamps[i].diffuse, k->diffuse * tilt);
+        lamps[i].specular = shade_scale(lamps[i].specular, k->specular);
+        out.light_count = i + 1;
+    }
+    if (k->head_diffuse > 0 || k->head_specular > 0) {
+        shade_light *head = &lamps[out.light_count++];
+        *head = shade_directional_light(shade_neg(axis), shade_v3(1, 1, 1));
+        head->diffuse = shade_v3(k->head_diffuse, k->head_diffuse, k->head_diffuse);
+        head->specular = shade_v3(k->head_specular, k->head_specular, k->head_specular);
+    }
+    out.lights = lamps;
+    out.ambient = s->ambient;
+    out.model = k->model;
+    out.flags = k->flags | (far ? (unsigned)SHADE_FLAG_INFINITE_VIEWER : 0u);
+    *eye = far ? axis : elsewhere_eye(s);
+    return out;
+}
+
+/* 0 .. 1 as a byte of a target without .srgb will show it */
+static inline float elsewhere_encode(const elsewhere_look *k, float light)
+{
+    float v = fminf(fmaxf(light, 0), 1);
+    if (k->encoding == ELSEWHERE_ENCODING_SRGB) v = shade_srgb_from_linear(shade_v3(v, v, v)).x;
+    if (k->encoding == ELSEWHERE_ENCODING_GAMMA) v = powf(v, 1 / 2.2f);
+    if (k->encoding == ELSEWHERE_ENCODING_ROOT) v = sqrtf(v);
+    return k->cut ? floorf(255 * v + 1e-3f) / 255 : v;
+}
+
+/* One lane, with unit vectors */
+typedef struct elsewhere_point {
+    shade_vec3 P, N, V;
+} elsewhere_point;
+
+/* What the passes of a packet share */
+typedef struct elsewhere_packet {
+    const elsewhere_look *look;
+    shade_lighting all;
+    shade_vec3 eye;
+    shade_rows rows;
+} elsewhere_packet;
+
+static inline elsewhere_point elsewhere_at(const elsewhere_packet *k, int lane)
+{
+    const float *P = k->rows.position + lane, *N = k->rows.normal + lane;
+    const int far = (k->all.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
+    elsewhere_point p;
+    p.P = shade_v3(P[0], P[SHADE_LANES], P[2 * SHADE_LANES]);
+    p.N = shade_normalize(shade_v3(N[0], N[SHADE_LANES], N[2 * SHADE_LANES]));
+    p.V = shade_normalize(far ? k->eye : shade_sub(k->eye, p.P));
+    return p;
+}
+
+/* Schlick's F at V.H over F at 0 */
+static inline float elsewhere_schlick(float f0, float v_dot_h)
+{
+    const float f = exp2f((-5.55473f * v_dot_h - 6.98316f) * v_dot_h);
+    return f0 > 0 ? (f0 * (1 - f) + f) / f0 : 0;
+}
+
+/* Rows that multiply k_s for one lamp: F, and the look's number */
+static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp, float *rows)
+{
+    const shade_vec3 f0 = k->look->material.specular;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const elsewhere_point p = elsewhere_at(k, i);
+        shade_vec3 L;
+        float cosine;
+        shade_light_at(lamp, p.P, &L, NULL);
+        cosine = shade_dot(p.V, shade_halfway(L, p.V));
+        rows[i] = k->look->number * elsewhere_schlick(f0.x, cosine);
+        rows[i + SHADE_LANES] = k->look->number * elsewhere_schlick(f0.y, cosine);
+        rows[i + 2 * SHADE_LANES] = k->look->number * elsewhere_schlick(f0.z, cosine);
+    }
+}
+
+/* What one lamp adds at a point by a law that has another N.L, or none.  The highlight of
+   ELSEWHERE_LAW_POWER is not in it. */
+static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_light *lamp,
+                                         elsewhere_point p)
+{
+    shade_vec3 L;
+    const float amount = shade_light_at(lamp, p.P, &L, NULL);
+    const float cosine = shade_dot(p.N, L);
+    float weight = cosine;
+    if (k->law == ELSEWHERE_LAW_EXPONENT) {
+        const float turn = 1 - shade_dot(shade_mirror(L, p.N), p.V);
+        return shade_scale(shade_mul(k->material.specular, lamp->specular),
+                           amount * expf(-k->number * turn));
+    }
+    if (k->law == ELSEWHERE_LAW_STEPS) weight = cosine < k->number ? 0.7f : 1;
+    if (k->law == ELSEWHERE_LAW_POWER) weight = cosine > 0 ? powf(cosine, k->number) : 0;
+    return shade_scale(shade_mul(k->material.diffuse, lamp->diffuse), weight * amount);
+}
+
+/* Adds what one lamp gives by a law other than iteration four; rows.visibility is the lamp's. */
+static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_light *lamp, float *rgb)
+{
+    const elsewhere_law law = k->look->law;
+    float one[3 * SHADE_LANES] = { 0 }, fresnel[3 * SHADE_LANES];
+    shade_lighting single = k->all;
+    shade_rows rows = k->rows;
+    single.lights = lamp;
+    single.light_count = 1;
+    single.terms = SHADE_TERM_SPECULAR;
+    if (law == ELSEWHERE_LAW_SCHLICK) {
+        single.terms |= SHADE_TERM_DIFFUSE;
+        elsewhere_fresnel(k, lamp, fresnel);
+        rows.specular = fresnel;
+    }
+    if (law == ELSEWHERE_LAW_SCHLICK || law == ELSEWHERE_LAW_POWER)
+        shade_lit_lanes(&single, &k->look->material, k->eye, &rows, one);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade_vec3 other = { 0, 0, 0 };
+        if (law != ELSEWHERE_LAW_SCHLICK)
+            other = elsewhere_other(k->look, lamp, elsewhere_at(k, i));
+        other = shade_scale(other, rows.visibility[i]);
+        rgb[i] += one[i] + other.x;
+        rgb[i + SHADE_LANES] += one[i + SHADE_LANES] + other.y;
+        rgb[i + 2 * SHADE_LANES] += one[i + 2 * SHADE_LANES] + other.z;
+    }
+}
+
+/* Lights the points of a packet as the program does.  P, N and rgb are three rows each, as of
+   shade_lit_lanes; rgb becomes display values of 0 .. 1. */
+static inline void elsewhere_lit_lanes(const elsewhere_scene *s, const float *P, const float *N,
+                                       float *rgb)
+{
+    float visibility[(ELSEWHERE_LAMPS + 1) * SHADE_LANES];
+    shade_light lamps[ELSEWHERE_LAMPS + 1];
+    elsewhere_packet k = { .look = s->look, .rows = { P, N, NULL, NULL, visibility } };
+    shade_lighting ambient;
+    k.all = elsewhere_lighting(s, lamps, &k.eye);
+    for (int j = 0; j < k.all.light_count; j++)
+        for (int i = 0; i < SHADE_LANES; i++) {
+            float *v = &visibility[j * SHADE_LANES + i];
+            *v = j < s->lamp_count ? elsewhere_visibility(&s->lamps[j], elsewhere_at(&k, i).P) : 1;
+        }
+    ambient = k.all;
+    if (s->look->law != ELSEWHERE_LAW_FOUR) ambient.light_count = 0;
+    shade_lit_lanes(&ambient, &s->look->material, k.eye, &k.rows, rgb);
+    for (int j = 0; j < k.all.light_count && s->look->law != ELSEWHERE_LAW_FOUR; j++) {
+        k.rows.visibility = &visibility[j * SHADE_LANES];
+        elsewhere_add_lamp(&k, &lamps[j], rgb);
+    }
+    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = elsewhere_encode(s->look, rgb[i]);
+}
+
+/* The same as the fragment shader of a draw state, whose uniforms are an elsewhere_scene */
+static inline void elsewhere_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                      shade_colors *SHADE_RESTRICT out)
+{
+    elsewhere_lit_lanes((const elsewhere_scene *)uniforms, in->varying[SHADE_VARYING_POSITION],
+                        in->varying[SHADE_VARYING_NORMAL], out->color[0]);
+}
+
+/*---------------------------------------------------------------------------------------- programs
+   Colours are linear unless told.  A program's ambient light is 1, 1, 1 unless told: scene.ambient.
+   The struct of a program holds shade_vec3 and float alone, in the order of its row in
+   elsewhere_rows, where its defaults stand. */
+
+static inline elsewhere_look elsewhere_plain(shade_model model)
+{
+    elsewhere_look k;
+    memset(&k, 0, sizeof k);
+    k.model = model;
+    k.diffuse = k.specular = 1;
+    return k;
+}
+static inline shade_vec3 elsewhere_grey(float v) { return shade_v3(v, v, v); }
+
+/* VTK 9.1.0 and ParaView 5.11: vtkProperty.  (R.V)^SpecularPower, V toward the camera's position
+   even under parallel projection.  Surfaces are always lit on both sides; SetTwoSidedLighting(0)
+   changes nothing.  Lamps do not multiply the ambient term.  Measured. */
+typedef struct elsewhere_vtk_numbers {
+    shade_vec3 color, specular_color;
+    float ambient, diffuse, specular, power;
+} elsewhere_vtk_numbers;
+static inline elsewhere_look elsewhere_vtk(elsewhere_vtk_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse);
+    k.material.specular = shade_scale(v.specular_color, v.specular);
+    k.material.shininess = v.power;
+    k.flags = SHADE_FLAG_TWO_SIDED;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* POV-Ray 3.7.0: finish, of a pigment in linear rgb.  phong is (R.V)^phong_size, specular
+   (N.H)^(1/roughness), each where N.L > 0 alone.  brilliance b is (N.L)^b.  albedo, if not 0, says
+   that diffuse, phong and specular carry the word albedo: diffuse is then (b + 1)/2 as large, phong
+   (n + 1)/2, specular (n + 2) / (4 (2 - 2^(-n/2))).  Bytes are sRGB.  Measured; the words are those
+   of POV-Ray's reference, "Finish". */
+typedef struct elsewhere_povray_numbers {
+    shade_vec3 color;
+    float ambient, diffuse, phong, phong_size, specular, roughness, brilliance, albedo;
+} elsewhere_povray_numbers;
+static inline elsewhere_look elsewhere_povray(elsewhere_povray_numbers v)
+{
+    const int phong = v.phong > 0;
+    const float n = phong ? v.phong_size : 1 / fmaxf(v.roughness, 1e-6f);
+    const float blinn_scale = (n + 2) / (4 * (2 - powf(2, -n / 2)));
+    const float k_s = phong ? v.phong : v.specular;
+    elsewhere_look k = elsewhere_plain(phong ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse * (v.albedo > 0 ? (v.brilliance + 1) / 2 : 1));
+    k.material.specular = elsewhere_grey(k_s);
+    if (v.albedo > 0) k.material.specular = elsewhere_grey(k_s * (phong ? (n + 1) / 2 : blinn_scale));
+    k.material.shininess = n;
+    k.encoding = ELSEWHERE_ENCODING_SRGB;
+    if (v.brilliance != 1) k.law = ELSEWHERE_LAW_POWER;
+    k.number = v.brilliance;
+    if (phong && v.specular > 0) k.refused = "phong and specular at once are two highlights";
+    return k;
+}
+
+
+/*------------------------------------------------------------------------------------------- lamps
+   at is a position with w = 1, or with w = 0 the direction toward a lamp at infinity.  aim is where
+   a lamp points; zero: no spot.  Angles are degrees, as all of these programs have them, unless
+   told. */
+
+/* Where a lamp is, what it sends, where it points to */
+static inline elsewhere_lamp elsewhere_sends(shade_vec4 at, shade_vec3 color, shade_vec3 aim)
+{
+    shade_light light;
+    memset(&light, 0, sizeof light);
+    light.position = at;
+    light.diffuse = light.specular = color;
+    light.spot_direction = aim;
+    light.spot_cos_cutoff = -1;
+    return elsewhere_lamp_of(light);
+}
+static inline void elsewhere_attenuate(elsewhere_lamp *lamp, shade_vec3 abc)
+{
+    lamp->light.constant = abc.x;
+    lamp->light.linear = abc.y;
+    lamp->light.quadratic = abc.z;
+}
+
+/* A lamp in shade.h's own words, as OpenGL's fixed function has it: cutoff is half the cone. */
+typedef struct elsewhere_opengl_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, ambient, attenuation, aim;
+    float cutoff, exponent;
+} elsewhere_opengl_lamp_numbers;
+static inline elsewhere_lamp elsewhere_opengl_lamp(elsewhere_opengl_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.ambient = v.ambient;
+    lamp.light.spot_cos_cutoff = cosf(shade_radians(v.cutoff));
+    lamp.light.spot_exponent = v.exponent;
+    return lamp;
+}
+
+/* VTK 9.1.0: vtkLight.  A positional lamp is by default a spot of 30 degrees off its axis with
+   cos^exponent; from a cone of 90 on it shines everywhere, whatever the exponent.  Measured. */
+typedef struct elsewhere_vtk_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float cone, exponent;
+    shade_vec3 attenuation;
+} elsewhere_vtk_lamp_numbers;
+static inline elsewhere_lamp elsewhere_vtk_lamp(elsewhere_vtk_lamp_numbers v)
+{
+    const int even = v.at.w == 0 || v.cone >= 90;
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, even ? shade_v3(0, 0, 0) : v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.spot_cos_cutoff = cosf(shade_radians(v.cone));
+    lamp.light.spot_exponent = v.exponent;
+    return lamp;
+}
+
+/* POV-Ray 3.7.0: light_source.  The amount is 2 / (1 + (r/d)^p) where both fade_distance d and
+   fade_power p are given, else 1.  A spotlight falls by smoothstep of the cosine from radius to
+   falloff and has cos^tightness.  shadowless lamps make no highlight.  Measured. */
+typedef struct elsewhere_povray_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float fade_distance, fade_power, radius, falloff, tightness, shadowless;
+} elsewhere_povray_lamp_numbers;
+static inline elsewhere_lamp elsewhere_povray_lamp(elsewhere_povray_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    if (v.fade_distance > 0 && v.fade_power > 0) {
+        lamp.range = ELSEWHERE_RANGE_FADE;
+        lamp.reach = v.fade_distance;
+        lamp.power = v.fade_power;
+    }
+    lamp.rim = ELSEWHERE_RIM_COSINE;
+    lamp.inner = shade_radians(v.radius);
+    lamp.outer = shade_radians(v.falloff);
+    if (shade_dot(v.aim, v.aim) == 0) lamp.rim = ELSEWHERE_RIM_HARD;
+    lamp.light.spot_cos_cutoff = cosf(lamp.outer);
+    lamp.light.spot_exponent = v.tightness;
+    if (v.shadowless > 0) lamp.light.specular = shade_v3(0, 0, 0);
+    return lamp;
+}
+#endif
