@@ -243,14 +243,14 @@ static inline elsewhere_point elsewhere_at(const elsewhere_packet *k, int lane)
     return p;
 }
 
-/* Schlick's F at V.H over F at 0 */
+/* Schlick's F at V.H, with a power of two in place of the fifth power */
 static inline float elsewhere_schlick(float f0, float v_dot_h)
 {
     const float f = exp2f((-5.55473f * v_dot_h - 6.98316f) * v_dot_h);
-    return f0 > 0 ? (f0 * (1 - f) + f) / f0 : 0;
+    return f0 * (1 - f) + f;
 }
 
-/* Rows that multiply k_s for one lamp: F, and the look's number */
+/* Rows in place of k_s for one lamp: F times the look's number */
 static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp, float *rows)
 {
     const shade_vec3 f0 = k->look->material.specular;
@@ -291,6 +291,7 @@ static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_lig
     const elsewhere_law law = k->look->law;
     float one[3 * SHADE_LANES] = { 0 }, fresnel[3 * SHADE_LANES];
     shade_lighting single = k->all;
+    shade_material material = k->look->material;
     shade_rows rows = k->rows;
     single.lights = lamp;
     single.light_count = 1;
@@ -298,10 +299,11 @@ static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_lig
     if (law == ELSEWHERE_LAW_SCHLICK) {
         single.terms |= SHADE_TERM_DIFFUSE;
         elsewhere_fresnel(k, lamp, fresnel);
+        material.specular = shade_v3(1, 1, 1);
         rows.specular = fresnel;
     }
     if (law == ELSEWHERE_LAW_SCHLICK || law == ELSEWHERE_LAW_POWER)
-        shade_lit_lanes(&single, &k->look->material, k->eye, &rows, one);
+        shade_lit_lanes(&single, &material, k->eye, &rows, one);
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec3 other = { 0, 0, 0 };
         if (law != ELSEWHERE_LAW_SCHLICK)
@@ -347,7 +349,7 @@ static inline void elsewhere_fragment(const void *uniforms, const shade_fragment
 }
 
 /*---------------------------------------------------------------------------------------- programs
-   Colours are linear unless told.  A program's ambient light is 1, 1, 1 unless told: scene.ambient.
+   Colours are linear unless told.  scene.ambient is 1, 1, 1 unless told.
    The struct of a program holds shade_vec3 and float alone, in the order of its row in
    elsewhere_rows, where its defaults stand. */
 
@@ -408,6 +410,112 @@ static inline elsewhere_look elsewhere_povray(elsewhere_povray_numbers v)
     return k;
 }
 
+/* three.js 0.187.0: MeshPhongMaterial, of colours in linear light.  A lamp of intensity i gives
+   colour i N.L / pi and F (n + 2) / (8 pi) (N.H)^n i N.L, F being Schlick's at V.H: so k_s alone
+   does not say how bright a highlight is.  The default specular, 0x111111, is .0056 in linear light.
+   The sum of color times intensity of AmbientLights is scene.ambient.  Bytes are sRGB.  Measured; BlinnPhong of three's
+   shaders, lights_phong_pars_fragment. */
+typedef struct elsewhere_three_phong_numbers {
+    shade_vec3 color, specular, emissive;
+    float shininess;
+} elsewhere_three_phong_numbers;
+static inline elsewhere_look elsewhere_three_phong(elsewhere_three_phong_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = shade_scale(v.color, 1 / 3.14159265f);
+    k.material.diffuse = v.color;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_WEIGHTED_SPECULAR;
+    k.encoding = ELSEWHERE_ENCODING_SRGB;
+    k.diffuse = k.specular = 1 / 3.14159265f;
+    k.law = ELSEWHERE_LAW_SCHLICK;
+    k.number = (v.shininess + 2) / 8;
+    return k;
+}
+
+/* three.js 0.187.0: MeshLambertMaterial, colour i N.L / pi.  Measured. */
+typedef struct elsewhere_three_lambert_numbers {
+    shade_vec3 color, emissive;
+} elsewhere_three_lambert_numbers;
+static inline elsewhere_look elsewhere_three_lambert(elsewhere_three_lambert_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = v.emissive;
+    k.material.ambient = shade_scale(v.color, 1 / 3.14159265f);
+    k.material.diffuse = v.color;
+    k.encoding = ELSEWHERE_ENCODING_SRGB;
+    k.diffuse = k.specular = 1 / 3.14159265f;
+    return k;
+}
+
+/* three.js 0.187.0: MeshToonMaterial without a gradientMap: .7 where N.L < .4, behind too, so that
+   it is never dark; else 1.  Measured. */
+typedef struct elsewhere_three_toon_numbers {
+    shade_vec3 color, emissive;
+} elsewhere_three_toon_numbers;
+static inline elsewhere_look elsewhere_three_toon(elsewhere_three_toon_numbers v)
+{
+    elsewhere_three_lambert_numbers lambert;
+    elsewhere_look k;
+    lambert.color = v.color;
+    lambert.emissive = v.emissive;
+    k = elsewhere_three_lambert(lambert);
+    k.law = ELSEWHERE_LAW_STEPS;
+    k.number = 0.4f;
+    return k;
+}
+
+/* Babylon.js 9.35.0: StandardMaterial.  (N.H)^specularPower is not gated, so that highlights reach
+   behind the terminator, and V goes to the camera's position even under parallel projection.  The
+   ambientColor of the scene is scene.ambient; it counts times that of the material alone.  Bytes are light as it is.  Measured. */
+typedef struct elsewhere_babylon_numbers {
+    shade_vec3 diffuse, specular, ambient, emissive;
+    float power;
+} elsewhere_babylon_numbers;
+static inline elsewhere_look elsewhere_babylon(elsewhere_babylon_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = v.ambient;
+    k.material.diffuse = v.diffuse;
+    k.material.specular = v.specular;
+    k.material.shininess = v.power;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* X3D as X_ITE 15.0.1 draws its Material: (N.H)^(128 shininess), not gated, V to the camera's
+   position even under parallel projection, bytes as they are.  Measured; the specification is X3D 4.0,
+   clause 17.2.2. */
+typedef struct elsewhere_x_ite_numbers {
+    shade_vec3 diffuseColor, specularColor, emissiveColor;
+    float shininess;
+} elsewhere_x_ite_numbers;
+static inline elsewhere_look elsewhere_x_ite(elsewhere_x_ite_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissiveColor;
+    k.material.diffuse = v.diffuseColor;
+    k.material.specular = v.specularColor;
+    k.material.shininess = 128 * v.shininess;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* X3D as X3DOM 1.8.3 draws it: the same, but that V is against the ray and that bytes are
+   light^(1/2.2).  Shininess 0 lights the whole ball.  Measured. */
+typedef elsewhere_x_ite_numbers elsewhere_x3dom_numbers;
+static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
+{
+    elsewhere_look k = elsewhere_x_ite(v);
+    k.viewer = ELSEWHERE_VIEWER_RAY;
+    k.encoding = ELSEWHERE_ENCODING_GAMMA;
+    return k;
+}
 
 /*------------------------------------------------------------------------------------------- lamps
    at is a position with w = 1, or with w = 0 the direction toward a lamp at infinity.  aim is where
@@ -489,6 +597,69 @@ static inline elsewhere_lamp elsewhere_povray_lamp(elsewhere_povray_lamp_numbers
     lamp.light.spot_cos_cutoff = cosf(lamp.outer);
     lamp.light.spot_exponent = v.tightness;
     if (v.shadowless > 0) lamp.light.specular = shade_v3(0, 0, 0);
+    return lamp;
+}
+
+/* three.js 0.187.0: DirectionalLight, PointLight, SpotLight.  1 / max(r^decay, .01), times
+   (1 - (r / distance)^4)^2 where distance is not 0.  A spot falls by smoothstep of the cosine from
+   angle (1 - penumbra) to angle, which is half the cone, in radians.  Measured; 1/pi is in the
+   look. */
+typedef struct elsewhere_three_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float intensity, distance, decay, angle, penumbra;
+} elsewhere_three_lamp_numbers;
+static inline elsewhere_lamp elsewhere_three_lamp(elsewhere_three_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, shade_scale(v.color, v.intensity), v.aim);
+    lamp.range = ELSEWHERE_RANGE_WINDOW;
+    lamp.reach = v.distance;
+    lamp.power = v.decay;
+    if (shade_dot(v.aim, v.aim) > 0) lamp.rim = ELSEWHERE_RIM_COSINE;
+    lamp.inner = v.angle * (1 - v.penumbra);
+    lamp.outer = v.angle;
+    lamp.light.spot_cos_cutoff = cosf(v.angle);
+    return lamp;
+}
+
+/* Babylon.js 9.35.0: DirectionalLight, PointLight, SpotLight.  A lamp with a range falls linearly to
+   0 there.  angle is that of the full cone, in radians; the cone is hard, with cos^exponent.
+   Measured. */
+typedef struct elsewhere_babylon_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float range, angle, exponent;
+} elsewhere_babylon_lamp_numbers;
+static inline elsewhere_lamp elsewhere_babylon_lamp(elsewhere_babylon_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    if (v.range > 0) lamp.range = ELSEWHERE_RANGE_LINEAR;
+    lamp.reach = v.range;
+    lamp.light.spot_cos_cutoff = cosf(v.angle / 2);
+    lamp.light.spot_exponent = v.exponent;
+    return lamp;
+}
+
+/* X3D as X_ITE draws it: 1 / max(a + b r + c r^2, 1), nothing beyond radius.  A spot falls linearly
+   in the angle from beamWidth to cutOffAngle, in radians; a beamWidth beyond cutOffAngle is full
+   light in the cone.  Measured; X3D 4.0, clause 17.4.3. */
+typedef struct elsewhere_x3d_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float intensity, radius, beamWidth, cutOffAngle;
+} elsewhere_x3d_lamp_numbers;
+static inline elsewhere_lamp elsewhere_x3d_lamp(elsewhere_x3d_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, shade_scale(v.color, v.intensity), v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.at_most_one = 1;
+    lamp.range = ELSEWHERE_RANGE_CUT;
+    lamp.reach = v.radius;
+    if (shade_dot(v.aim, v.aim) > 0 && v.beamWidth < v.cutOffAngle)
+        lamp.rim = ELSEWHERE_RIM_ANGLE;
+    lamp.inner = v.beamWidth;
+    lamp.outer = v.cutOffAngle;
+    lamp.light.spot_cos_cutoff = cosf(v.cutOffAngle);
     return lamp;
 }
 #endif

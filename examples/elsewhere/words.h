@@ -31,6 +31,15 @@ ELSEWHERE_ROW(povray, look)
 ELSEWHERE_ROW(opengl_lamp, lamp)
 ELSEWHERE_ROW(vtk_lamp, lamp)
 ELSEWHERE_ROW(povray_lamp, lamp)
+ELSEWHERE_ROW(three_phong, look)
+ELSEWHERE_ROW(three_lambert, look)
+ELSEWHERE_ROW(three_toon, look)
+ELSEWHERE_ROW(babylon, look)
+ELSEWHERE_ROW(x_ite, look)
+ELSEWHERE_ROW(x3dom, look)
+ELSEWHERE_ROW(three_lamp, lamp)
+ELSEWHERE_ROW(babylon_lamp, lamp)
+ELSEWHERE_ROW(x3d_lamp, lamp)
 
 static const elsewhere_row elsewhere_rows[] = {
     { "vtk", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
@@ -43,6 +52,24 @@ static const elsewhere_row elsewhere_rows[] = {
       elsewhere_row_vtk_lamp },
     { "povray_lamp", "at=0,0,1,0 color=1,1,1 aim=0,0,0 fade_distance=0 fade_power=0 radius=0 "
                      "falloff=0 tightness=0 shadowless=0", NULL, elsewhere_row_povray_lamp },
+    { "three_phong", "color=1,1,1 specular=.0056,.0056,.0056 emissive=0,0,0 shininess=30",
+      elsewhere_row_three_phong, NULL },
+    { "three_lambert", "color=1,1,1 emissive=0,0,0",
+      elsewhere_row_three_lambert, NULL },
+    { "three_toon", "color=1,1,1 emissive=0,0,0",
+      elsewhere_row_three_toon, NULL },
+    { "babylon", "diffuse=1,1,1 specular=1,1,1 ambient=0,0,0 emissive=0,0,0 power=64",
+      elsewhere_row_babylon, NULL },
+    { "x_ite", "diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 shininess=.2",
+      elsewhere_row_x_ite, NULL },
+    { "x3dom", "diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 shininess=.2",
+      elsewhere_row_x3dom, NULL },
+    { "three_lamp", "at=0,0,1,0 color=1,1,1 aim=0,0,0 intensity=1 distance=0 decay=2 angle=1.0471976 penumbra=0",
+      NULL, elsewhere_row_three_lamp },
+    { "babylon_lamp", "at=0,0,1,0 color=1,1,1 aim=0,0,0 range=0 angle=3.1415927 exponent=0",
+      NULL, elsewhere_row_babylon_lamp },
+    { "x3d_lamp", "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 intensity=1 radius=100 beamWidth=.7853982 cutOffAngle=1.5707963",
+      NULL, elsewhere_row_x3d_lamp },
     { NULL, NULL, NULL, NULL }
 };
 

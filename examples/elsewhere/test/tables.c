@@ -4,6 +4,7 @@
    A table has lines of words:
      within 1.5       by how many of 255 a byte may differ; 1.5 where it is not said
      shift x y        where in a pixel the program's ray goes, from the pixel's centre
+     ambient .5       I_a of its scenes, grey; 1 where it is not said
      pixels x,y ...   of pictures of 200 x 200
      case ...         the camera, a look and its lamps, as words.h reads them; then a line of the
                       bytes that the program drew, one word of six digits a pixel
@@ -19,7 +20,7 @@ static int passed, failed;
 
 typedef struct table {
     const char *name;
-    float within, x, y; /* of shift */
+    float within, x, y, ambient; /* x, y: of shift */
     int count, at[MOST][2];
     long pixels;
     double worst, squares, compared;
@@ -39,12 +40,12 @@ static void fail(const char *file, const char *said)
 }
 
 /* Reads camera, look and lamps. */
-static int read_view(const char *text, view *v, char *said, size_t room)
+static int read_view(const char *text, float ambient, view *v, char *said, size_t room)
 {
     memset(v, 0, sizeof *v);
     v->scene.look = &v->look;
     v->scene.lamps = v->lamps;
-    v->scene.ambient = shade_v3(1, 1, 1);
+    v->scene.ambient = shade_v3(ambient, ambient, ambient);
     v->scene.view = shade_mat4_translation(shade_v3(0, 0, -5));
     v->scene.parallel = !strncmp(text, "parallel ", 9);
     text += strcspn(text, " ") + 1;
@@ -107,7 +108,7 @@ static void compare_case(table *t, const char *text, const char *bytes)
     float rgb[MOST][3];
     char said[400];
     view v;
-    if (read_view(text, &v, said, sizeof said)) {
+    if (read_view(text, t->ambient, &v, said, sizeof said)) {
         fail(t->name, said);
         return;
     }
@@ -151,7 +152,7 @@ static void compare_ball(table *t, const char *path)
     FILE *f = fopen(path, "rb");
     if (!f) return;
     if (!fgets(head, sizeof head, f) || !fgets(head, sizeof head, f) ||
-        read_view(head + 2, &v, said, sizeof said) || !fgets(said, sizeof said, f) ||
+        read_view(head + 2, t->ambient, &v, said, sizeof said) || !fgets(said, sizeof said, f) ||
         !fgets(said, sizeof said, f) || fread(grey, 1, sizeof grey, f) != sizeof grey)
         fail(path, said);
     else {
@@ -169,7 +170,7 @@ static void compare_ball(table *t, const char *path)
 static void compare_table(const char *path)
 {
     static char line[4000], bytes[4000];
-    table t = { path, 1.5f, 0, 0, 0, { { 0 } }, 0, 0, 0, 0, "" };
+    table t = { path, 1.5f, 0, 0, 1, 0, { { 0 } }, 0, 0, 0, 0, "" };
     char ball[300];
     FILE *f = fopen(path, "r");
     if (!f) {
@@ -179,6 +180,7 @@ static void compare_table(const char *path)
     while (fgets(line, sizeof line, f)) {
         line[strcspn(line, "\n")] = 0;
         sscanf(line, "within %f", &t.within);
+        sscanf(line, "ambient %f", &t.ambient);
         sscanf(line, "shift %f %f", &t.x, &t.y);
         if (!strncmp(line, "pixels ", 7)) read_pixels(&t, line + 7);
         if (!strncmp(line, "case ", 5) && fgets(bytes, sizeof bytes, f))
