@@ -67,6 +67,7 @@ typedef struct elsewhere_look {
                                  /* z along the camera's backward axis */
     elsewhere_law law;
     float number;
+    shade_vec3 most;             /* of emission, ambient and diffuse light together; 0: no bound */
     const char *refused;         /* what cannot be said, or NULL */
 } elsewhere_look;
 
@@ -85,6 +86,12 @@ typedef enum elsewhere_range { /* what distance r does to a lamp of reach d */
     ELSEWHERE_RANGE_FADE       /* 2 / (1 + (r/d)^power) */
 } elsewhere_range;
 
+typedef enum elsewhere_highlight { /* what is odd about the highlight of a lamp */
+    ELSEWHERE_HIGHLIGHT_PLAIN = 0,
+    ELSEWHERE_HIGHLIGHT_SQUARED,    /* it has 1 / (a + b r + c r^2) twice */
+    ELSEWHERE_HIGHLIGHT_AIM         /* it stands where light along the lamp's aim would put it */
+} elsewhere_highlight;
+
 /* A lamp of another program.  Rim and range become a row of visibility. */
 typedef struct elsewhere_lamp {
     shade_light light;
@@ -93,6 +100,7 @@ typedef struct elsewhere_lamp {
     elsewhere_range range;
     float reach, power;
     int at_most_one;       /* non-zero: 1 / (a + b r + c r^2) is at most 1 */
+    elsewhere_highlight highlight;
 } elsewhere_lamp;
 
 enum { ELSEWHERE_LAMPS = 8 };    /* elsewhere_lit_lanes takes no more lamps; the rest is dark */
@@ -250,6 +258,36 @@ static inline float elsewhere_schlick(float f0, float v_dot_h)
     return f0 * (1 - f) + f;
 }
 
+/* Rows that multiply k_s for one lamp: the factor of distance and cone where N.L > 0, else 0 */
+static inline void elsewhere_amounts(const elsewhere_packet *k, const shade_light *lamp, float *rows)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const elsewhere_point p = elsewhere_at(k, i);
+        shade_vec3 L;
+        float amount = shade_light_at(lamp, p.P, &L, NULL);
+        if (!(shade_dot(p.N, L) > 0)) amount = 0;
+        rows[i] = rows[i + SHADE_LANES] = rows[i + 2 * SHADE_LANES] = amount;
+    }
+}
+
+/* Adds the highlight of a lamp as if its light came along its aim everywhere. */
+static inline void elsewhere_add_aimed(const elsewhere_packet *k, const shade_light *lamp,
+                                       float *rgb)
+{
+    shade_light along = shade_directional_light(lamp->spot_direction, lamp->specular);
+    shade_lighting single = k->all;
+    float factor[3 * SHADE_LANES], one[3 * SHADE_LANES];
+    shade_rows rows = k->rows;
+    single.lights = &along;
+    single.light_count = 1;
+    single.terms = SHADE_TERM_SPECULAR;
+    single.flags |= SHADE_FLAG_UNGATED_SPECULAR;
+    elsewhere_amounts(k, lamp, factor);
+    rows.specular = factor;
+    shade_lit_lanes(&single, &k->look->material, k->eye, &rows, one);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] += one[i];
+}
+
 /* Rows in place of k_s for one lamp: F times the look's number */
 static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp, float *rows)
 {
@@ -285,33 +323,72 @@ static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_li
     return shade_scale(shade_mul(k->material.diffuse, lamp->diffuse), weight * amount);
 }
 
-/* Adds what one lamp gives by a law other than iteration four; rows.visibility is the lamp's. */
-static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_light *lamp, float *rgb)
+/* Adds what one lamp gives; rows.visibility is the lamp's. */
+static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_light *lamp,
+                                      elsewhere_highlight highlight, float *rgb)
 {
     const elsewhere_law law = k->look->law;
-    float one[3 * SHADE_LANES] = { 0 }, fresnel[3 * SHADE_LANES];
+    float one[3 * SHADE_LANES], factor[3 * SHADE_LANES];
     shade_lighting single = k->all;
     shade_material material = k->look->material;
     shade_rows rows = k->rows;
+    memset(one, 0, sizeof one);
     single.lights = lamp;
     single.light_count = 1;
     single.terms = SHADE_TERM_SPECULAR;
-    if (law == ELSEWHERE_LAW_SCHLICK) {
+    if (law == ELSEWHERE_LAW_FOUR || law == ELSEWHERE_LAW_SCHLICK)
         single.terms |= SHADE_TERM_DIFFUSE;
-        elsewhere_fresnel(k, lamp, fresnel);
+    if (law == ELSEWHERE_LAW_SCHLICK) {
+        elsewhere_fresnel(k, lamp, factor);
         material.specular = shade_v3(1, 1, 1);
-        rows.specular = fresnel;
+        rows.specular = factor;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_SQUARED) {
+        elsewhere_amounts(k, lamp, factor);
+        rows.specular = factor;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_AIM) {
+        elsewhere_add_aimed(k, lamp, rgb);
+        single.terms = SHADE_TERM_DIFFUSE;
     }
-    if (law == ELSEWHERE_LAW_SCHLICK || law == ELSEWHERE_LAW_POWER)
+    if (law <= ELSEWHERE_LAW_POWER)
         shade_lit_lanes(&single, &material, k->eye, &rows, one);
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec3 other = { 0, 0, 0 };
-        if (law != ELSEWHERE_LAW_SCHLICK)
+        if (law >= ELSEWHERE_LAW_POWER)
             other = elsewhere_other(k->look, lamp, elsewhere_at(k, i));
         other = shade_scale(other, rows.visibility[i]);
         rgb[i] += one[i] + other.x;
         rgb[i + SHADE_LANES] += one[i + SHADE_LANES] + other.y;
         rgb[i + 2 * SHADE_LANES] += one[i + 2 * SHADE_LANES] + other.z;
+    }
+}
+
+/* Adds all lamps, each for itself, where one of them or the law is not iteration four's. */
+static inline void elsewhere_add_lamps(elsewhere_packet *k, const elsewhere_scene *s, float *rgb)
+{
+    const float *visibility = k->rows.visibility;
+    for (int j = 0; j < k->all.light_count; j++) {
+        const elsewhere_highlight odd =
+            j < s->lamp_count ? s->lamps[j].highlight : ELSEWHERE_HIGHLIGHT_PLAIN;
+        k->rows.visibility = &visibility[j * SHADE_LANES];
+        elsewhere_add_lamp(k, &k->all.lights[j], odd, rgb);
+    }
+    k->rows.visibility = visibility;
+}
+
+/* Light as shade_lit_lanes gives it, but that the sum without highlights has a bound */
+static inline void elsewhere_bounded(const elsewhere_packet *k, float *rgb)
+{
+    const float most[3] = { k->look->most.x, k->look->most.y, k->look->most.z };
+    shade_lighting terms = k->all;
+    float specular[3 * SHADE_LANES];
+    terms.terms = SHADE_TERM_SPECULAR;
+    shade_lit_lanes(&terms, &k->look->material, k->eye, &k->rows, specular);
+    terms.terms = SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+    shade_lit_lanes(&terms, &k->look->material, k->eye, &k->rows, rgb);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) {
+        const float bound = most[i / SHADE_LANES];
+        if (bound > 0) rgb[i] = fminf(rgb[i], bound);
+        rgb[i] += specular[i];
     }
 }
 
@@ -323,20 +400,22 @@ static inline void elsewhere_lit_lanes(const elsewhere_scene *s, const float *P,
     float visibility[(ELSEWHERE_LAMPS + 1) * SHADE_LANES];
     shade_light lamps[ELSEWHERE_LAMPS + 1];
     elsewhere_packet k = { .look = s->look, .rows = { P, N, NULL, NULL, visibility } };
-    shade_lighting ambient;
+    int apart = s->look->law != ELSEWHERE_LAW_FOUR;
     k.all = elsewhere_lighting(s, lamps, &k.eye);
-    for (int j = 0; j < k.all.light_count; j++)
-        for (int i = 0; i < SHADE_LANES; i++) {
-            float *v = &visibility[j * SHADE_LANES + i];
-            *v = j < s->lamp_count ? elsewhere_visibility(&s->lamps[j], elsewhere_at(&k, i).P) : 1;
-        }
-    ambient = k.all;
-    if (s->look->law != ELSEWHERE_LAW_FOUR) ambient.light_count = 0;
-    shade_lit_lanes(&ambient, &s->look->material, k.eye, &k.rows, rgb);
-    for (int j = 0; j < k.all.light_count && s->look->law != ELSEWHERE_LAW_FOUR; j++) {
-        k.rows.visibility = &visibility[j * SHADE_LANES];
-        elsewhere_add_lamp(&k, &lamps[j], rgb);
+    for (int j = 0; j < k.all.light_count; j++) {
+        const elsewhere_lamp *lamp = j < s->lamp_count ? &s->lamps[j] : NULL;
+        apart |= lamp && lamp->highlight;
+        for (int i = 0; i < SHADE_LANES; i++)
+            visibility[j * SHADE_LANES + i] =
+                lamp ? elsewhere_visibility(lamp, elsewhere_at(&k, i).P) : 1;
     }
+    if (apart) {
+        shade_lighting none = k.all;
+        none.light_count = 0;
+        shade_lit_lanes(&none, &s->look->material, k.eye, &k.rows, rgb);
+        elsewhere_add_lamps(&k, s, rgb);
+    } else
+        elsewhere_bounded(&k, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = elsewhere_encode(s->look, rgb[i]);
 }
 
@@ -477,6 +556,7 @@ typedef struct elsewhere_babylon_numbers {
 static inline elsewhere_look elsewhere_babylon(elsewhere_babylon_numbers v)
 {
     elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.most = shade_v3(1, 1, 1);
     k.material.emission = v.emissive;
     k.material.ambient = v.ambient;
     k.material.diffuse = v.diffuse;
@@ -514,6 +594,118 @@ static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
     elsewhere_look k = elsewhere_x_ite(v);
     k.viewer = ELSEWHERE_VIEWER_RAY;
     k.encoding = ELSEWHERE_ENCODING_GAMMA;
+    return k;
+}
+
+/* p5.js 1.11: fill, specularMaterial, shininess, in the order of its words from 0 to 1.  .73 N.L and
+   2 (R.V)^shininess, whatever the colours are; not gated; V to the camera's position even under
+   parallel projection.  Measured; totalLight of lighting.glsl. */
+typedef struct elsewhere_p5_numbers {
+    shade_vec3 fill, specular, emissive;
+    float shininess;
+} elsewhere_p5_numbers;
+static inline elsewhere_look elsewhere_p5(elsewhere_p5_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = k.material.diffuse = v.fill;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    k.diffuse = 0.73f;
+    k.specular = 2;
+    return k;
+}
+
+/* xeokit 2.6: PhongMaterial.  (R.V)^shininess, not gated.  A scene's AmbientLights are scene.ambient and count times diffuse; the
+   material's ambient counts only in a scene without other lights.  Measured. */
+typedef struct elsewhere_xeokit_numbers {
+    shade_vec3 diffuse, specular, emissive;
+    float shininess;
+} elsewhere_xeokit_numbers;
+static inline elsewhere_look elsewhere_xeokit(elsewhere_xeokit_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = k.material.diffuse = v.diffuse;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    return k;
+}
+
+/* vtk.js 37.4: vtkProperty, as VTK's, with other lamps.  Measured. */
+typedef elsewhere_vtk_numbers elsewhere_vtkjs_numbers;
+static inline elsewhere_look elsewhere_vtkjs(elsewhere_vtkjs_numbers v)
+{
+    return elsewhere_vtk(v);
+}
+
+/* Tachyon 0.99: TEXTURE with PHONG PLASTIC phong PHONG_SIZE phong_size.  (N.H)^n, or (R.V)^n with
+   -shade_phong (shade_phong here); the other -shade_ flags have laws of their own.  Lamps do not
+   multiply the ambient term, bytes are cut.  Measured. */
+typedef struct elsewhere_tachyon_numbers {
+    shade_vec3 color;
+    float ambient, diffuse, phong, phong_size, shade_phong;
+} elsewhere_tachyon_numbers;
+static inline elsewhere_look elsewhere_tachyon(elsewhere_tachyon_numbers v)
+{
+    elsewhere_look k =
+        elsewhere_plain(v.shade_phong > 0 ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse);
+    k.material.specular = elsewhere_grey(v.phong);
+    k.material.shininess = v.phong_size;
+    k.cut = 1;
+    return k;
+}
+
+/* Raster3D 3.0-7: header lines phong, straight, ambient, specular, and an object's colour.  k_d is
+   colour (1 - ambient - specular), k_a ambient colour; the highlight is white, of strength specular
+   (.2 + .8 sqrt(Y)) where Y = .3 R + .59 G + .11 B of the colour; (R.V)^phong.  The lamp weighs
+   1 - straight, a lamp at the camera straight.  Bytes are 255 sqrt(light).  Measured. */
+typedef struct elsewhere_raster3d_numbers {
+    shade_vec3 color;
+    float phong, straight, ambient, specular;
+} elsewhere_raster3d_numbers;
+static inline elsewhere_look elsewhere_raster3d(elsewhere_raster3d_numbers v)
+{
+    const float luminance = 0.3f * v.color.x + 0.59f * v.color.y + 0.11f * v.color.z;
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, 1 - v.ambient - v.specular);
+    k.material.specular = elsewhere_grey(v.specular * (0.2f + 0.8f * sqrtf(luminance)));
+    k.material.shininess = v.phong;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.encoding = ELSEWHERE_ENCODING_ROOT;
+    k.diffuse = k.specular = 1 - v.straight;
+    k.head_diffuse = k.head_specular = v.straight;
+    return k;
+}
+
+/* PyMOL 2.5.0, ray, with light_count 2 and spec_count 1: a lamp at the camera of strength direct
+   without a highlight, and the lamp of strength reflect 2 / (1 + z), z of the unit direction toward
+   it; a white highlight of that lamp alone, specular_intensity (N.H)^shininess.  Ambient light and
+   both lamps together are at most 1 before they meet the colour.  Bytes are cut.
+   Measured. */
+typedef struct elsewhere_pymol_numbers {
+    shade_vec3 color;
+    float ambient, direct, reflect, specular_intensity, shininess;
+} elsewhere_pymol_numbers;
+static inline elsewhere_look elsewhere_pymol(elsewhere_pymol_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = v.color;
+    k.material.specular = elsewhere_grey(v.specular_intensity);
+    k.material.shininess = v.shininess;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.cut = 1;
+    k.diffuse = v.reflect;
+    k.tilted = 1;
+    k.head_diffuse = v.direct;
+    k.most = v.color;
     return k;
 }
 
@@ -660,6 +852,59 @@ static inline elsewhere_lamp elsewhere_x3d_lamp(elsewhere_x3d_lamp_numbers v)
     lamp.inner = v.beamWidth;
     lamp.outer = v.cutOffAngle;
     lamp.light.spot_cos_cutoff = cosf(v.cutOffAngle);
+    return lamp;
+}
+
+/* p5.js 1.11: directionalLight, pointLight, spotLight, lightFalloff.  The highlight of a point lamp
+   has the square of 1 / (a + b r + c r^2), that of a spot does not.  angle is from the axis to the
+   edge, in radians, with cos^concentration.  Measured; totalLight of lighting.glsl. */
+typedef struct elsewhere_p5_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float angle, concentration;
+} elsewhere_p5_lamp_numbers;
+static inline elsewhere_lamp elsewhere_p5_lamp(elsewhere_p5_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.spot_cos_cutoff = cosf(v.angle);
+    lamp.light.spot_exponent = v.concentration;
+    if (v.at.w != 0 && shade_dot(v.aim, v.aim) == 0) lamp.highlight = ELSEWHERE_HIGHLIGHT_SQUARED;
+    return lamp;
+}
+
+/* vtk.js 37.4: vtkLight.  As VTK's, but that a cone of 90 is still one, and that the highlight of a
+   positional lamp stands where light along its aim would put it.  Measured; lights of
+   OpenGL/PolyDataMapper. */
+typedef elsewhere_vtk_lamp_numbers elsewhere_vtkjs_lamp_numbers;
+static inline elsewhere_lamp elsewhere_vtkjs_lamp(elsewhere_vtkjs_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_vtk_lamp(v);
+    if (v.at.w == 0) return lamp;
+    lamp.highlight = ELSEWHERE_HIGHLIGHT_AIM;
+    lamp.light.spot_direction = v.aim;
+    if (v.cone > 90) {
+        lamp.light.spot_cos_cutoff = -1;
+        lamp.light.spot_exponent = 0;
+    }
+    return lamp;
+}
+
+/* Tachyon 0.99: DIRECTIONAL_LIGHT, LIGHT, SPOTLIGHT.  A spot falls linearly in the angle from
+   Falloff_Start to Falloff_End, which are measured from the axis.  Measured. */
+typedef struct elsewhere_tachyon_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float start, end;
+} elsewhere_tachyon_lamp_numbers;
+static inline elsewhere_lamp elsewhere_tachyon_lamp(elsewhere_tachyon_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    if (shade_dot(v.aim, v.aim) > 0) lamp.rim = ELSEWHERE_RIM_ANGLE;
+    lamp.inner = shade_radians(v.start);
+    lamp.outer = shade_radians(v.end);
+    lamp.light.spot_cos_cutoff = cosf(lamp.outer);
     return lamp;
 }
 #endif

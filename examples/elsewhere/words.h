@@ -40,6 +40,15 @@ ELSEWHERE_ROW(x3dom, look)
 ELSEWHERE_ROW(three_lamp, lamp)
 ELSEWHERE_ROW(babylon_lamp, lamp)
 ELSEWHERE_ROW(x3d_lamp, lamp)
+ELSEWHERE_ROW(p5, look)
+ELSEWHERE_ROW(xeokit, look)
+ELSEWHERE_ROW(p5_lamp, lamp)
+ELSEWHERE_ROW(vtkjs, look)
+ELSEWHERE_ROW(vtkjs_lamp, lamp)
+ELSEWHERE_ROW(tachyon, look)
+ELSEWHERE_ROW(raster3d, look)
+ELSEWHERE_ROW(pymol, look)
+ELSEWHERE_ROW(tachyon_lamp, lamp)
 
 static const elsewhere_row elsewhere_rows[] = {
     { "vtk", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
@@ -70,6 +79,24 @@ static const elsewhere_row elsewhere_rows[] = {
       NULL, elsewhere_row_babylon_lamp },
     { "x3d_lamp", "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 intensity=1 radius=100 beamWidth=.7853982 cutOffAngle=1.5707963",
       NULL, elsewhere_row_x3d_lamp },
+    { "p5", "fill=1,1,1 specular=0,0,0 emissive=0,0,0 shininess=1",
+      elsewhere_row_p5, NULL },
+    { "xeokit", "diffuse=1,1,1 specular=1,1,1 emissive=0,0,0 shininess=80",
+      elsewhere_row_xeokit, NULL },
+    { "p5_lamp", "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 angle=1.0471976 concentration=100",
+      NULL, elsewhere_row_p5_lamp },
+    { "vtkjs", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
+      elsewhere_row_vtkjs, NULL },
+    { "vtkjs_lamp", "at=0,0,1,0 color=1,1,1 aim=0,0,0 cone=30 exponent=1 attenuation=1,0,0",
+      NULL, elsewhere_row_vtkjs_lamp },
+    { "tachyon", "color=1,1,1 ambient=0 diffuse=1 phong=0 phong_size=40 shade_phong=0",
+      elsewhere_row_tachyon, NULL },
+    { "raster3d", "color=1,1,1 phong=25 straight=.15 ambient=.05 specular=.25",
+      elsewhere_row_raster3d, NULL },
+    { "pymol", "color=1,1,1 ambient=.14 direct=.45 reflect=.45 specular_intensity=.5 shininess=55",
+      elsewhere_row_pymol, NULL },
+    { "tachyon_lamp", "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 start=20 end=40",
+      NULL, elsewhere_row_tachyon_lamp },
     { NULL, NULL, NULL, NULL }
 };
 

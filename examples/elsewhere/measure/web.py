@@ -14,6 +14,13 @@ MODULES = os.environ.get('MODULES', os.path.join(os.getcwd(), 'node_modules'))
 KINDS = {'.js': 'text/javascript', '.mjs': 'text/javascript', '.html': 'text/html',
          '.css': 'text/css', '.json': 'application/json', '.wasm': 'application/wasm'}
 
+BUNDLED = ('vtkjs',)    # whose modules a browser cannot load as they are; by esbuild@0.25.12 (npm)
+
+def bundle(page):
+    done = subprocess.run([os.path.join(MODULES, '.bin', 'esbuild'), os.path.join(HERE, 'web', page + '.js'), '--bundle',
+                           '--format=esm', '--log-level=error'], stdout=subprocess.PIPE, env=dict(os.environ, NODE_PATH=MODULES), check=True)
+    return done.stdout
+
 def pictures(page, asked):
     """asked: cases as dictionaries with a size each.  Returns their pixels."""
     got, done, faults = {}, threading.Event(), []
@@ -27,6 +34,7 @@ def pictures(page, asked):
             self.wfile.write(body)
         def do_GET(self):
             path = urlparse(self.path).path
+            if path == f'/{page}.js' and page in BUNDLED: return self.answer(bundle(page), 'text/javascript')
             if path == '/cases': return self.answer(json.dumps(asked).encode())
             base = os.path.dirname(MODULES) if path.startswith('/node_modules/') else os.path.join(HERE, 'web')
             if path.startswith('/node_modules/'): base, path = MODULES, path[len('/node_modules'):]
@@ -97,7 +105,41 @@ def babylon():
     measure('babylon', 'babylon', 'Babylon.js 9.35.0 StandardMaterial (npm)', every(m, directions()) + every(m[:1], lamps),
             Case('parallel', m[1], [dict(at=KEY)]), lamp='babylon_lamp', head='ambient .25\n')
 
-PROGRAMS = [three_phong, three_toon, three_lambert, babylon]
+X3D = [dict(diffuseColor=(.6, .3, .12), specularColor=(.3, .3, .3), shininess=.08),
+       dict(diffuseColor=(.6, .6, .6), specularColor=(.8, .8, .8), shininess=30 / 128),
+       dict(diffuseColor=(.14, .28, .63), specularColor=(.5, .4, .3), shininess=.8, emissiveColor=(.04, .08, .18))]
+
+def x_ite():
+    lamps = [[dict(at=(2, 1.5, 2.5, 1), attenuation=(0, .3, .05))], [dict(at=(2, 1.5, 2.5, 1), attenuation=(.2, .1, 0), radius=3)],
+             [dict(at=(1, 1, 3, 1), aim=(-1, -1, -3), beamWidth=.15, cutOffAngle=.35)],
+             [dict(at=(1, 1, 3, 1), aim=(-1, -1, -3), beamWidth=.5, cutOffAngle=.25)]]
+    measure('x_ite', 'x_ite', 'X_ITE 15.0.1 (npm)', every(X3D, directions()) + every(X3D[:1], lamps),
+            Case('parallel', X3D[1], [dict(at=KEY)]), lamp='x3d_lamp', head='ambient 0\n')
+
+def x3dom():
+    measure('x3dom', 'x3dom', 'X3DOM 1.8.3 (npm)', every(X3D, directions()), Case('parallel', X3D[1], [dict(at=KEY)]),
+            lamp='x3d_lamp', head='within 2.5\nambient 0\n')
+
+def p5():
+    m = [dict(fill=(.6, .3, .12), specular=(.2, .2, .2), shininess=10), dict(fill=(.6, .6, .6), specular=(.4, .4, .4), shininess=30),
+         dict(fill=(.2, .4, .8), specular=(.3, .2, .1), shininess=100)]
+    measure('p5', 'p5', 'p5.js 1.11.13 (npm)', every(m, directions()) + every(m[:1], [[dict(at=(2, 1.5, 2.5, 1), attenuation=(.5, .2, .1))]]),
+            Case('parallel', dict(fill=(.6 / .73,) * 3, specular=(.4, .4, .4), shininess=30), [dict(at=KEY)]), lamp='p5_lamp', head='ambient 0\n')
+
+def xeokit():
+    m = [dict(diffuse=(.6, .3, .12), specular=(.3, .3, .3), shininess=10), dict(diffuse=(.6, .6, .6), specular=(.8, .8, .8), shininess=30),
+         dict(diffuse=(.14, .28, .63), specular=(.5, .4, .3), shininess=100, emissive=(.04, .08, .18))]
+    measure('xeokit', 'xeokit', 'xeokit 2.6.114 PhongMaterial (npm)', every(m, directions()), Case('parallel', m[1], [dict(at=KEY)]), head='ambient 0\n')
+
+def vtkjs():
+    m = [dict(color=ORANGE, specular_color=WHITE, ambient=.1, diffuse=.6, specular=.3, power=10),
+         dict(color=WHITE, specular_color=WHITE, ambient=0, diffuse=.6, specular=.8, power=30),
+         dict(color=BLUE, specular_color=(1, .8, .6), ambient=.2, diffuse=.7, specular=.5, power=100)]
+    lamps = [[dict(at=(2, 1.5, 2.5, 1), aim=(-2, -1.5, -2.5))], [dict(at=(2, 1.5, 2.5, 1), aim=(-2, -1.5, -2.5), cone=15, exponent=20)],
+             [dict(at=(2, 1.5, 2.5, 1), aim=(-1, 0, 0), cone=120, exponent=20, attenuation=(.5, 0, .1))]]
+    measure('vtkjs', 'vtkjs', 'vtk.js 37.4.3 (npm)', every(m, directions()) + every(m[:1], lamps), Case('parallel', m[1], [dict(at=KEY)]), lamp='vtkjs_lamp')
+
+PROGRAMS = [three_phong, three_toon, three_lambert, babylon, x_ite, x3dom, p5, xeokit, vtkjs]
 if __name__ == '__main__':
     names = [a for a in sys.argv[1:] if not a.startswith('-')]
     failed = 0

@@ -5,6 +5,7 @@
      within 1.5       by how many of 255 a byte may differ; 1.5 where it is not said
      shift x y        where in a pixel the program's ray goes, from the pixel's centre
      ambient .5       I_a of its scenes, grey; 1 where it is not said
+     flat             perspective scales the ball, but draws it as parallel projection does
      pixels x,y ...   of pictures of 200 x 200
      case ...         the camera, a look and its lamps, as words.h reads them; then a line of the
                       bytes that the program drew, one word of six digits a pixel
@@ -21,6 +22,7 @@ static int passed, failed;
 typedef struct table {
     const char *name;
     float within, x, y, ambient; /* x, y: of shift */
+    int flat;
     int count, at[MOST][2];
     long pixels;
     double worst, squares, compared;
@@ -57,20 +59,22 @@ static int read_view(const char *text, float ambient, view *v, char *said, size_
     return 1;
 }
 
-/* Where the ray of a pixel meets the ball, out to .97 of its radius: 1, and *P is also N */
-static int meet(int parallel, float x, float y, int size, shade_vec3 *P)
+/* Where the ray of a pixel meets the ball, out to .98 of its radius: 1, and *P is also N */
+static int meet(const table *k, int parallel, float x, float y, int size, shade_vec3 *P)
 {
     const float u = 2 * x / (float)size - 1, w = 1 - 2 * y / (float)size;
     const float t = tanf(shade_radians(15));
     shade_vec3 from = { 1.25f * u, 1.25f * w, 5 }, to = { 0, 0, -1 };
     float b, d;
-    if (!parallel) {
+    if (!parallel && k->flat) {
+        from = shade_v3(5 * t * u, 5 * t * w, 5);
+    } else if (!parallel) {
         from = shade_v3(0, 0, 5);
         to = shade_normalize(shade_v3(t * u, t * w, -1));
     }
     b = shade_dot(from, to);
     d = b * b - shade_dot(from, from) + 1;
-    if (d < 1 - .97f * .97f) return 0;
+    if (d < 1 - .98f * .98f) return 0;
     *P = shade_madd(from, -b - sqrtf(d), to);
     return 1;
 }
@@ -113,7 +117,7 @@ static void compare_case(table *t, const char *text, const char *bytes)
         return;
     }
     for (int i = 0; i < t->count; i++)
-        if (!meet(v.scene.parallel, (float)t->at[i][0] + .5f + t->x,
+        if (!meet(t, v.scene.parallel, (float)t->at[i][0] + .5f + t->x,
                   (float)t->at[i][1] + .5f + t->y, SIZE, &points[i]))
             fail(t->name, "a pixel beside the ball");
     light(&v, points, t->count, rgb);
@@ -157,7 +161,7 @@ static void compare_ball(table *t, const char *path)
         fail(path, said);
     else {
         for (int i = 0; i < 96 * 96; i++)
-            if (meet(v.scene.parallel, (float)(i % 96) + .5f + t->x, (float)(i / 96) + .5f + t->y,
+            if (meet(t, v.scene.parallel, (float)(i % 96) + .5f + t->x, (float)(i / 96) + .5f + t->y,
                      96, &points[count]))
                 at[count++] = i;
         light(&v, points, count, rgb);
@@ -170,7 +174,7 @@ static void compare_ball(table *t, const char *path)
 static void compare_table(const char *path)
 {
     static char line[4000], bytes[4000];
-    table t = { path, 1.5f, 0, 0, 1, 0, { { 0 } }, 0, 0, 0, 0, "" };
+    table t = { path, 1.5f, 0, 0, 1, 0, 0, { { 0 } }, 0, 0, 0, 0, "" };
     char ball[300];
     FILE *f = fopen(path, "r");
     if (!f) {
@@ -180,6 +184,7 @@ static void compare_table(const char *path)
     while (fgets(line, sizeof line, f)) {
         line[strcspn(line, "\n")] = 0;
         sscanf(line, "within %f", &t.within);
+        if (!strcmp(line, "flat")) t.flat = 1;
         sscanf(line, "ambient %f", &t.ambient);
         sscanf(line, "shift %f %f", &t.x, &t.y);
         if (!strncmp(line, "pixels ", 7)) read_pixels(&t, line + 7);
