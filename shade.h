@@ -127,7 +127,7 @@
 #endif
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10300    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10400    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options.  Define them before the #include, with the same value in every file of a program.
@@ -10714,8 +10714,8 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md says
-   what each brought.
+   1.4 of 2026-11-29, 1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21;
+   CHANGELOG.md says what each brought.
    From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */
 
