@@ -47,9 +47,11 @@ build/%: %.c build/shade.o $(HEADERS)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o $(LDFLAGS) -lm $(LIBRARIES) -o $@
 build/19_threads: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
+# what a lesson prints, its captions too, stands beside its picture
+$(NUMBERED:%=build/%): EXACT += -DLABEL_SAY
 out/%.ppm: build/%
 	@mkdir -p out
-	build/$* $@
+	build/$* $@ >out/$*.txt
 out/gallery.ppm: build/contact $(POSTER:%=out/%.ppm)
 	build/contact $@ $(POSTER:%=out/%.ppm)
 
