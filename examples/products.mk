@@ -8,7 +8,7 @@
 # make playground    the equation and four courses as web pages, build/playground/index.html
 # make course        pages and slides of the courses alone, and their slides with answers as PDF
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
-# make assignments   tries the grader of the assignments: solutions, wrong answers, cheats
+# make assignments   tries the grader: solutions, wrong answers, what holds programs
 # make format        lays out kit and programs by .clang-format (clang-format 14); FORMAT=files
 
 # view and batch need POSIX; the window of view SDL2 (libsdl2-dev), its sixels libsixel

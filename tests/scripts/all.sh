@@ -41,6 +41,7 @@ build build/golden pictures
 # G15
 step pictures build/golden out/*.ppm
 step shown sh examples/pictures/gallery.sh --check
+step png sh tests/scripts/png.sh
 step readme sh tests/scripts/readme.sh
 wait
 cat "$T"/*.count | awk '{ p += $1; f += $2 } END { printf "%d passed, %d failed\n", p, f; exit f > 0 }'
