@@ -53,37 +53,37 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     132  options               >>types      261  materials, targets, states
-       >>light      446  the equation, colour  >>draw       555  shaders, meshes, pixels
-       >>tools      714  explain, lines, rays  >>plumbing   927  compilers, flags and bits
-       >>math      1068  vectors and matrices
+       >>config     132  options               >>types      266  materials, targets, states
+       >>light      451  the equation, colour  >>draw       560  shaders, meshes, pixels
+       >>tools      719  explain, lines, rays  >>plumbing   932  compilers, flags and bits
+       >>math      1094  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1436  processors            >>base      1671  bits, masks, rows of vectors
-       >>matrix    1868  cameras, inverses     >>power     2156  x^n
-       >>pixels    2222  formats, sRGB
+       >>machine   1462  processors            >>base      1697  bits, masks, rows of vectors
+       >>matrix    1894  cameras, inverses     >>power     2182  x^n
+       >>pixels    2248  formats, sRGB
      Inside: light
-       >>lamps     2533  attenuation, cones    >>terms     2785  one term at one point
-       >>surface   2860  material and lights   >>lit       2977  the whole sum, at many points
+       >>lamps     2559  attenuation, cones    >>terms     2811  one term at one point
+       >>surface   2886  material and lights   >>lit       3003  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3367  fields by owner       >>vertices  3580  shading, projection
-       >>triangles 3782  culling, edge setup   >>clip      4136  near, far, guard band
-       >>tiles     4323  edges and depth test  >>cover     4685  triangles, tile by tile
-       >>fragments 4953  interpolation, lod    >>texture   5228  texels, filters
-       >>store     5678  blending, packing
+       >>state     3393  fields by owner       >>vertices  3606  shading, projection
+       >>triangles 3808  culling, edge setup   >>clip      4162  near, far, guard band
+       >>tiles     4349  edges and depth test  >>cover     4711  triangles, tile by tile
+       >>fragments 4979  interpolation, lod    >>texture   5254  texels, filters
+       >>store     5704  blending, packing
      Inside: calls of the renderer
-       >>check     5929  refusals              >>seen      6187  view volume, chunks
-       >>drive     6307  shade_draw            >>mesh      6497  shade_draw_mesh
+       >>check     5955  refusals              >>seen      6215  view volume, chunks
+       >>drive     6335  shade_draw            >>mesh      6525  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6901  shade_draw_lines      >>camera    7093  eye and line of sight
-       >>shape     7187  normals, edges        >>chunks    7574  sorting and boxes
-       >>rays      7737  shade_pick            >>image     7928  smaller pictures, mipmaps
-       >>files     8241  PPM and PNG           >>presets   8560  classic materials
+       >>lines     6929  shade_draw_lines      >>camera    7121  eye and line of sight
+       >>shape     7215  normals, edges        >>chunks    7602  sorting and boxes
+       >>rays      7765  shade_pick            >>image     7956  smaller pictures, mipmaps
+       >>files     8269  PPM and PNG           >>presets   8588  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>survey    8643  experiments on a draw >>explain   9105  why nothing is seen
-       >>replay   10285  the same for lines, pipelines
+       >>survey    8671  experiments on a draw >>explain   9133  why nothing is seen
+       >>replay   10313  the same for lines, pipelines
      Sources
-       >>refs     10655                        >>history  10688
-       >>license  10694
+       >>refs     10683                        >>history  10716
+       >>license  10722
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -127,7 +127,7 @@
 #endif
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10300    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10400    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options.  Define them before the #include, with the same value in every file of a program.
@@ -138,7 +138,8 @@
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          checks the library's own invariants; default assert(x)
      SHADE_LANES              vertices or fragments in a packet, the unit that shaders work on: a
-                              power of two from 8 to 256; default 128; 16 suits small stacks
+                              power of two from 8 to 256; default 128, but 16 for Arm's M
+                              profile (Cortex-M), because small packets suit small stacks
      SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
                               both 11; with a fragment shader of your own 11
@@ -170,7 +171,11 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
 #include <stdint.h>
 
 #ifndef SHADE_LANES
+#if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
+#define SHADE_LANES 16
+#else
 #define SHADE_LANES 128
+#endif
 #endif
 #ifndef SHADE_MAX_VARYINGS
 #define SHADE_MAX_VARYINGS 16
@@ -950,15 +955,33 @@ SHADE__CLOSE
    in an order that avoids this, and SHADE_EACH_LANE has a 64-bit counter in tcc.
                                                                                            >>math */
 
-/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
-   once did; SHADE__BEGIN turns that off for this file. */
-#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+/* Floats must be evaluated as floats, denormal ones too.  Compilers that do otherwise are refused,
+   without further errors.  On s390x gcc -std=c99 evaluates floats as doubles, as glibc once did;
+   SHADE__BEGIN turns that off for this file.  m68k -m68040 says that it evaluates floats as floats,
+   but only rounds their mantissa. */
+#define SHADE__EVAL_FLOAT
+#if FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53 || (defined(__SIZEOF_INT__) && __SIZEOF_INT__ < 4)
+#error "shade.h needs an int of 32 bits, and IEEE numbers: a float of 24 bits, a double of 53"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+#undef SHADE__EVAL_FLOAT
 #define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
+#elif defined(__m68k__) && defined(__HAVE_68881__)
+#error "shade.h: the registers of this FPU are wider than floats; for m68k: -msoft-float"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__ALTIVEC__) && !defined(__VSX__)
+#error "shade.h: AltiVec takes denormal floats for 0; for POWER: -mno-altivec, or -mvsx"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__TINYC__) && defined(__i386__)
+#error "shade.h: tcc for i386 evaluates floats in a wider type; use gcc -msse2 -mfpmath=sse"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__PCC__)
+#error "shade.h: pcc 1.2.0 loses structs that nested calls return; use gcc, clang or tcc"
+#undef SHADE_IMPLEMENTATION
 #elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
 s390x: -std=gnu99 or -fexcess-precision=fast"
-#else
-#define SHADE__EVAL_FLOAT
+#undef SHADE_IMPLEMENTATION
 #endif
 
 /* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
@@ -991,8 +1014,11 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 
 /* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
    and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
-#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again.  AltiVec's fma
+   takes denormal numbers for 0: there the fma is one of doubles, which is exact, rounded once. */
+#if defined(__ALTIVEC__) && defined(SHADE__GNU) && !defined(__clang__)
+#define SHADE__TIMES(a, b) ((float)__builtin_fma((double)(a), (double)(b), -0.0))
+#elif defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
     (defined(__cplusplus) || !defined(__STRICT_ANSI__))
 #define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
 #else
@@ -6171,16 +6197,18 @@ static int shade__any_overlap(const shade__pieces *array, int outs, int n)
    each other, the positions, indices or chunks of the mesh, or itself. */
 static shade_result shade__check_outs(const shade_mesh *m, shade__pieces out, shade__pieces other)
 {
-    const size_t corners = (size_t)shade__corner_count(m), chunks = (size_t)m->chunk_count;
-    const size_t size = sizeof(shade_vec3);
-    const shade__pieces array[] = {
-        out, other, shade__array(m, sizeof *m),
-        { m->positions, (size_t)m->vertex_count, size,
-          m->position_stride ? (size_t)m->position_stride : size },
-        shade__array(m->indices, corners * sizeof *m->indices),
-        shade__array(m->indices16, corners * sizeof *m->indices16),
-        shade__array(m->chunks, chunks * sizeof *m->chunks)
-    };
+    const size_t corners = (size_t)shade__corner_count(m);
+    shade__pieces array[7];
+    array[0] = out;
+    array[1] = other;
+    array[2] = shade__array(m, sizeof *m);
+    array[3] = shade__array(m->indices, corners * sizeof *m->indices);
+    array[4] = shade__array(m->indices16, corners * sizeof *m->indices16);
+    array[5] = shade__array(m->chunks, (size_t)m->chunk_count * sizeof *m->chunks);
+    array[6].first = m->positions;
+    array[6].count = (size_t)m->vertex_count;
+    array[6].size = sizeof(shade_vec3);
+    array[6].stride = m->position_stride ? (size_t)m->position_stride : array[6].size;
     return shade__any_overlap(array, 2, 7) ? SHADE_ERROR_ARGUMENT : SHADE_OK;
 }
 
@@ -10686,8 +10714,8 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md says
-   what each brought.
+   1.4 of 2026-11-29, 1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21;
+   CHANGELOG.md says what each brought.
    From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */
 

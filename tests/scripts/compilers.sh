@@ -145,6 +145,27 @@ for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g+
 done
 
 # G12
+# What would draw other bits is refused: by one error, which names the remedy, and none behind it.
+refused() {                     # text, compiler and flags
+    text=$1; shift
+    "$@" -w -I. -c "$T/impl.c" -o "$T/impl.o" >"$T/said" 2>&1 && { echo "taken"; return 1; }
+    cat "$T/said"
+    grep -q "shade.h.*$text" "$T/said" && same "$(grep -c 'error' "$T/said")" "$lines"
+}
+refusal() {                     # lines that hold "error", text, compiler and flags
+    lines=$1; shift
+    if there "$2"; then check "refused: $2 $3" refused "$@"; else left_out "refused: $2"; fi
+}
+refusal 2 "int of 32 bits" avr-gcc -mmcu=atmega2560 -DSHADE_NO_LIBM
+refusal 2 "m68k: -msoft-float" m68k-linux-gnu-gcc -m68020
+refusal 2 "m68k: -msoft-float" m68k-linux-gnu-gcc -m68040
+refusal 2 "mno-altivec" powerpc-linux-gnu-gcc -maltivec
+refusal 2 "mno-altivec" powerpc64le-linux-gnu-gcc -mno-vsx
+refusal 2 "mfpmath=sse" gcc -m32 -mno-sse -DSHADE_NO_LIBM -ffreestanding
+refusal 1 "use gcc" i386-tcc -I/usr/i686-linux-gnu/include
+refusal 2 "use gcc" pcc
+
+# G12
 # README's program: in C as GNU's C17 behind headers that declare what it might; in C++20
 ${MAKE:-make} -s build/knot.c && cp build/knot.c "$T/program.c"
 { printf '#ifndef __TINYC__\n#include <complex.h>\n#endif\n'

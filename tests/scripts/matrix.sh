@@ -55,6 +55,16 @@ for std in "" "-std=c99"; do
 done
 one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static -O3 -ffp-contract=fast
 
+one "ppc64le" qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O2
+if [ "$LONG" ]; then
+    far_machines >"$T/far"
+    while read -r runner command <&3; do
+        one "$command" "$runner" $command -static
+    done 3<"$T/far"
+else
+    left_out "$(far_machines | wc -l) processors more, with LONG=1"
+fi
+
 # gcc heeds the header under -ffast-math too; clang is refused
 build=builds_fast static=
 for flags in -Ofast "-O3 -march=native -ffast-math" \
