@@ -163,9 +163,9 @@ static void picture_load(model *m, int number, const char *path, int outside)
         snprintf(error, sizeof error,
                  "%s: it lies outside of the model's folder; --outside reads it", name);
     for (int attempt = !beside_model; attempt < 2 && failed; attempt++) {
-        mesh_reader r = mesh_about(name, error, attempt ? 0 : sizeof error);
-        char *beside = model_beside(path, attempt ? last : name);
-        failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
+        char *beside = NULL;
+        failed = model_load_file(path, attempt ? last : name, MODEL_PICTURE_BYTES, &bytes, &size,
+                                 &beside, error, attempt ? 0 : sizeof error);
         if (failed)
             free(beside);
         else

@@ -244,7 +244,11 @@ static inline int model_load_file(const char *path, const char *name, double mos
 {
     mesh_reader r = mesh_about(name, error, room);
     *where = model_beside(path, name);
-    return *where ? model_load(&r, *where, most, bytes, size) : mesh_fail(&r, "out of memory");
+    if (!*where) return mesh_fail(&r, "out of memory");
+    if (!model_load(&r, *where, most, bytes, size)) return 0;
+    if (errno == ENOENT && model_is_alone(path))
+        mesh_fail(&r, "%s: it may be hidden, for the folder shows the model alone", strerror(ENOENT));
+    return 1;
 }
 
 /* Appends copies of some vertices to an array of a mesh.  Returns non-zero where memory is out. */
