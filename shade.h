@@ -53,37 +53,38 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     132  options               >>types      261  materials, targets, states
-       >>light      446  the equation, colour  >>draw       554  shaders, meshes, pixels
-       >>tools      713  explain, lines, rays  >>plumbing   911  compilers, flags and bits
-       >>math      1052  vectors and matrices
+       >>config     133  options               >>types      262  materials, targets, states
+       >>light      447  the equation, colour  >>draw       555  shaders, meshes, pixels
+       >>tools      714  explain, lines, rays  >>plumbing   912  compilers, flags and bits
+       >>math      1053  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1416  processors            >>base      1651  bits, masks, rows of vectors
-       >>matrix    1848  cameras, inverses     >>power     2131  x^n
-       >>pixels    2197  formats, sRGB
+       >>machine   1417  processors            >>base      1652  bits, masks, rows of vectors
+       >>matrix    1849  cameras, inverses     >>power     2132  x^n
+       >>pixels    2198  formats, sRGB
      Inside: light
-       >>lamps     2508  attenuation, cones    >>terms     2760  one term at one point
-       >>surface   2835  material and lights   >>lit       2952  the whole sum, at many points
+       >>lamps     2509  attenuation, cones    >>terms     2761  one term at one point
+       >>surface   2836  material and lights   >>lit       2953  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3342  fields by owner       >>vertices  3555  shading, projection
-       >>triangles 3757  culling, edge setup   >>clip      4111  near, far, guard band
-       >>tiles     4298  edges and depth test  >>cover     4660  triangles, tile by tile
-       >>fragments 4928  interpolation, lod    >>texture   5203  texels, filters
-       >>store     5653  blending, packing
+       >>state     3343  fields by owner       >>vertices  3556  shading, projection
+       >>triangles 3758  culling, edge setup   >>clip      4112  near, far, guard band
+       >>tiles     4299  edges and depth test  >>cover     4661  triangles, tile by tile
+       >>fragments 4929  interpolation, lod    >>texture   5204  texels, filters
+       >>store     5654  blending, packing
      Inside: calls of the renderer
-       >>check     5904  refusals              >>seen      6111  view volume, chunks
-       >>drive     6231  shade_draw            >>mesh      6421  shade_draw_mesh
+       >>check     5905  refusals              >>seen      6112  view volume, chunks
+       >>drive     6232  shade_draw            >>mesh      6422  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6825  shade_draw_lines      >>camera    7017  eye and line of sight
-       >>shape     7111  normals, edges        >>chunks    7488  sorting and boxes
-       >>rays      7647  shade_pick            >>image     7838  makes mipmaps, PPM
-       >>presets   8181  classic materials
+       >>lines     6826  shade_draw_lines      >>camera    7018  eye and line of sight
+       >>shape     7112  normals, edges        >>chunks    7489  sorting and boxes
+       >>rays      7648  shade_pick            >>image     7839  makes mipmaps, PPM
+       >>presets   8182  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>survey    8264  experiments on a draw >>explain   8726  why nothing is seen
-       >>replay    9906  the same for lines, pipelines
+       >>replay    8265  shaders, run again    >>survey    8457  experiments on a draw
+       >>numbers   8956  what makes no sense   >>unseen    9251  why nothing is seen
+       >>black     9716  why all is black      >>wrong    10013  what is wrong; the calls
      Sources
-       >>refs     10276                        >>history  10306
-       >>license  10312
+       >>refs     10531                        >>history  10561
+       >>license  10567
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8180,7 +8181,7 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
 
 /*---------------------------------------------------------------------------------------- >>presets
    The classic materials, as colours of a display.
-     source  [Kilgard94]                                                                 >>survey */
+     source  [Kilgard94]                                                                 >>replay */
 
 /* One row of the table: name; k_a, k_d, k_s, shininess / 128. */
 typedef struct shade__preset_entry {
@@ -8261,13 +8262,205 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
 
 #ifndef SHADE_NO_EXPLAIN
 
+/*----------------------------------------------------------------------------------------- >>replay
+   A pipeline, or lines, are drawn again without a picture, and what their shaders return is
+   counted.
+     in      arguments of shade_draw or shade_draw_lines       out  a shade__tally
+     method  Shaders of this section call the given ones and look at what these wrote.
+     holds   The caller's memory is only read, unless the caller's own shaders write.
+     way     run_again: replay_vertex, replay_fragment: count_colors: count_color       >>survey */
+
+/* What a fragment shader returned for some fragments, without those that it discards. */
+typedef struct shade__shades {
+    long long count;
+    long long nan;           /* of these: a channel is NaN, and 0 or NaN in the picture; */
+    long long clear;         /* alpha is 0 or less; */
+    long long none;          /* no channel is above 0; */
+    long long dark;          /* no channel is above 8 of 255; */
+    long long bright;        /* a channel is 16 or more */
+} shade__shades;
+
+/* What the shaders returned in one run. */
+typedef struct shade__tally {
+    shade_stats stats;                   /* fragments: neither discarded nor hidden */
+    uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
+    int         any_w, other_w;          /* 1: some w is not 0; some w is not 1 */
+    long long   fragments, discarded;    /* all of them, hidden or not; of these */
+    shade__shades all, seen;             /* seen: those that have the stored depth */
+} shade__tally;
+
+/* A draw that is run again. */
+typedef struct shade__replay {
+    const shade_target *target;          /* the caller's */
+    const shade_line_state *lines;       /* NULL: the pipeline is the caller's */
+    const shade__stroke *stroke;         /* of lines */
+    shade__indices      indices;
+    int                 corners;
+    shade_pipeline      pipe;            /* the given one */
+    shade_mesh          mesh;            /* zero, and all but the raster of state: what a survey */
+    shade_draw_state    state;           /* has in place of a mesh */
+} shade__replay;
+
+/* One run of it, for its shaders. */
+typedef struct shade__rerun {
+    const shade__replay *replay;
+    shade_vertex_shader *vertex;
+    float                far_depth, far_margin;    /* depths this near to far_depth do not count */
+    shade__tally        *tally;
+} shade__rerun;
+
+/* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
+static float shade__dim_of(const shade_target *t)
+{
+    const shade__layout *l = &shade__layouts[t->format];
+    const float dim = 8.5f / 255;
+    if (l->bytes == 16) return FLT_MIN;
+    return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
+}
+
+/* Is the pixel's channel k stored as 0 or NaN?   pre: the pixel is in the clip rectangle */
+static int shade__is_stored_dark(const shade_target *t, int x, int y, int k)
+{
+    const shade__layout *l = &shade__layouts[t->format];
+    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
+    float light;
+    if (l->bytes == 16) SHADE_MEMCPY(&light, p + 4 * k, 4);
+    else light = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k);
+    return !(light > 0) && !(light < 0);
+}
+
+/* Counts the colour of lane i. */
+static void shade__count_color(const shade_target *t, const shade_fragments *in,
+                               const shade_colors *c, int i, shade_blend blend, float dim,
+                               shade__shades *to)
+{
+    const float alpha = c->color[3][i];
+    const int veiled = blend == SHADE_BLEND_OVER && alpha != alpha;
+    const int x = (int)in->x[i], y = (int)in->y[i];
+    float most = 0;
+    int nan = 0;
+    for (int k = 0; k < 3; k++) {
+        const float light = c->color[k][i];
+        const int is_nan = light != light || veiled;
+        nan |= is_nan && shade__is_stored_dark(t, x, y, k);
+        most = shade__maxf(light, most);
+    }
+    to->count++;
+    to->nan += nan;
+    to->clear += alpha <= 0;
+    to->none += most <= 0;
+    to->dark += most < dim;
+    to->bright += most >= 16;
+}
+
+/* Is the depth of lane i the stored one? */
+static int shade__has_stored_depth(const shade_target *t, const shade_fragments *in, int i)
+{
+    return t->depth &&
+           t->depth[shade__offset_of(t, (int)in->x[i], (int)in->y[i])] == in->z[i];
+}
+
+/* Counts the colours of a packet in the caller's clip rectangle. */
+static void shade__count_colors(const shade_target *t, const shade_fragments *in,
+                                const shade_colors *c, const shade_raster *raster,
+                                shade__tally *tally)
+{
+    const float dim = shade__dim_of(t);
+    int clip[4];
+    shade__clip_rectangle(t, clip);
+    for (int i = 0; i < in->count; i++) {
+        const int x = (int)in->x[i], y = (int)in->y[i];
+        if (c->discard[i] || x < clip[0] || y < clip[1] || x >= clip[2] || y >= clip[3]) continue;
+        shade__count_color(t, in, c, i, raster->blend, dim, &tally->all);
+        if (shade__has_stored_depth(t, in, i))
+            shade__count_color(t, in, c, i, raster->blend, dim, &tally->seen);
+    }
+}
+
+static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                 shade_vertices *SHADE_RESTRICT out)
+{
+    const shade__rerun *run = (const shade__rerun *)uniforms;
+    const shade_pipeline *pipe = &run->replay->pipe;
+    run->vertex(pipe->uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        const float x = out->clip[0][i], y = out->clip[1][i], w = out->clip[3][i];
+        const uint32_t bits =
+            shade__outcode(x, y, out->clip[2][i], w, pipe->raster.depth_zero_to_one);
+        if (!(bits & SHADE__OUT_BAD)) run->tally->outside &= bits;
+        run->tally->any_w |= w != 0;
+        run->tally->other_w |= w != 1;
+    }
+}
+
+/* Calls the given shader if a draw would. */
+static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                   shade_colors *SHADE_RESTRICT out)
+{
+    const shade__rerun *run = (const shade__rerun *)uniforms;
+    const shade_pipeline *pipe = &run->replay->pipe;
+    const shade_target *target = run->replay->target;
+    shade__tally *t = run->tally;
+    if (pipe->fragment && (target->color || pipe->may_discard))
+        pipe->fragment(pipe->uniforms, in, out);
+    t->fragments += in->count;
+    for (int i = 0; i < in->count; i++) {
+        t->discarded += out->discard[i] != 0;
+        if (!pipe->may_discard) out->discard[i] = 0;
+        if (run->far_margin > 0 && shade__within(in->z[i] - run->far_depth, run->far_margin))
+            out->discard[i] = 1;
+    }
+    if (pipe->fragment && target->color)
+        shade__count_colors(target, in, out, &pipe->raster, t);
+}
+
+/* Runs the draw, with a raster and into a picture that may differ from the given ones; margin is
+   the far_margin of a survey.  vertex NULL: the given one. */
+static shade__tally shade__run_again(const shade__replay *r, const shade_target *picture,
+                                     const shade_raster *raster, shade_vertex_shader *vertex,
+                                     const float margin[2])
+{
+    shade__rerun run;
+    shade__tally tally;
+    shade__supply supply;
+    shade_target t = *picture;
+    shade_pipeline p = r->pipe;
+    SHADE__ZERO(tally);
+    tally.outside = ~0u;
+    run.replay = r;
+    run.vertex = vertex ? vertex : p.vertex;
+    run.far_depth = margin[0];
+    run.far_margin = margin[1];
+    run.tally = &tally;
+    t.color = NULL;
+    p.vertex = shade__replay_vertex;
+    p.fragment = shade__replay_fragment;
+    p.uniforms = &run;
+    p.raster = *raster;
+    p.may_discard = p.raster.depth_read_only = 1;
+    shade__supply_all(r->indices, r->corners, &supply);
+    shade__run_draw(&t, &p, 0, shade_v3(0, 0, 0), &supply, &tally.stats);
+    return tally;
+}
+
+/* The clip-space positions of points, each three times. */
+static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                shade_vertices *SHADE_RESTRICT out)
+{
+    double end[4];
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade__stroke_end((const shade__stroke *)uniforms, in->index[i] / 3, end);
+        for (int k = 0; k < 4; k++) out->clip[k][i] = (float)end[k];
+    }
+}
+
 /*----------------------------------------------------------------------------------------- >>survey
-   Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
-     in      arguments of shade_draw_mesh  out  numbers of pixels, stats; depths of some pixels
+   Experiments: a draw is made again with something changed, and pixels are counted.
+     in      arguments of a draw           out  numbers of pixels, stats; depths of some pixels
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
-             caller's memory is only read, and the caller's fragment shader is not called.
+             caller's memory is only read.  The mesh's fragment shader is called by tally_of alone.
      way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
-             draw_scene of >>mesh, with judge as its fragment shader                    >>explain */
+             draw_scene of >>mesh, with judge as its fragment shader; or run_again      >>numbers */
 
 enum {
     SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
@@ -8284,6 +8477,7 @@ typedef struct shade__probe {
 /* The given draw, and the one drawn in its place.  No pointer leads into the survey itself, so that
    a copy is a survey of its own. */
 typedef struct shade__survey {
+    const shade__replay    *replay;      /* the draw, if it is not one of a mesh; NULL: a mesh */
     const shade_target     *target;      /* the caller's */
     const shade_mesh       *given_mesh;
     const shade_draw_state *given_state;
@@ -8315,6 +8509,7 @@ typedef struct shade__trial {
     float         least;                 /* pixels count if a channel has this; 0: all do */
     uint32_t      every;                 /* samples one pixel of this many; 0: none */
     shade__probe *probes;
+    shade__tally *tally;                 /* for shade__tally_mesh */
 } shade__trial;
 
 /* Notes the depth of lane i, if its pixel is sampled. */
@@ -8375,7 +8570,19 @@ static void shade__judge(const void *uniforms, const shade_fragments *SHADE_REST
     }
 }
 
-/* Draws the survey.   pre: least, every and probes of the trial are set */
+/* Calls the mesh's own fragment shader, and counts what it returns. */
+static void shade__tally_mesh(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                              shade_colors *SHADE_RESTRICT out)
+{
+    const shade__trial *trial = (const shade__trial *)uniforms;
+    const shade__survey *s = trial->survey;
+    shade__mesh_fragment(&trial->scene, in, out);
+    trial->tally->fragments += in->count;
+    for (int i = 0; i < in->count; i++) trial->tally->discarded += out->discard[i] != 0;
+    shade__count_colors(s->target, in, out, &s->state.raster, trial->tally);
+}
+
+/* Draws the mesh of a survey.   pre: least, every and probes of the trial are set */
 static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial)
 {
     shade_target t = s->picture;
@@ -8383,7 +8590,7 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     shade_stats stats;
     state.material = &s->material;
     if (s->lamps_replaced) state.lighting.lights = s->lamp;
-    if (!(trial->least > 0)) t.color = NULL;
+    if (!(trial->least > 0) && !trial->tally) t.color = NULL;
     shade__scene_of(&t, &s->mesh, &state, &trial->scene);
     trial->scene.white_map = s->white_map;
     if (s->eye_replaced) {
@@ -8393,14 +8600,44 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     }
     trial->survey = s;
     t.color = NULL;
-    shade__draw_scene(&t, &trial->scene, shade__judge, 1, &stats);
+    shade__draw_scene(&t, &trial->scene, trial->tally ? shade__tally_mesh : shade__judge, 1,
+                      &stats);
     return stats;
 }
 
-/* Returns the stats of a drawing.  fragments counts pixels with a channel of least or more. */
+/* Runs lines or a pipeline.  vertex NULL: the given shader. */
+static shade__tally shade__replay_of(const shade__survey *s, shade_vertex_shader *vertex)
+{
+    const float far_depth[2] = { s->farthest, s->far_margin };
+    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_depth);
+}
+
+/* Counts the colours of all fragments in the clip rectangle.   pre: there is a fragment shader of
+   the caller, or the draw is one of lines */
+static shade__tally shade__tally_of(const shade__survey *s)
+{
+    shade__survey q = *s;
+    shade__trial trial;
+    shade__tally tally;
+    q.picture = *s->target;
+    q.picture.depth = NULL;
+    if (s->replay) return shade__replay_of(&q, NULL);
+
+    q.state.fragment = s->given_state->fragment;
+    q.state.alpha_cutoff = s->given_state->alpha_cutoff;
+    SHADE__ZERO(trial);
+    SHADE__ZERO(tally);
+    trial.tally = &tally;
+    tally.stats = shade__draw_trial(&q, &trial);
+    return tally;
+}
+
+/* Returns the stats of a drawing.  fragments counts pixels with a channel of least or more; all, if
+   the draw is not one of a mesh. */
 static shade_stats shade__stats_of(const shade__survey *s, float least)
 {
     shade__trial trial;
+    if (s->replay) return shade__replay_of(s, NULL).stats;
     SHADE__ZERO(trial);
     trial.least = least;
     return shade__draw_trial(s, &trial);
@@ -8411,7 +8648,7 @@ static long long shade__count(const shade__survey *s, float least)
     return shade__stats_of(s, least).fragments;
 }
 
-/* Returns how many pixels the mesh covers. */
+/* Returns how many pixels are covered. */
 static long long shade__covered(const shade__survey *s) { return shade__count(s, 0); }
 
 /* Is a pixel of the mesh brighter than 8 of 255?  Highlights may lie between pixels. */
@@ -8542,15 +8779,6 @@ static int shade__lights_up(const shade__survey *s)
     return shade__has_pixels(s, 1.5f * s->dim, FLT_MAX);
 }
 
-/* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
-static float shade__dim_of(const shade_target *t)
-{
-    const shade__layout *l = &shade__layouts[t->format];
-    const float dim = 8.5f / 255;
-    if (l->bytes == 16) return FLT_MIN;
-    return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
-}
-
 /* Makes a survey of the given draw: all its fragments, and depth is not written. */
 static void shade__open_survey(const shade_target *target, const shade_mesh *mesh,
                                const shade_draw_state *state, const shade_stats *stats,
@@ -8676,6 +8904,8 @@ static uint32_t shade__outside(const shade__survey *s)
     const double *z = s->camera.row[2];
     shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     uint32_t all = ~0u;
+    if (s->replay)
+        return shade__replay_of(s, s->replay->lines ? shade__point_vertex : NULL).outside;
     m = shade__mat4_product(&m, &s->state.model);
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
@@ -8723,19 +8953,11 @@ static int shade__faces_ahead(const shade__camera *c)
                                               shade__dot3(c->row[3], c->row[3]);
 }
 
-/*---------------------------------------------------------------------------------------- >>explain
-   Why a draw gives no picture, or the wrong one, in one sentence.
-     in      arguments of shade_draw_mesh, its stats   out  a constant sentence; "" for nothing
-     method  First come numbers that make no sense, then ladders: tables of changes and sentences,
-             tried from top to bottom.  For example: with culling off, are there pixels?  Then
-             raster.cull is at fault.
-     holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
-             Black: none is brighter than 8 of 255.  A band or strip is not blamed for what another
-             may show.  A function or ladder that finds nothing returns NULL, and the next is
-             tried; "" ends the search without a sentence.
-     way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
-             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
-             why_black, wrong_light, flat; helps; doubt                                 >>replay */
+/*---------------------------------------------------------------------------------------- >>numbers
+   Numbers that make no sense, or seldom, whatever the picture is.
+     in      a survey, or the mesh           out  a sentence, or SHADE__GO_ON
+     way     no_mesh; bad_number: bad_matrix, bad_lamp, positions_are_bad; doubt: doubt_of_view,
+             doubt_of_map, doubt_of_surface                                              >>unseen */
 
 /* Is the mesh empty, or do elements of an array overlap? */
 static const char *shade__no_mesh(const shade_mesh *m)
@@ -8767,6 +8989,15 @@ static int shade__is_transposed(const shade_mat4 *m)
     if (last.w == 0)    /* z.w is not 0, 1 or -1 */
         return (last.z == 1 || last.z == -1) && z.w * (1 - z.w * z.w) != 0;
     return last.w == 1 && shade__is_zero(shade__xyz(last)) && !shade__is_affine(m) && !from_point;
+}
+
+/* Do the rows of z and w come from a perspective times a view: parallel, with w of length 1? */
+static int shade__is_camera(const shade_mat4 *m)
+{
+    const shade_mat4 one = shade_mat4_identity();
+    shade__camera c;
+    shade__camera_of(m, &one, &c);
+    return shade__faces_ahead(&c) && shade__abs(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
 }
 
 /* Does the matrix only turn, mirror and move? */
@@ -8885,36 +9116,7 @@ static const char *shade__bad_number(const shade__survey *s)
     return why;
 }
 
-/* ---- ladders */
-
-typedef struct shade__rung {
-    int (*change)(shade__survey *q);     /* returns whether the sentence is true */
-    const char *sentence;                /* NULL: this may be on purpose; the ladder ends */
-} shade__rung;
-
-/* Returns the sentence of the first true rung; the last one is always true.  Changes stay in q: the
-   last change names the fault, and two faults at once are found as well. */
-static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
-{
-    while (!rung->change(q)) rung++;
-    return rung->sentence;
-}
-
-/* Returns the first true sentence, or NULL; each rung changes a copy. */
-static const char *shade__climb(const shade__survey *s, const shade__rung *rung)
-{
-    for (; rung->change; rung++) {
-        shade__survey q = *s;
-        if (rung->change(&q)) return rung->sentence;
-    }
-    return NULL;
-}
-
-static int shade__always(shade__survey *q) { return q != NULL; }
-
-static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
-
-/* ---- no pixel of the whole picture shows the mesh */
+/* ---- numbers that are possible, but seldom right */
 
 static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
@@ -8922,741 +9124,6 @@ static const char shade__left_out[] =
 static const char shade__wrong_box[] =
     "A box of mesh.chunks does not contain its triangles, so that they may vanish: call "
     "shade_mesh_chunks again after positions change.";
-
-static int shade__chunks_are_few(shade__survey *q)
-{
-    q->mesh.chunks = NULL;
-    q->mesh.chunk_count = 0;
-    return shade__chunks_leave_out(q->given_mesh) && shade__covered(q);
-}
-
-static int shade__culled_inside(shade__survey *q)
-{
-    q->state.raster.cull = SHADE_CULL_NONE;
-    return shade__eye_inside(q) && shade__covered(q);
-}
-
-static int shade__fronts_are_culled(shade__survey *q)
-{
-    return q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q);
-}
-
-/* Is the mesh one of many in a scene, with fragments for less than a quarter of the picture?  Such
-   a mesh may well be hidden, or seen edge-on. */
-static int shade__is_scattered(shade__survey *q)
-{
-    return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
-           shade__depth_varies(q->target);
-}
-
-static int shade__all_cut(shade__survey *q)
-{
-    q->state.alpha_cutoff = 0;
-    return shade__appears(q);
-}
-
-static int shade__has_no_area(shade__survey *q)
-{
-    const shade_stats stats = shade__stats_of(q, 0);
-    return !stats.drawn && stats.culled;
-}
-
-static int shade__projection_by_rows(shade__survey *q)
-{
-    shade__survey turned = *q;
-    turned.state.projection = shade_mat4_transpose(q->state.projection);
-    return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
-}
-
-/* Does every triangle lie outside of the view volume? */
-static int shade__is_beside(shade__survey *q)
-{
-    const shade_stats stats = shade__stats_of(q, 0);
-    return stats.clipped + stats.rejected == stats.triangles;
-}
-
-static int shade__model_projects(shade__survey *q) { return !shade__is_affine(&q->state.model); }
-
-static int shade__projection_is_none(shade__survey *q)
-{
-    return shade__is_rigid(&q->state.projection) && shade__is_beside(q);
-}
-
-static int shade__beyond_far(shade__survey *q)
-{
-    const uint32_t out = shade__outside(q);
-    return out & (q->camera.reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR) && !(out & SHADE__OUT_W);
-}
-
-static int shade__view_is_inverse(shade__survey *q)
-{
-    shade__survey inverse = *q;
-    inverse.state.view = shade_mat4_inverse(q->state.view);
-    return shade__appears(&inverse);
-}
-
-static int shade__behind_eye(shade__survey *q) { return (shade__outside(q) & SHADE__OUT_W) != 0; }
-
-static int shade__before_near(shade__survey *q)
-{
-    return (shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0;
-}
-
-/* Each rung keeps the changes of those above it. */
-static const shade__rung shade__nothing[] = {
-    { shade__chunks_are_few, shade__left_out },
-    { shade__appears, shade__wrong_box },
-    { shade__culled_inside,
-      "raster.cull leaves out every triangle in view, and the eye lies inside the mesh's box: set "
-      "state.view, or move the eye out." },
-    { shade__fronts_are_culled,
-      "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
-      "SHADE_CULL_BACK or SHADE_CULL_NONE." },
-    { shade__appears,
-      "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
-      "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
-      "state.model that mirrors reverses it as well." },
-    { shade__is_scattered, NULL },
-    { shade__all_cut,
-      "state.alpha_cutoff is above every alpha of the mesh, (1 - transparency) times the alpha of "
-      "diffuse_map; lower it." },
-    { shade__has_no_area,
-      "No triangle in view has an area on the screen: state.model scales by 0, the mesh is "
-      "smaller than a pixel or seen edge-on, or corners in mesh.indices coincide." },
-    { shade__projection_by_rows,
-      "state.projection looks transposed (row-major): its -1 belongs in col[2].w, its "
-      "translation in col[3]; pass it through shade_mat4_transpose." },
-    { shade__model_projects, NULL },
-    { shade__projection_is_none,
-      "Every triangle lies outside the cube from -1 to 1: state.projection is unset, or not a "
-      "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
-    { shade__beyond_far,
-      "The whole mesh lies beyond the far plane of state.projection; raise far, or move the eye "
-      "of state.view nearer." },
-    { shade__view_is_inverse,
-      "The mesh is out of view, but the inverse of state.view would show it: state.view takes "
-      "the world to the eye, as shade_mat4_look_at does." },
-    { shade__behind_eye,
-      "The whole mesh lies behind the eye: the camera of state.view looks down -z in its own "
-      "space; check state.view and state.model." },
-    { shade__before_near,
-      "The whole mesh lies nearer than the near plane of state.projection, or behind the eye of "
-      "state.view; lower near, or move the eye back." },
-    { shade__is_beside,
-      "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
-      "where state.view looks." },
-    { shade__always,
-      "The mesh covers no pixel centre: it is too small on the screen, seen edge-on, or lies "
-      "beside the picture; check state.model and state.view." },
-};
-
-/* ---- the mesh covers pixels, but the draw stored none, or perhaps none */
-
-/* Would the reverse test show another depth in some pixel? */
-static int shade__test_is_turned(shade__survey *q)
-{
-    const shade_raster *r = &q->given_state->raster;
-    return q->target->depth && shade__faces_ahead(&q->camera) && !r->depth_read_only &&
-           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->camera.reversed == q->farthest &&
-           shade__hides_nearest(q, 0);
-}
-
-static const shade__rung shade__test[] = {
-    { shade__test_is_turned,
-      "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: use "
-      "SHADE_COMPARE_LESS with depth cleared to 1, or with shade_mat4_perspective_reversed "
-      "SHADE_COMPARE_GREATER with depth cleared to 0." },
-    { NULL, NULL }
-};
-
-/* Is the clip rectangle the whole picture, or a band or strip of it?  Other bands may show what
-   this one does not. */
-static int shade__is_band(const shade_target *t)
-{
-    int clip[4];
-    shade__clip_rectangle(t, clip);
-    return t->row_count || clip[2] - clip[0] == t->width || clip[3] - clip[1] == t->height;
-}
-
-static int shade__beside_clip(shade__survey *q)
-{
-    shade__look_in_clip(q);
-    return !shade__is_band(q->target) && !shade__covered(q);
-}
-
-/* The number of pixels that pass the depth test now: all, if there is no depth. */
-static long long shade__passed(const shade__survey *s)
-{
-    shade__survey q = *s;
-    shade__look_through(&q, s->given_state->raster.depth_test);
-    return shade__covered(&q);
-}
-
-/* Did the draw store pixels?  Without stats: does one pass the depth test, or have this depth? */
-static int shade__is_drawn(const shade__survey *s)
-{
-    shade__survey q = *s;
-    if (s->given_stats) return s->given_stats->fragments > 0;
-    shade__look_through(&q, SHADE_COMPARE_EQUAL);
-    return shade__passed(s) || shade__covered(&q);
-}
-
-/* Does the mesh have pixels in the clip rectangle, and does none of them pass the depth test? */
-static int shade__is_hidden(const shade__survey *s)
-{
-    shade__survey q = *s;
-    shade__look_in_clip(&q);
-    return shade__covered(&q) && !shade__passed(s);
-}
-
-static int shade__shader_discards(shade__survey *q)
-{
-    return q->given_stats && q->given_state->fragment && shade__passed(q);
-}
-
-/* Do all pixels have the depth of the far plane, with this bias or none, so that they never pass a
-   test without equality? */
-static int shade__is_far(const shade__survey *s)
-{
-    const shade_compare test = s->given_state->raster.depth_test;
-    shade__survey q = *s;
-    shade__look_at_all(&q);
-    q.far_margin = FLT_MIN;
-    return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
-}
-
-/* Was depth not cleared?  Without stats the mesh itself may be stored. */
-static int shade__depth_uncleared(shade__survey *q)
-{
-    if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL ||
-        shade__is_drawn(q))
-        return 0;
-    shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
-    q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
-    if (shade__covered(q)) return 0;
-
-    q->state.raster.depth_bias = 0;
-    return !shade__is_far(q);
-}
-
-/* Is the mesh hidden in the whole picture, and not a small part of a scene?  Sets q's bias to 0. */
-static int shade__all_hidden(shade__survey *q)
-{
-    const int hidden = q->whole && shade__is_hidden(q);
-    q->state.raster.depth_bias = 0;
-    return hidden && !shade__is_scattered(q);
-}
-
-static int shade__nothing_is_equal(shade__survey *q)
-{
-    return q->given_state->raster.depth_test == SHADE_COMPARE_EQUAL && shade__all_hidden(q);
-}
-
-static int shade__depth_is_far(shade__survey *q)
-{
-    return q->camera.perspective && shade__is_far(q) &&    /* with the given bias, and without */
-           shade__all_hidden(q) && shade__is_far(q);
-}
-
-static int shade__depth_hides(shade__survey *q)
-{
-    const int hidden = !shade__is_drawn(q) || shade__is_far(q);    /* with the given bias */
-    if (!hidden || !shade__all_hidden(q)) return 0;
-    q->far_margin = 1e-6f;    /* floats are too coarse to tell which is nearer */
-    return shade__covered(q) > 0;
-}
-
-static const shade__rung shade__unseen[] = {
-    { shade__beside_clip,
-      "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
-      "clip_height; all four zero mean everywhere." },
-    { shade__shader_discards,
-      "state.fragment discards all pixels of the mesh, or gives them an alpha below "
-      "state.alpha_cutoff." },
-    { shade__nothing_is_equal,
-      "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the mesh's own "
-      "depth: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
-    { shade__depth_uncleared,
-      "target.depth holds 0 where the mesh is (1 with SHADE_COMPARE_GREATER) or NaN, so that "
-      "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
-      "of 0 for a reversed projection." },
-    { shade__depth_is_far,
-      "Every pixel of the mesh has the depth of the far plane, so that nothing passes "
-      "raster.depth_test: near of state.projection is too small for floats, compared with far; "
-      "raise near." },
-    { shade__depth_hides,
-      "The mesh is hidden by depth that target.depth already holds: from other meshes, from the "
-      "frame before if shade_clear was not called, or from the mesh itself, which then needs "
-      "SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes the mesh back." },
-    { NULL, NULL }
-};
-
-/* ---- the mesh is drawn, but wrongly */
-
-/* In nine tenths of the pixels with a front face, is a back face nearer? */
-static int shade__is_inside_out(const shade__survey *s)
-{
-    shade__probe probes[SHADE__PROBES];
-    uint32_t fronts = 0, behind = 0;
-    shade__survey q = *s;
-    const int ahead = s->state.projection.col[2].z < 0;    /* depth grows away from the eye */
-    if (!shade__is_affine(&s->state.model) || shade__eye_inside(s) ||
-        (!q.camera.perspective && ahead && q.farthest == 0)) return 0;
-    q.state.raster.cull = SHADE_CULL_NONE;
-    shade__take_probes(&q, probes);
-    for (int k = 0; k < SHADE__PROBES; k++) {
-        fronts += probes[k].any_front;
-        behind += probes[k].any_front & !probes[k].front;
-    }
-    return fronts > 23 && behind * 10 >= fronts * 9;    /* fewer prove too little */
-}
-
-static int shade__backs_in_view(shade__survey *q)
-{
-    return q->state.raster.cull == SHADE_CULL_BACK && shade__is_inside_out(q);
-}
-
-/* Does light depend on the side that normals point to? */
-static int shade__sides_matter(const shade__survey *s)
-{
-    const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
-    shade__survey both = *s;
-    both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    return s->exact && !(s->state.lighting.flags & flags) &&
-           shade__count(&both, s->dim) != shade__count(s, s->dim);
-}
-
-static int shade__wound_inward(shade__survey *q)
-{
-    const int face_normals = !q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE;
-    if (!face_normals || !shade__sides_matter(q)) return 0;
-    shade__look_at_all(q);
-    return shade__is_inside_out(q);
-}
-
-/* Is there a pixel where the last fragment is not the nearest? */
-static int shade__lacks_depth(shade__survey *q)
-{
-    const shade_raster *r = &q->given_state->raster;
-    if (r->blend != SHADE_BLEND_REPLACE) return 0;
-    if (q->target->depth && r->depth_test != SHADE_COMPARE_ALWAYS) {
-        if (!r->depth_read_only) return 0;
-        shade__look_through(q, r->depth_test);
-    }
-    return shade__hides_nearest(q, 1);
-}
-
-static const char shade__inward[] =
-    "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
-    "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
-    "raster.cull.";
-
-static const shade__rung shade__picture[] = {
-    { shade__backs_in_view, shade__inward },
-    { shade__lacks_depth,
-      "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test is "
-      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; test and write depth." },
-    { NULL, NULL }
-};
-
-/* ---- the mesh is drawn, but black: the surface */
-
-/* Does blending hide the mesh?  It does if the mesh shows without it, or if not even a glowing
-   surface would show with it.  From here on blending is off. */
-static int shade__alpha_is_zero(shade__survey *q)
-{
-    shade__survey glow = *q;
-    const int blended = q->state.raster.blend != SHADE_BLEND_REPLACE;
-    glow.material.emission = shade_v3(1, 1, 1);
-    glow.state.lighting.model = SHADE_MODEL_EMISSIVE;
-    glow.state.lighting.terms = 0;
-    q->state.raster.blend = SHADE_BLEND_REPLACE;
-    return blended && (!shade__shows(&glow) || shade__shows(q));
-}
-
-/* Outlines made of back faces are black on purpose, and so are shadows blended over a ground. */
-static int shade__black_is_meant(shade__survey *q)
-{
-    const shade_raster *r = &q->given_state->raster;
-    const shade_material *m = &q->material;
-    const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
-                                     shade_add(m->diffuse, m->specular));
-    return shade__is_zero(sum) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
-}
-
-static int shade__shading_is_coarse(shade__survey *q)
-{
-    shade__light_fragments(q);
-    return shade__lights_up(q);
-}
-
-/* Do face normals give light that SHADE_SHADING_PER_FRAGMENT would not? */
-static int shade__faces_are_lit(shade__survey *q)
-{
-    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
-    q->mesh.normals = NULL;
-    return shade__shows(q);
-}
-
-static int shade__terms_are_few(shade__survey *q)
-{
-    shade_lighting *l = &q->state.lighting;
-    l->terms = 0;
-    if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
-    return shade__lights_up(q);
-}
-
-/* Are the colours dark even under white ambient light, and does the mesh show without them? */
-static int shade__colors_are_black(shade__survey *q)
-{
-    shade__survey evenly = *q;
-    evenly.material.ambient = evenly.state.lighting.ambient = shade_v3(1, 1, 1);
-    evenly.state.lighting.model = SHADE_MODEL_AMBIENT;
-    evenly.state.lighting.terms = SHADE_TERM_AMBIENT;
-    if (shade__bright(&evenly)) return 0;
-
-    shade__drop_colors(q);
-    return shade__lights_up(q);
-}
-
-static int shade__material_is_black(shade__survey *q)
-{
-    shade__whiten(q);
-    return shade__bright(q) && shade__lights_up(q);
-}
-
-static const char shade__transparent[] =
-    "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
-    "state.transparency, times the alpha of state.diffuse_map.";
-static const char shade__coarse[] =
-    "state.shading lights only vertices, or centroids of faces, and no light reaches these, though "
-    "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
-static const char shade__no_terms[] =
-    "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
-    "terms, and the model SHADE_MODEL_BLINN_PHONG.";
-static const char shade__black_material[] =
-    "state.material reflects nothing, or almost nothing, of the light in the scene: lamps need "
-    "diffuse or specular, lighting.ambient needs material.ambient; NULL is white.";
-static const char shade__behind[] =
-    "Every lamp is behind nine tenths or more of the visible pixels, on the side that the normals "
-    "point away from: turn mesh.normals (or the winding, if there are no normals), move "
-    "light.position, set SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside the mesh?";
-static const char shade__black_colors[] =
-    "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
-    "check mesh.texcoords and the picture.";
-static const char shade__no_normals[] =
-    "mesh.normals are zero or NaN, so that no lamp lights them; fill them with shade_mesh_normals, "
-    "or make mesh.normals NULL.";
-static const char shade__fall_off[] =
-    "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
-    "constant, linear or quadratic, or raise the light's diffuse and specular.";
-static const char shade__no_cone[] =
-    "No cone of a spotlight shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
-    "the cosine of an angle in radians.";
-static const char shade__no_color[] =
-    "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
-    "only grazes them, and no highlight reaches the eye.";
-static const char shade__multiply[] =
-    "The visible pixels are black or almost: state.material, mesh.normals, mesh.colors, the map, "
-    "alpha, lighting.terms and the lights work together, and several of them may be at fault.";
-
-/* ---- the mesh is black, or lit by ambient light alone: the lamps */
-
-static int shade__lights_are_none(shade__survey *q)
-{
-    return q->state.lighting.light_count <= 0 && !shade__shows(q);
-}
-
-static int shade__count_is_zero(shade__survey *q)
-{
-    return q->state.lighting.lights && shade__lights_are_none(q);
-}
-
-/* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 for all others. */
-static int shade__lacks_normals(shade__survey *q)
-{
-    shade__survey open = *q;
-    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
-    open.material.specular = shade_v3(1, 1, 1);
-    open.material.shininess = 0;
-    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
-}
-
-/* Leaves only the terms of lamps in the survey, without blending.  Returns whether any is left. */
-static int shade__lamps_alone(shade__survey *q)
-{
-    shade_lighting *l = &q->state.lighting;
-    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
-    l->terms = (l->terms ? l->terms : ~0u) & lamps;
-    q->state.raster.blend = SHADE_BLEND_REPLACE;
-    return l->model <= SHADE_MODEL_LAMBERT && l->terms;
-}
-
-/* Do nine tenths of the visible pixels face away from every lamp, and would two-sided light show
-   them?  Cones and attenuation are off. */
-static int shade__lamps_behind(shade__survey *q)
-{
-    const shade_vec3 glow = q->material.emission;
-    const long long all = shade__covered(q);
-    shade__survey each = *q;
-    shade_lighting *l = &each.state.lighting;
-    each.state.shading = q->given_state->shading;
-    shade__whiten(&each);
-    if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
-        q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
-        return 0;
-    if (!shade__few(q, shade__count(&each, q->dim), all)) return 0;
-
-    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
-    shade__light_fragments(&each);
-    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (!shade__lights_up(&each)) return 0;
-
-    l->flags = q->state.lighting.flags;
-    l->model = SHADE_MODEL_LAMBERT;
-    l->terms = SHADE_TERM_DIFFUSE;
-    shade__light_everywhere(&each);
-    shade__open_cones(&each);
-    shade__whiten_lamps(&each);
-    return shade__few(q, shade__count(&each, FLT_MIN), all);
-}
-
-static int shade__lamps_fall_off(shade__survey *q)
-{
-    shade__whiten(q);
-    shade__light_everywhere(q);
-    return shade__bright(q) && shade__lights_up(q);
-}
-
-static int shade__cones_miss(shade__survey *q)
-{
-    shade__survey white = *q;
-    shade__whiten_lamps(&white);
-    shade__open_cones(q);
-    return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
-}
-
-/* Is there light after all that does more than graze the surface? */
-static int shade__sides_show(shade__survey *q)
-{
-    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    q->state.lighting.model = SHADE_MODEL_LAMBERT;
-    q->state.lighting.terms = SHADE_TERM_DIFFUSE;
-    if (q->state.shading == SHADE_SHADING_PER_FACE) q->mesh.normals = NULL;
-    shade__light_fragments(q);
-    return shade__count(q, 0.05f) > 0;
-}
-
-static int shade__lamps_are_many(shade__survey *q)
-{
-    return q->given_state->lighting.light_count > SHADE__SUSPECTS;
-}
-
-/* Each rung keeps the changes of those above it. */
-static const shade__rung shade__black[] = {
-    { shade__alpha_is_zero, shade__transparent },
-    { shade__shading_is_coarse, shade__coarse },
-    { shade__shows, shade__multiply },
-    { shade__faces_are_lit, shade__multiply },
-    { shade__terms_are_few, shade__no_terms },
-    { shade__shows, shade__multiply },
-    { shade__colors_are_black, shade__black_colors },
-    { shade__shows, shade__multiply },
-    { shade__material_is_black, shade__black_material },
-    { shade__count_is_zero,
-      "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is dark; set "
-      "light_count." },
-    { shade__lights_are_none,
-      "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a light, or "
-      "ambient light." },
-    { shade__lacks_normals, shade__no_normals },
-    { shade__lamps_behind, shade__behind },
-    { shade__lamps_fall_off, shade__fall_off },
-    { shade__cones_miss, shade__no_cone },
-    { shade__lamps_are_many, shade__multiply },
-    { shade__sides_show, shade__multiply },
-    { shade__always, shade__no_color },
-};
-
-/* ---- the mesh is lit, but wrongly */
-
-static int shade__is_clipped(shade__survey *q)
-{
-    const long long lit = q->exact ? shade__count(q, q->dim) : shade__covered(q);
-    long long clipped;
-    q->material.emission = shade_v3(0, 0, 0);
-    clipped = shade__count(q, 2);
-    return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
-           q->state.raster.blend != SHADE_BLEND_OVER &&
-           !shade__few(q, lit, shade__covered(q)) &&
-           clipped * 8 >= lit * (8 - q->exact);
-}
-
-/* Does the light of lamps hit colours of 0, so that only highlights show? */
-static int shade__colors_are_zero(shade__survey *q)
-{
-    unsigned *terms = &q->state.lighting.terms;
-    if (*terms && !(*terms & SHADE_TERM_DIFFUSE)) return 0;
-    *terms = SHADE_TERM_DIFFUSE;
-    return q->state.lighting.model <= SHADE_MODEL_LAMBERT && !shade__count(q, FLT_MIN) &&
-           q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
-}
-
-/* Does a lamp at the eye leave a third of the visible pixels dark, on faces wound toward it? */
-static int shade__normals_turned(shade__survey *q)
-{
-    shade_lighting *l = &q->state.lighting;
-    const long long all = shade__covered(q);
-    long long toward;
-    if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE ||
-        q->state.raster.cull == SHADE_CULL_FRONT || !shade__sides_matter(q))
-        return 0;
-    q->state.raster.cull = SHADE_CULL_BACK;
-    shade__light_fragments(q);
-    shade__light_from_eye(q);
-    shade__whiten(q);
-    toward = shade__count(q, FLT_MIN);
-    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
-}
-
-/* Do all normals lack negative components, though at least an eighth of the faces need one? */
-static int shade__normals_differ(const shade_mesh *m)
-{
-    int behind = 0, before = 0;
-    for (int i = 0; i < shade__corner_count(m); i += 3) {
-        shade_vec3 p[3], n = shade_v3(0, 0, 0);
-        float side;
-        for (int k = 0; k < 3; k++) {
-            const uint32_t v = shade__corner_index(m, (uint32_t)(i + k));
-            const shade_vec3 at = shade__vec3_at(m->normals, m->normal_stride, v);
-            if (at.x < 0 || at.y < 0 || at.z < 0) return 0;
-            n = shade_add(n, at);
-        }
-        side = shade_dot(n, shade__face_normal(m, (uint32_t)i / 3, p));
-        behind += side < 0;
-        before += side > 0;
-    }
-    return behind && 7 * behind >= before && 7 * before >= behind;
-}
-
-static int shade__normals_disagree(shade__survey *q)
-{
-    const long long lit = shade__count(q, q->dim);
-    if (!q->mesh.normals || q->state.raster.cull != SHADE_CULL_NONE || !q->exact ||
-        !shade__normals_differ(&q->mesh))
-        return 0;
-    q->mesh.normals = NULL;
-    return shade__count(q, q->dim) != lit;
-}
-
-static int shade__alpha_is_stored(shade__survey *q)
-{
-    const shade_draw_state *d = q->given_state;
-    return d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
-           d->raster.blend == SHADE_BLEND_REPLACE &&    /* dimmed by 2 %, and not still white */
-           shade__has_pixels(q, 0.02f / d->transparency, 1 / (1 - d->transparency));
-}
-
-/* Do highlights cover more than they would on a polished surface? */
-static int shade__highlights_are_wide(shade__survey *q)
-{
-    long long all;
-    if (q->state.lighting.terms) return 0;
-    q->state.lighting.terms = SHADE_TERM_SPECULAR;
-    all = shade__count(q, q->dim);
-    if (q->material.shininess >= 1 || !q->exact) return 0;
-    q->material.shininess = 50;
-    return shade__count(q, q->dim) < all;
-}
-
-/* Does light use another eye than the camera has, and would the picture differ with the camera's?
-   A one-point projection, with w = 1 at the origin of view, has its eye elsewhere on purpose. */
-static int shade__eye_is_astray(shade__survey *q)
-{
-    const shade__camera *c = &q->camera;
-    const shade_mat4 camera = shade_mat4_inverse(q->state.view);
-    const shade_vec3 at = shade__xyz(camera.col[3]);
-    const unsigned terms = q->state.lighting.terms;
-    shade__survey given = *q;
-    q->eye_replaced = 1;
-    if (q->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
-        q->eye = shade_neg(shade__single3(c->sight));
-        if (shade_dot(shade__xyz(camera.col[2]), q->eye) >= 0) return 0;
-    } else {
-        q->eye = shade__single3(c->eye);
-        if (!c->perspective || q->state.projection.col[3].w == 1 ||
-            shade_distance(q->eye, at) <= 1e-3f * (shade_length(q->eye) + shade_length(at)))
-            return 0;
-    }
-    return (!terms || terms & SHADE_TERM_SPECULAR) && q->exact && shade__differ(q, &given);
-}
-
-static const shade__rung shade__wrong_light[] = {
-    { shade__is_clipped,
-      "Almost all that is lit is clipped to white: colours of lighting.lights, lighting.ambient, "
-      "state.material and mesh.colors are linear, with 1 for full light, not 255." },
-    { shade__lamps_behind, shade__behind },
-    { shade__colors_are_zero, shade__black_colors },
-    { shade__normals_turned,
-      "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
-      "fill them with shade_mesh_normals, or reverse the winding, as a mirroring model does." },
-    { shade__eye_is_astray,
-      "Highlights belong to another eye: light takes the eye from state.view, in which +z points "
-      "back to the viewer, but state.projection moves the eye or looks along +z; do that in "
-      "state.view." },
-    { shade__wound_inward, shade__inward },
-    { shade__normals_disagree,
-      "mesh.normals have no negative component, and lie behind some of the faces: are they stored "
-      "as colours, n / 2 + 1 / 2?  shade_mesh_normals fills them." },
-    { shade__alpha_is_stored,
-      "state.transparency is stored as alpha and dims nothing, because raster.blend is "
-      "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },
-    { shade__highlights_are_wide,
-      "state.material.shininess is below 1, so that highlights cover all that lamps light; 5 is "
-      "dull, 100 polished (tables from 0 to 1 mean 128 times that)." },
-    { NULL, NULL }
-};
-
-/* Does lamp light show, or is there to be none?  Other light is off from here on. */
-static int shade__lamps_show(shade__survey *q)
-{
-    return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
-           shade__is_zero(q->material.diffuse) || shade__shows(q);
-}
-
-/* Meshes may be without lamps on purpose: bright ones, and overlays without normals. */
-static int shade__unlit_is_meant(shade__survey *q)
-{
-    const shade_vec3 light = q->state.lighting.ambient;
-    return q->state.lighting.light_count <= 0 &&
-           (!q->mesh.normals || light.x + light.y + light.z >= 1);
-}
-
-static int shade__white_shows(shade__survey *q)
-{
-    shade__whiten(q);
-    return shade__shows(q);
-}
-
-/* Each rung keeps the changes of those above it. */
-static const shade__rung shade__flat[] = {
-    { shade__lamps_show, NULL },
-    { shade__count_is_zero,
-      "Only ambient light arrives: lighting.light_count is 0 while lighting.lights is set." },
-    { shade__unlit_is_meant, NULL },
-    { shade__lights_are_none,
-      "Only ambient light arrives, which shows no form: lighting.lights is NULL." },
-    { shade__white_shows, NULL },
-    { shade__lacks_normals, shade__no_normals },
-    { shade__lamps_fall_off, shade__fall_off },
-    { shade__cones_miss, shade__no_cone },
-    { shade__lamps_are_many, NULL },
-    { shade__sides_show, NULL },
-    { shade__always, shade__no_color },
-};
-
-/* ---- numbers that are possible, but seldom right */
 
 static int shade__boxes_are_small(const shade_mesh *m)
 {
@@ -9781,43 +9248,1082 @@ static const char *shade__doubt(const shade__survey *s)
     return why ? why : shade__doubt_of_surface(s);
 }
 
-/* ---- the way through the ladders */
+/*----------------------------------------------------------------------------------------- >>unseen
+   Why no pixel shows the draw: of a mesh, of lines or of a pipeline.
+     in      a survey                        out  a sentence, or another answer
+     method  Ladders: tables of changes and sentences, tried from top to bottom.  For example: with
+             culling off, are there pixels?  Then raster.cull is at fault.
+     holds   A mesh outside one band or strip is not reported, because another band may show it.
+     way     climb: the ladder nothing, if no pixel of the whole picture is covered; else test, and
+             unseen                                                                       >>black */
 
-/* Does the advice of a sentence help by itself, with all else as given?  If not, there are several
-   faults, and shade__why_black says shade__multiply. */
-static int shade__helps(const shade__survey *seen, const char *why)
+/* ---- ladders */
+
+/* A question has three answers: a sentence, or one of these. */
+#define SHADE__GO_ON ((const char *)0)   /* nothing is found: the next question is asked */
+#define SHADE__SILENT ""                 /* it may be meant: nothing is said, and no more asked */
+
+typedef struct shade__rung {
+    int (*change)(shade__survey *q);     /* returns whether the answer holds */
+    const char *answer;
+    int (*mend)(shade__survey *q);       /* does what the sentence advises; returns whether the
+                                            mesh then shows.  NULL: there is nothing to try */
+} shade__rung;
+
+enum {
+    SHADE__RUNGS = 24,
+    SHADE__EACH_ALONE = 0,               /* each rung changes a copy of its own */
+    SHADE__KEEPS_CHANGES = 1             /* a rung sees the changes of all rungs above it, so that
+                                            two faults at once are found */
+};
+
+/* Rungs are tried from top to bottom; the first that holds gives the answer. */
+typedef struct shade__ladder {
+    int changes;                         /* SHADE__EACH_ALONE or SHADE__KEEPS_CHANGES */
+    shade__rung rung[SHADE__RUNGS];      /* ends with zeros */
+} shade__ladder;
+
+/* Returns the first rung that holds, or NULL. */
+static const shade__rung *shade__climb_to(const shade__survey *s, const shade__ladder *ladder)
+{
+    shade__survey q = *s;
+    for (const shade__rung *rung = ladder->rung; rung->change; rung++) {
+        if (ladder->changes == SHADE__EACH_ALONE) q = *s;
+        if (rung->change(&q)) return rung;
+    }
+    return NULL;
+}
+
+static const char *shade__climb(const shade__survey *s, const shade__ladder *ladder)
+{
+    const shade__rung *rung = shade__climb_to(s, ladder);
+    return rung ? rung->answer : SHADE__GO_ON;
+}
+
+/* Does the advice of a rung help by itself, with all else as given?  If not, there are several
+   faults. */
+static int shade__helps(const shade__survey *seen, const shade__rung *rung)
 {
     shade__survey q = *seen;
-    shade_lighting *l = &q.state.lighting;
-    if (why == shade__transparent) q.state.raster.blend = SHADE_BLEND_REPLACE;
-    else if (why == shade__coarse) shade__light_fragments(&q);
-    else if (why == shade__no_terms) return shade__terms_are_few(&q);
-    else if (why == shade__black_colors) shade__drop_colors(&q);
-    else if (why == shade__black_material) shade__polish(&q);
-    else if (why == shade__fall_off) shade__light_everywhere(&q);
-    else if (why == shade__no_cone) {
-        shade__copy_lamps(&q);
-        shade__open_cones(&q);
-    } else {
-        if (l->model > SHADE_MODEL_LAMBERT) return 0;
-        if (why != shade__no_color) shade__whiten(&q);    /* the surface may be black as well */
-        if (why == shade__no_normals) q.mesh.normals = NULL;
-        else if (why == shade__behind) l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-        else shade__light_from_eye(&q);
-        if (seen->state.lighting.light_count <= 0) l->ambient = shade_v3(1, 1, 1);
-        l->terms = seen->state.lighting.terms;
-        l->model = seen->state.lighting.model;
-    }
-    return shade__lights_up(&q);
+    return rung->mend && rung->mend(&q);
 }
+
+static int shade__always(shade__survey *q) { return q != NULL; }
+
+static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
+
+/* ---- no pixel of the whole picture shows it */
+
+static int shade__chunks_are_few(shade__survey *q)
+{
+    q->mesh.chunks = NULL;
+    q->mesh.chunk_count = 0;
+    return shade__chunks_leave_out(q->given_mesh) && shade__covered(q);
+}
+
+static int shade__culled_inside(shade__survey *q)
+{
+    q->state.raster.cull = SHADE_CULL_NONE;
+    return shade__eye_inside(q) && shade__covered(q);
+}
+
+static int shade__fronts_are_culled(shade__survey *q)
+{
+    return q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q);
+}
+
+/* Is the mesh one of many in a scene, with fragments for less than a quarter of the picture?  Such
+   a mesh may well be hidden, or seen edge-on. */
+static int shade__is_scattered(shade__survey *q)
+{
+    return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
+           shade__depth_varies(q->target);
+}
+
+static int shade__all_cut(shade__survey *q)
+{
+    q->state.alpha_cutoff = 0;
+    return shade__appears(q);
+}
+
+static int shade__projection_by_rows(shade__survey *q)
+{
+    shade__survey turned = *q;
+    turned.state.projection = shade_mat4_transpose(q->state.projection);
+    return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
+}
+
+/* Does every triangle lie outside of the view volume? */
+static int shade__is_beside(shade__survey *q)
+{
+    const shade_stats stats = shade__stats_of(q, 0);
+    return stats.clipped + stats.rejected == stats.triangles;
+}
+
+static int shade__model_is_camera(shade__survey *q)
+{
+    const shade_mat4 one = shade_mat4_identity();
+    shade__camera c;
+    shade__camera_of(&q->state.model, &one, &c);
+    return !shade__is_affine(&q->state.model) && shade__faces_ahead(&c) &&
+           shade_mat4_determinant(q->state.model) != 0;
+}
+
+static int shade__model_projects(shade__survey *q) { return !shade__is_affine(&q->state.model); }
+
+static int shade__projection_is_none(shade__survey *q)
+{
+    return !q->replay && shade__is_rigid(&q->state.projection) && shade__is_beside(q);
+}
+
+/* The bits of the plane where depth is greatest, counted from the eye. */
+static uint32_t shade__far_plane(const shade__survey *s)
+{
+    const int reversed = s->replay ? s->farthest == 0 : s->camera.reversed;
+    return reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR;
+}
+
+static int shade__w_is_zero(shade__survey *q)
+{
+    return q->replay && shade__is_beside(q) &&
+           !shade__replay_of(q, q->replay->lines ? shade__point_vertex : NULL).any_w;
+}
+
+/* Is w 1 everywhere, as without a projection? */
+static int shade__w_is_one(shade__survey *q)
+{
+    return q->replay && !q->replay->lines && shade__is_beside(q) &&
+           !shade__replay_of(q, NULL).other_w;
+}
+
+static int shade__beyond_far(shade__survey *q)
+{
+    const uint32_t out = shade__is_beside(q) ? shade__outside(q) : 0;
+    return (out & shade__far_plane(q)) && (q->replay || !(out & SHADE__OUT_W));
+}
+
+static int shade__view_is_inverse(shade__survey *q)
+{
+    shade__survey inverse = *q;
+    if (q->replay) return 0;
+    inverse.state.view = shade_mat4_inverse(q->state.view);
+    return shade__appears(&inverse);
+}
+
+static int shade__behind_eye(shade__survey *q)
+{
+    return shade__is_beside(q) && (shade__outside(q) & SHADE__OUT_W);
+}
+
+static int shade__before_near(shade__survey *q)
+{
+    return shade__is_beside(q) && (shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR));
+}
+
+/* ---- the matrix of lines */
+
+static shade_mat4 shade__matrix_of(const shade__survey *q)
+{
+    return shade__or_identity(q->replay->lines->clip_from_points);
+}
+
+static int shade__matrix_is_none(shade__survey *q)
+{
+    shade_mat4 m;
+    if (!q->replay || !q->replay->lines) return 0;
+    m = shade__matrix_of(q);
+    return shade__is_rigid(&m) && shade__is_beside(q);
+}
+
+/* Are columns 0, 1 and 3 at right angles, as those of view times projection are? */
+static int shade__is_turned_last(const shade_mat4 *m)
+{
+    static const int pair[3][2] = { { 0, 1 }, { 0, 3 }, { 1, 3 } };
+    int turned = 1;
+    for (int k = 0; k < 3; k++) {
+        const shade_vec3 a = shade__xyz(m->col[pair[k][0]]), b = shade__xyz(m->col[pair[k][1]]);
+        turned &= shade__within(shade_dot(a, b), 1e-4f * shade_length(a) * shade_length(b));
+    }
+    return turned;
+}
+
+/* Is w = -z, as in view times projection, though the rest is not a projection?  In one, far is
+   -col[3].z / (col[2].z + 1), which is not negative beyond rounding. */
+static int shade__matrix_is_exchanged(shade__survey *q)
+{
+    shade_mat4 m;
+    if (!q->replay || !q->replay->lines) return 0;
+    m = shade__matrix_of(q);
+    return shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
+           shade__is_turned_last(&m) &&
+           (!shade__is_camera(&m) || (m.col[2].z > -0.99f && m.col[3].z < 0));
+}
+
+/* Do the lines show with the transposed matrix? */
+static int shade__matrix_by_rows(shade__survey *q)
+{
+    shade__survey shown = *q;
+    shade__stroke stroke;
+    shade__replay by_rows;
+    shade_mat4 m, turned;
+    if (!q->replay || !q->replay->lines) return 0;
+    m = shade__matrix_of(q);
+    turned = shade_mat4_transpose(m);
+    if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
+                                      !shade__is_camera(&turned)))
+        return 0;
+
+    by_rows = *q->replay;
+    stroke = *by_rows.stroke;
+    shade__doubles(shade__entries(&turned), 16, stroke.clip_from_points);
+    by_rows.pipe.uniforms = &stroke;
+    shown.replay = &by_rows;
+    return shade__appears(&shown);
+}
+
+/* ---- why nothing is in view */
+
+static const shade__ladder shade__nothing = {
+    SHADE__KEEPS_CHANGES, {
+        { shade__chunks_are_few, shade__left_out, NULL },
+        { shade__appears, shade__wrong_box, NULL },
+        { shade__culled_inside,
+          "raster.cull leaves out every triangle in view, and the eye lies inside the mesh's box: "
+          "set state.view, or move the eye out.", NULL },
+        { shade__fronts_are_culled,
+          "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
+          "SHADE_CULL_BACK or SHADE_CULL_NONE.", NULL },
+        { shade__appears,
+          "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
+          "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
+          "matrix that mirrors, such as state.model, reverses it as well.", NULL },
+        { shade__is_scattered, SHADE__SILENT, NULL },
+        { shade__all_cut,
+          "state.alpha_cutoff is above every alpha of the mesh, (1 - transparency) times the "
+          "alpha of diffuse_map; lower it.", NULL },
+        { shade__projection_by_rows,
+          "state.projection looks transposed (row-major): of a projection alone, the -1 belongs "
+          "in col[2].w; pass it through shade_mat4_transpose.", NULL },
+        { shade__matrix_is_none,
+          "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or not "
+          "a projection; it is projection times view, in this order.", NULL },
+        { shade__matrix_is_exchanged,
+          "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
+          "projection first, then view.", NULL },
+        { shade__matrix_by_rows,
+          "state.clip_from_points looks transposed (row-major): pass it through "
+          "shade_mat4_transpose.", NULL },
+        { shade__model_is_camera,
+          "state.model holds a projection, which belongs in state.projection: light is computed "
+          "in the space that state.model leads to.", NULL },
+        { shade__model_projects, SHADE__SILENT, NULL },
+        { shade__projection_is_none,
+          "Every triangle lies outside the cube from -1 to 1: state.projection is unset, or not a "
+          "projection; make it with shade_mat4_perspective or shade_mat4_ortho.", NULL },
+        { shade__w_is_zero,
+          "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 without a "
+          "projection; or the matrix is not projection times view, in this order.", NULL },
+        { shade__w_is_one,
+          "Every triangle lies outside the cube from -1 to 1, and w is 1 everywhere: positions in "
+          "clip space are projection times view times model times (P, 1); without a perspective, "
+          "the box of shade_mat4_ortho must hold them.", NULL },
+        { shade__beyond_far,
+          "All of it lies beyond the far plane of the projection; raise far, or move the eye "
+          "nearer.  A camera made with near = far, with degrees for radians, or with an aspect of "
+          "0 puts all there.", NULL },
+        { shade__view_is_inverse,
+          "The mesh is out of view, but the inverse of state.view would show it: state.view takes "
+          "the world to the eye, as shade_mat4_look_at does.", NULL },
+        { shade__behind_eye,
+          "All of it lies behind the eye, where w is negative: a camera looks down -z in its own "
+          "space; check the view and the model matrix.", NULL },
+        { shade__before_near,
+          "All of it lies nearer than the near plane of the projection, or behind the eye; lower "
+          "near, or move the eye back.", NULL },
+        { shade__is_beside,
+          "All of it lies beside the picture, before near or beyond far; check the model matrix, "
+          "and where the view looks.", NULL },
+        { shade__always,
+          "No pixel centre is covered: all is smaller than a pixel, seen edge-on, without area "
+          "(a scale of 0, corners or ends that coincide, lines of a width below 1), or lies "
+          "beside the picture.", NULL },
+    }
+};
+
+/* ---- pixels are covered, but the draw stored none, or perhaps none */
+
+/* Would the reverse test show another depth in some pixel? */
+static int shade__test_is_turned(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    return q->target->depth && shade__faces_ahead(&q->camera) && !r->depth_read_only &&
+           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->camera.reversed == q->farthest &&
+           shade__hides_nearest(q, 0);
+}
+
+static const shade__ladder shade__test = {
+    SHADE__EACH_ALONE, {
+        { shade__test_is_turned,
+          "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: "
+          "use SHADE_COMPARE_LESS with depth cleared to 1, or with shade_mat4_perspective_reversed "
+          "SHADE_COMPARE_GREATER with depth cleared to 0.", NULL }
+    }
+};
+
+/* Is the clip rectangle the whole picture, or a band or strip of it?  Other bands may show what
+   this one does not. */
+static int shade__is_band(const shade_target *t)
+{
+    int clip[4];
+    shade__clip_rectangle(t, clip);
+    return t->row_count || clip[2] - clip[0] == t->width || clip[3] - clip[1] == t->height;
+}
+
+static int shade__beside_clip(shade__survey *q)
+{
+    shade__look_in_clip(q);
+    return !shade__is_band(q->target) && !shade__covered(q);
+}
+
+/* The number of pixels that pass the depth test now: all, if there is no depth. */
+static long long shade__passed(const shade__survey *s)
+{
+    shade__survey q = *s;
+    shade__look_through(&q, s->given_state->raster.depth_test);
+    return shade__covered(&q);
+}
+
+/* Did the draw store pixels?  Without stats: does one pass the depth test, or have this depth? */
+static int shade__is_drawn(const shade__survey *s)
+{
+    shade__survey q = *s;
+    if (s->given_stats) return s->given_stats->fragments > 0;
+    shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    return shade__passed(s) || shade__covered(&q);
+}
+
+/* Does the mesh have pixels in the clip rectangle, and does none of them pass the depth test? */
+static int shade__is_hidden(const shade__survey *s)
+{
+    shade__survey q = *s;
+    shade__look_in_clip(&q);
+    return shade__covered(&q) && !shade__passed(s);
+}
+
+static int shade__shader_discards(shade__survey *q)
+{
+    return q->given_stats && q->given_state->fragment && !q->replay && shade__passed(q);
+}
+
+/* Do all pixels have the depth of the far plane, with this bias or none, so that they never pass a
+   test without equality? */
+static int shade__is_far(const shade__survey *s)
+{
+    const shade_compare test = s->given_state->raster.depth_test;
+    shade__survey q = *s;
+    shade__look_at_all(&q);
+    q.far_margin = FLT_MIN;
+    return (test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_GREATER) && !shade__covered(&q);
+}
+
+/* Was depth not cleared?  Without stats the mesh itself may be stored. */
+static int shade__depth_uncleared(shade__survey *q)
+{
+    if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL ||
+        shade__is_drawn(q))
+        return 0;
+    shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
+    q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
+    if (shade__covered(q)) return 0;
+
+    q->state.raster.depth_bias = 0;
+    return !shade__is_far(q);
+}
+
+/* Is the mesh hidden in the whole picture, and not a small part of a scene?  Sets q's bias to 0. */
+static int shade__all_hidden(shade__survey *q)
+{
+    const int hidden = (q->whole || (q->replay && !shade__is_band(q->target))) &&
+                       shade__is_hidden(q);
+    q->state.raster.depth_bias = 0;
+    return hidden && !shade__is_scattered(q);
+}
+
+static int shade__nothing_is_equal(shade__survey *q)
+{
+    return q->given_state->raster.depth_test == SHADE_COMPARE_EQUAL && shade__all_hidden(q);
+}
+
+static int shade__depth_is_far(shade__survey *q)
+{
+    return (q->replay || q->camera.perspective) &&
+           shade__is_far(q) &&    /* with the given bias, and without */
+           shade__all_hidden(q) && shade__is_far(q);
+}
+
+/* Do more than half of the pixels of lines pass if depth is off by 2e-6?  Planes that coincide
+   differ by less. */
+static int shade__lines_lie_in_surfaces(shade__survey *q)
+{
+    const shade_compare test = q->given_state->raster.depth_test;
+    long long all;
+    if (!q->replay || !q->replay->lines || test == SHADE_COMPARE_EQUAL || shade__is_drawn(q))
+        return 0;
+    shade__look_in_clip(q);
+    all = shade__covered(q);
+    shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
+    q->state.raster.depth_bias = 2e-6f * (1 - 2 * q->farthest);
+    return shade__covered(q) * 2 > all;
+}
+
+static int shade__depth_hides(shade__survey *q)
+{
+    const int hidden = !shade__is_drawn(q) || shade__is_far(q);    /* with the given bias */
+    if (!hidden || !shade__all_hidden(q)) return 0;
+    q->far_margin = 1e-6f;    /* floats are too coarse to tell which is nearer */
+    return shade__covered(q) > 0;
+}
+
+static const shade__ladder shade__unseen = {
+    SHADE__EACH_ALONE, {
+        { shade__beside_clip,
+          "All of it lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
+          "clip_height; all four zero mean everywhere.", NULL },
+        { shade__shader_discards,
+          "state.fragment discards all pixels of the mesh, or gives them an alpha below "
+          "state.alpha_cutoff.", NULL },
+        { shade__nothing_is_equal,
+          "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the depth of "
+          "what is drawn: draw it with SHADE_COMPARE_LESS, first or instead.", NULL },
+        { shade__depth_uncleared,
+          "target.depth holds 0 where it is drawn (1 with SHADE_COMPARE_GREATER) or NaN, so that "
+          "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, "
+          "or of 0 for a reversed projection.", NULL },
+        { shade__depth_is_far,
+          "Every pixel has the depth of the far plane, so that nothing passes raster.depth_test.  "
+          "For a sky, use SHADE_COMPARE_LESS_EQUAL (reversed: SHADE_COMPARE_GREATER_EQUAL); else "
+          "near of the projection is too small for floats, compared with far: raise near.", NULL },
+        { shade__lines_lie_in_surfaces,
+          "The lines lie in surfaces that target.depth already holds, and these hide them: use "
+          "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.", NULL },
+        { shade__depth_hides,
+          "It is hidden by depth that target.depth already holds: from other draws, from the frame "
+          "before if shade_clear was not called, or from a draw of the same triangles, which then "
+          "need SHADE_COMPARE_LESS_EQUAL; or raster.depth_bias pushes it back.", NULL }
+    }
+};
+
+/*------------------------------------------------------------------------------------------ >>black
+   Why a mesh is drawn, but black: the surface, then the lamps.
+     in      a survey                        out  the rung that holds, and whether its advice helps
+     holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
+             Black: none is brighter than 8 of 255.
+     way     climb_to: the ladder black; helps: the mend of its rung                      >>wrong */
+
+/* ---- the mesh is drawn, but black: the surface */
+
+/* Does blending hide the mesh?  It does if the mesh shows without it, or if not even a glowing
+   surface would show with it.  From here on blending is off. */
+static int shade__alpha_is_zero(shade__survey *q)
+{
+    shade__survey glow = *q;
+    const int blended = q->state.raster.blend != SHADE_BLEND_REPLACE;
+    glow.material.emission = shade_v3(1, 1, 1);
+    glow.state.lighting.model = SHADE_MODEL_EMISSIVE;
+    glow.state.lighting.terms = 0;
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return blended && (!shade__shows(&glow) || shade__shows(q));
+}
+
+/* Outlines made of back faces are black on purpose, and so are shadows blended over a ground. */
+static int shade__black_is_meant(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    const shade_material *m = &q->material;
+    const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
+                                     shade_add(m->diffuse, m->specular));
+    return shade__is_zero(sum) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
+}
+
+static int shade__shading_is_coarse(shade__survey *q)
+{
+    shade__light_fragments(q);
+    return shade__lights_up(q);
+}
+
+/* Do face normals give light that SHADE_SHADING_PER_FRAGMENT would not? */
+static int shade__faces_are_lit(shade__survey *q)
+{
+    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
+    q->mesh.normals = NULL;
+    return shade__shows(q);
+}
+
+static int shade__terms_are_few(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    l->terms = 0;
+    if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
+    return shade__lights_up(q);
+}
+
+/* Are the colours dark even under white ambient light, and does the mesh show without them? */
+static int shade__colors_are_black(shade__survey *q)
+{
+    shade__survey evenly = *q;
+    evenly.material.ambient = evenly.state.lighting.ambient = shade_v3(1, 1, 1);
+    evenly.state.lighting.model = SHADE_MODEL_AMBIENT;
+    evenly.state.lighting.terms = SHADE_TERM_AMBIENT;
+    if (shade__bright(&evenly)) return 0;
+
+    shade__drop_colors(q);
+    return shade__lights_up(q);
+}
+
+static int shade__material_is_black(shade__survey *q)
+{
+    shade__whiten(q);
+    return shade__bright(q) && shade__lights_up(q);
+}
+
+static const char shade__transparent[] =
+    "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
+    "state.transparency, times the alpha of state.diffuse_map.";
+static const char shade__behind[] =
+    "Every lamp is behind nine tenths or more of the visible pixels, on the side that the normals "
+    "point away from: turn mesh.normals (or the winding, if there are no normals), move "
+    "light.position, set SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside the mesh?";
+static const char shade__black_colors[] =
+    "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
+    "check mesh.texcoords and the picture.";
+static const char shade__no_normals[] =
+    "mesh.normals are zero or NaN, so that no lamp lights them; fill them with shade_mesh_normals, "
+    "or make mesh.normals NULL.";
+static const char shade__fall_off[] =
+    "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
+    "constant, linear or quadratic, or raise the light's diffuse and specular.";
+static const char shade__no_cone[] =
+    "No cone of a spotlight shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
+    "the cosine of an angle in radians.";
+static const char shade__no_color[] =
+    "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
+    "only grazes them, and no highlight reaches the eye.";
+static const char shade__multiply[] =
+    "The visible pixels are black or almost: state.material, mesh.normals, mesh.colors, the map, "
+    "alpha, lighting.terms and the lights work together, and several of them may be at fault.";
+
+/* ---- the mesh is black, or lit by ambient light alone: the lamps */
+
+static int shade__lights_are_none(shade__survey *q)
+{
+    return q->state.lighting.light_count <= 0 && !shade__shows(q);
+}
+
+static int shade__count_is_zero(shade__survey *q)
+{
+    return q->state.lighting.lights && shade__lights_are_none(q);
+}
+
+/* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 for all others. */
+static int shade__lacks_normals(shade__survey *q)
+{
+    shade__survey open = *q;
+    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    open.material.specular = shade_v3(1, 1, 1);
+    open.material.shininess = 0;
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
+}
+
+/* Leaves only the terms of lamps in the survey, without blending.  Returns whether any is left. */
+static int shade__lamps_alone(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
+    l->terms = (l->terms ? l->terms : ~0u) & lamps;
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return l->model <= SHADE_MODEL_LAMBERT && l->terms;
+}
+
+/* Do nine tenths of the visible pixels face away from every lamp, and would two-sided light show
+   them?  Cones and attenuation are off. */
+static int shade__lamps_behind(shade__survey *q)
+{
+    const shade_vec3 glow = q->material.emission;
+    const long long all = shade__covered(q);
+    shade__survey each = *q;
+    shade_lighting *l = &each.state.lighting;
+    each.state.shading = q->given_state->shading;
+    shade__whiten(&each);
+    if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
+        q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
+        return 0;
+    if (!shade__few(q, shade__count(&each, q->dim), all)) return 0;
+
+    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
+    shade__light_fragments(&each);
+    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    if (!shade__lights_up(&each)) return 0;
+
+    l->flags = q->state.lighting.flags;
+    l->model = SHADE_MODEL_LAMBERT;
+    l->terms = SHADE_TERM_DIFFUSE;
+    shade__light_everywhere(&each);
+    shade__open_cones(&each);
+    shade__whiten_lamps(&each);
+    return shade__few(q, shade__count(&each, FLT_MIN), all);
+}
+
+static int shade__lamps_fall_off(shade__survey *q)
+{
+    shade__whiten(q);
+    shade__light_everywhere(q);
+    return shade__bright(q) && shade__lights_up(q);
+}
+
+static int shade__cones_miss(shade__survey *q)
+{
+    shade__survey white = *q;
+    shade__whiten_lamps(&white);
+    shade__open_cones(q);
+    return !shade__bright(&white) && shade__bright(q) && shade__lights_up(q);
+}
+
+/* Is there light after all that does more than graze the surface? */
+static int shade__sides_show(shade__survey *q)
+{
+    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    q->state.lighting.model = SHADE_MODEL_LAMBERT;
+    q->state.lighting.terms = SHADE_TERM_DIFFUSE;
+    if (q->state.shading == SHADE_SHADING_PER_FACE) q->mesh.normals = NULL;
+    shade__light_fragments(q);
+    return shade__count(q, 0.05f) > 0;
+}
+
+static int shade__lamps_are_many(shade__survey *q)
+{
+    return q->given_state->lighting.light_count > SHADE__SUSPECTS;
+}
+
+/* ---- what the sentences about black meshes advise */
+
+static int shade__mend_alpha(shade__survey *q)
+{
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return shade__lights_up(q);
+}
+
+static int shade__mend_colors(shade__survey *q)
+{
+    shade__drop_colors(q);
+    return shade__lights_up(q);
+}
+
+static int shade__mend_material(shade__survey *q)
+{
+    shade__polish(q);
+    return shade__lights_up(q);
+}
+
+static int shade__mend_attenuation(shade__survey *q)
+{
+    shade__light_everywhere(q);
+    return shade__lights_up(q);
+}
+
+static int shade__mend_cones(shade__survey *q)
+{
+    shade__copy_lamps(q);
+    shade__open_cones(q);
+    return shade__lights_up(q);
+}
+
+/* Do lamps light the mesh now?  Where none were given, ambient light does. */
+static int shade__lamps_help(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    if (q->given_state->lighting.light_count <= 0) l->ambient = shade_v3(1, 1, 1);
+    return l->model <= SHADE_MODEL_LAMBERT && shade__lights_up(q);
+}
+
+static int shade__mend_normals(shade__survey *q)
+{
+    shade__whiten(q);    /* the surface may be black as well */
+    q->mesh.normals = NULL;
+    return shade__lamps_help(q);
+}
+
+static int shade__mend_sides(shade__survey *q)
+{
+    shade__whiten(q);
+    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return shade__lamps_help(q);
+}
+
+/* A lamp at the eye in place of the given ones. */
+static int shade__mend_color(shade__survey *q)
+{
+    const shade_lighting given = q->state.lighting;
+    shade__light_from_eye(q);
+    q->state.lighting.terms = given.terms;
+    q->state.lighting.model = given.model;
+    return shade__lamps_help(q);
+}
+
+static int shade__mend_lamps(shade__survey *q)
+{
+    shade__whiten(q);
+    return shade__mend_color(q);
+}
+
+static const shade__ladder shade__black = {
+    SHADE__KEEPS_CHANGES, {
+        { shade__alpha_is_zero, shade__transparent, shade__mend_alpha },
+        { shade__shading_is_coarse,
+          "state.shading lights only vertices, or centroids of faces, and no light reaches these, "
+          "though it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.",
+          shade__shading_is_coarse },
+        { shade__shows, shade__multiply, NULL },
+        { shade__faces_are_lit, shade__multiply, NULL },
+        { shade__terms_are_few,
+          "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
+          "terms, and the model SHADE_MODEL_BLINN_PHONG.", shade__terms_are_few },
+        { shade__shows, shade__multiply, NULL },
+        { shade__colors_are_black, shade__black_colors, shade__mend_colors },
+        { shade__shows, shade__multiply, NULL },
+        { shade__material_is_black,
+          "state.material reflects nothing, or almost nothing, of the light in the scene: lamps "
+          "need diffuse or specular, lighting.ambient needs material.ambient; NULL is white.",
+          shade__mend_material },
+        { shade__count_is_zero,
+          "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is dark; "
+          "set light_count.", shade__mend_lamps },
+        { shade__lights_are_none,
+          "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a light, "
+          "or ambient light.", shade__mend_lamps },
+        { shade__lacks_normals, shade__no_normals, shade__mend_normals },
+        { shade__lamps_behind, shade__behind, shade__mend_sides },
+        { shade__lamps_fall_off, shade__fall_off, shade__mend_attenuation },
+        { shade__cones_miss, shade__no_cone, shade__mend_cones },
+        { shade__lamps_are_many, shade__multiply, NULL },
+        { shade__sides_show, shade__multiply, NULL },
+        { shade__always, shade__no_color, shade__mend_color }
+    }
+};
+
+/*------------------------------------------------------------------------------------------ >>wrong
+   Why a picture is wrong, and the calls that explain it, in one sentence.
+     in      arguments of a draw, its stats  out  a constant sentence; "" for nothing
+     way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
+             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
+             why_black, wrong_light, flat; doubt.  shade_explain_draw, shade_explain_lines:
+             explain_replay: why: bad_run; the same ladders; why_plain: why_faint          >>refs */
+
+/* ---- the mesh is drawn, but wrongly */
+
+/* In nine tenths of the pixels with a front face, is a back face nearer? */
+static int shade__is_inside_out(const shade__survey *s)
+{
+    shade__probe probes[SHADE__PROBES];
+    uint32_t fronts = 0, behind = 0;
+    shade__survey q = *s;
+    const int ahead = s->state.projection.col[2].z < 0;    /* depth grows away from the eye */
+    if (!shade__is_affine(&s->state.model) || shade__eye_inside(s) ||
+        (!q.camera.perspective && ahead && q.farthest == 0)) return 0;
+    q.state.raster.cull = SHADE_CULL_NONE;
+    shade__take_probes(&q, probes);
+    for (int k = 0; k < SHADE__PROBES; k++) {
+        fronts += probes[k].any_front;
+        behind += probes[k].any_front & !probes[k].front;
+    }
+    return fronts > 23 && behind * 10 >= fronts * 9;    /* fewer prove too little */
+}
+
+static int shade__backs_in_view(shade__survey *q)
+{
+    return q->state.raster.cull == SHADE_CULL_BACK && shade__is_inside_out(q);
+}
+
+/* Does light depend on the side that normals point to? */
+static int shade__sides_matter(const shade__survey *s)
+{
+    const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
+    shade__survey both = *s;
+    both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return s->exact && !(s->state.lighting.flags & flags) &&
+           shade__count(&both, s->dim) != shade__count(s, s->dim);
+}
+
+static int shade__wound_inward(shade__survey *q)
+{
+    const int face_normals = !q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE;
+    if (!face_normals || !shade__sides_matter(q)) return 0;
+    shade__look_at_all(q);
+    return shade__is_inside_out(q);
+}
+
+/* Is there a pixel where the last fragment is not the nearest? */
+static int shade__lacks_depth(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    if (r->blend != SHADE_BLEND_REPLACE) return 0;
+    if (q->target->depth && r->depth_test != SHADE_COMPARE_ALWAYS) {
+        if (!r->depth_read_only) return 0;
+        shade__look_through(q, r->depth_test);
+    }
+    return shade__hides_nearest(q, 1);
+}
+
+static const char shade__inward[] =
+    "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
+    "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
+    "raster.cull.";
+
+static const shade__ladder shade__picture = {
+    SHADE__EACH_ALONE, {
+        { shade__backs_in_view, shade__inward, NULL },
+        { shade__lacks_depth,
+          "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test "
+          "is SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; test and write depth.", NULL }
+    }
+};
+
+/* ---- the mesh is lit, but wrongly */
+
+static int shade__is_clipped(shade__survey *q)
+{
+    const long long lit = q->exact ? shade__count(q, q->dim) : shade__covered(q);
+    long long clipped;
+    q->material.emission = shade_v3(0, 0, 0);
+    clipped = shade__count(q, 2);
+    return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
+           q->state.raster.blend != SHADE_BLEND_OVER &&
+           !shade__few(q, lit, shade__covered(q)) &&
+           clipped * 8 >= lit * (8 - q->exact);
+}
+
+/* Does the light of lamps hit colours of 0, so that only highlights show? */
+static int shade__colors_are_zero(shade__survey *q)
+{
+    unsigned *terms = &q->state.lighting.terms;
+    if (*terms && !(*terms & SHADE_TERM_DIFFUSE)) return 0;
+    *terms = SHADE_TERM_DIFFUSE;
+    return q->state.lighting.model <= SHADE_MODEL_LAMBERT && !shade__count(q, FLT_MIN) &&
+           q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
+}
+
+/* Does a lamp at the eye leave a third of the visible pixels dark, on faces wound toward it? */
+static int shade__normals_turned(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    const long long all = shade__covered(q);
+    long long toward;
+    if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE ||
+        q->state.raster.cull == SHADE_CULL_FRONT || !shade__sides_matter(q))
+        return 0;
+    q->state.raster.cull = SHADE_CULL_BACK;
+    shade__light_fragments(q);
+    shade__light_from_eye(q);
+    shade__whiten(q);
+    toward = shade__count(q, FLT_MIN);
+    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
+    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
+}
+
+/* Do all normals lack negative components, though at least an eighth of the faces need one? */
+static int shade__normals_differ(const shade_mesh *m)
+{
+    int behind = 0, before = 0;
+    for (int i = 0; i < shade__corner_count(m); i += 3) {
+        shade_vec3 p[3], n = shade_v3(0, 0, 0);
+        float side;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = shade__corner_index(m, (uint32_t)(i + k));
+            const shade_vec3 at = shade__vec3_at(m->normals, m->normal_stride, v);
+            if (at.x < 0 || at.y < 0 || at.z < 0) return 0;
+            n = shade_add(n, at);
+        }
+        side = shade_dot(n, shade__face_normal(m, (uint32_t)i / 3, p));
+        behind += side < 0;
+        before += side > 0;
+    }
+    return behind && 7 * behind >= before && 7 * before >= behind;
+}
+
+static int shade__normals_disagree(shade__survey *q)
+{
+    const long long lit = shade__count(q, q->dim);
+    if (!q->mesh.normals || q->state.raster.cull != SHADE_CULL_NONE || !q->exact ||
+        !shade__normals_differ(&q->mesh))
+        return 0;
+    q->mesh.normals = NULL;
+    return shade__count(q, q->dim) != lit;
+}
+
+static int shade__alpha_is_stored(shade__survey *q)
+{
+    const shade_draw_state *d = q->given_state;
+    return d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
+           d->raster.blend == SHADE_BLEND_REPLACE &&    /* dimmed by 2 %, and not still white */
+           shade__has_pixels(q, 0.02f / d->transparency, 1 / (1 - d->transparency));
+}
+
+/* Do highlights cover more than they would on a polished surface? */
+static int shade__highlights_are_wide(shade__survey *q)
+{
+    long long all;
+    if (q->state.lighting.terms) return 0;
+    q->state.lighting.terms = SHADE_TERM_SPECULAR;
+    all = shade__count(q, q->dim);
+    if (q->material.shininess >= 1 || !q->exact) return 0;
+    q->material.shininess = 50;
+    return shade__count(q, q->dim) < all;
+}
+
+/* Does light use another eye than the camera has, and would the picture differ with the camera's?
+   A one-point projection, with w = 1 at the origin of view, has its eye elsewhere on purpose. */
+static int shade__eye_is_astray(shade__survey *q)
+{
+    const shade__camera *c = &q->camera;
+    const shade_mat4 camera = shade_mat4_inverse(q->state.view);
+    const shade_vec3 at = shade__xyz(camera.col[3]);
+    const unsigned terms = q->state.lighting.terms;
+    shade__survey given = *q;
+    q->eye_replaced = 1;
+    if (q->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
+        q->eye = shade_neg(shade__single3(c->sight));
+        if (shade_dot(shade__xyz(camera.col[2]), q->eye) >= 0) return 0;
+    } else {
+        q->eye = shade__single3(c->eye);
+        if (!c->perspective || q->state.projection.col[3].w == 1 ||
+            shade_distance(q->eye, at) <= 1e-3f * (shade_length(q->eye) + shade_length(at)))
+            return 0;
+    }
+    return (!terms || terms & SHADE_TERM_SPECULAR) && q->exact && shade__differ(q, &given);
+}
+
+static const shade__ladder shade__wrong_light = {
+    SHADE__EACH_ALONE, {
+        { shade__is_clipped,
+          "Almost all that is lit is clipped to white: colours of lighting.lights, "
+          "lighting.ambient, state.material and mesh.colors are linear, with 1 for full light, not "
+          "255.", NULL },
+        { shade__lamps_behind, shade__behind, NULL },
+        { shade__colors_are_zero, shade__black_colors, NULL },
+        { shade__normals_turned,
+          "mesh.normals point away from the eye on faces that are wound toward it: turn "
+          "mesh.normals, fill them with shade_mesh_normals, or reverse the winding, as a mirroring "
+          "model does.",
+          NULL },
+        { shade__eye_is_astray,
+          "Highlights belong to another eye: light takes the eye from state.view, in which +z "
+          "points back to the viewer, but state.projection moves the eye or looks along +z; do "
+          "that in state.view.", NULL },
+        { shade__wound_inward, shade__inward, NULL },
+        { shade__normals_disagree,
+          "mesh.normals have no negative component, and lie behind some of the faces: are they "
+          "stored as colours, n / 2 + 1 / 2?  shade_mesh_normals fills them.", NULL },
+        { shade__alpha_is_stored,
+          "state.transparency is stored as alpha and dims nothing, because raster.blend is "
+          "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER.", NULL },
+        { shade__highlights_are_wide,
+          "state.material.shininess is below 1, so that highlights cover all that lamps light; 5 "
+          "is dull, 100 polished (tables from 0 to 1 mean 128 times that).", NULL }
+    }
+};
+
+/* Does lamp light show, or is there to be none?  Other light is off from here on. */
+static int shade__lamps_show(shade__survey *q)
+{
+    return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
+           shade__is_zero(q->material.diffuse) || shade__shows(q);
+}
+
+/* Meshes may be without lamps on purpose: bright ones, and overlays without normals. */
+static int shade__unlit_is_meant(shade__survey *q)
+{
+    const shade_vec3 light = q->state.lighting.ambient;
+    return q->state.lighting.light_count <= 0 &&
+           (!q->mesh.normals || light.x + light.y + light.z >= 1);
+}
+
+static int shade__white_shows(shade__survey *q)
+{
+    shade__whiten(q);
+    return shade__shows(q);
+}
+
+static const shade__ladder shade__flat = {
+    SHADE__KEEPS_CHANGES, {
+        { shade__lamps_show, NULL, NULL },
+        { shade__count_is_zero,
+          "Only ambient light arrives: lighting.light_count is 0 while lighting.lights is set.",
+          shade__mend_lamps },
+        { shade__unlit_is_meant, NULL, NULL },
+        { shade__lights_are_none,
+          "Only ambient light arrives, which shows no form: lighting.lights is NULL.",
+          shade__mend_lamps },
+        { shade__white_shows, NULL, NULL },
+        { shade__lacks_normals, shade__no_normals, shade__mend_normals },
+        { shade__lamps_fall_off, shade__fall_off, shade__mend_attenuation },
+        { shade__cones_miss, shade__no_cone, shade__mend_cones },
+        { shade__lamps_are_many, NULL, NULL },
+        { shade__sides_show, NULL, NULL },
+        { shade__always, shade__no_color, shade__mend_color }
+    }
+};
+
+/* ---- the colours of a fragment shader of the caller, or of lines */
+
+/* The fragments that are visible for certain, or all: a fault that all of them have is visible. */
+static const shade__shades *shade__visible(const shade__survey *s, const shade__tally *t)
+{
+    const shade_raster *r = &s->given_state->raster;
+    const int known = r->blend == SHADE_BLEND_REPLACE && !r->depth_read_only && t->seen.count &&
+                      !(s->given_stats && t->seen.count > s->given_stats->fragments);
+    return known ? &t->seen : &t->all;
+}
+
+static const char *shade__why_faint(const shade__survey *s)
+{
+    const shade_raster *raster = &s->given_state->raster;
+    const int lines = s->replay && s->replay->lines, cull = raster->cull;
+    const shade__tally t = shade__tally_of(s);
+    const shade__shades *v = shade__visible(s, &t);
+    if (!v->count) return SHADE__GO_ON;
+    if (s->replay && !s->replay->pipe.may_discard && t.discarded)
+        return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
+    if (v->nan)
+        return lines ? "state.color holds NaN, which is stored as black."
+                     : "The fragment shader gives NaN, which is stored as black: check its "
+                       "uniforms, divisions, and roots of negative numbers.";
+    if (raster->blend == SHADE_BLEND_OVER)
+        return v->clear == v->count
+                   ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
+                     "out->color[3] of the fragment shader, or state.color.w of lines."
+                   : SHADE__GO_ON;
+    if (v->none == v->count && raster->blend == SHADE_BLEND_ADD)
+        return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
+    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && lines)
+        return v->clear == v->count ? "state.color is not set: the lines are drawn in black."
+                                    : SHADE__GO_ON;
+    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && cull != SHADE_CULL_FRONT)
+        return "The fragment shader gives black everywhere: check out->color[0] to [2], which it "
+               "must write in each lane, its uniforms, and the varyings.";    /* not of outlines */
+    return v->bright * 10 >= v->count * 9 && s->target->format != SHADE_FORMAT_RGBA32F
+               ? "Almost all colours are clipped to white, or a full channel: in out->color, and "
+                 "in state.color of lines, 1 is full light, not 255."
+               : SHADE__GO_ON;
+}
+
+/* ---- the way through the ladders */
 
 static const char *shade__why_black(const shade__survey *seen)
 {
     shade__survey q = *seen;
-    const char *why;
-    if (shade__black_is_meant(&q)) return NULL;
-    why = shade__climb_on(&q, shade__black);
-    return shade__helps(seen, why) ? why : shade__multiply;
+    const shade__rung *rung;
+    if (shade__black_is_meant(&q)) return SHADE__GO_ON;
+    rung = shade__climb_to(seen, &shade__black);
+    return shade__helps(seen, rung) ? rung->answer : shade__multiply;
 }
 
 /* Is every pixel of the mesh dark, below least in each channel, or dark in the caller's picture? */
@@ -9835,47 +10341,66 @@ static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
     const int opaque = s->state.raster.blend == SHADE_BLEND_REPLACE;
-    const char *why = shade__climb(s, shade__picture);
+    const char *why = shade__climb(s, &shade__picture);
+    const shade__rung *rung;
     shade__look_at_seen(&seen);
     if (why || !s->target->color || !shade__covered(&seen)) return why;
-    if (s->given_state->fragment) {
-        if (s->given_state->raster.cull == SHADE_CULL_FRONT || !shade__is_dark(&seen, 0))
-            return NULL;
-        return opaque || 1 - s->state.transparency > s->dim    /* else white would be black, too */
-                   ? "state.fragment leaves all pixels of the mesh black: does it write color for "
-                     "each lane, leave color[3], alpha, above 0, or discard them?"
-                   : shade__transparent;
-    }
+    if (s->given_state->fragment) return shade__why_faint(s);
     q = seen;
     if (!opaque) q.dim /= 8;    /* layers add up */
     if (!shade__shows(&q) || (!shade__shows(&seen) && shade__is_dark(&seen, 0)))
         return shade__why_black(&seen);
-    why = shade__climb(&seen, shade__wrong_light);
+    why = shade__climb(&seen, &shade__wrong_light);
     if (why) return why;
 
-    why = shade__climb_on(&q, shade__flat);
-    if (!why && shade__is_dark(&seen, opaque ? seen.dim : 0)) return shade__multiply;
+    rung = shade__climb_to(&q, &shade__flat);
+    if (!rung->answer && shade__is_dark(&seen, opaque ? seen.dim : 0)) return shade__multiply;
     shade__lamps_alone(&seen);
-    return why && shade__helps(&seen, why) ? why : NULL;
+    return shade__helps(&seen, rung) ? rung->answer : SHADE__GO_ON;
+}
+
+/* Faults of a pipeline or of lines that show in any run. */
+static const char *shade__bad_run(const shade__survey *s)
+{
+    const shade__replay *r = s->replay;
+    const shade__tally t = shade__replay_of(s, NULL);
+    if (t.stats.rejected)
+        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge "
+                          "numbers (beyond 1e30), so that lines are left out."
+                        : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
+                          "that triangles are left out: check its uniforms and what it reads.";
+    if (r->pipe.may_discard && t.fragments && t.discarded == t.fragments)
+        return "pipeline.fragment discards all pixels.";
+    return SHADE__GO_ON;
+}
+
+/* Looks at a picture in which lines or a pipeline have pixels. */
+static const char *shade__why_plain(const shade__survey *s)
+{
+    const shade_raster *raster = &s->given_state->raster;
+    if (!s->replay->pipe.fragment && (!s->target->depth || raster->depth_read_only))
+        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
+               "or raster.depth_read_only is set.";
+    return s->replay->pipe.fragment && s->target->color ? shade__why_faint(s) : SHADE__GO_ON;
 }
 
 static const char *shade__why(const shade__survey *s)
 {
     const int sure = s->given_stats && s->given_stats->fragments > 0;
-    const char *why = shade__bad_number(s);
-    shade__survey q = *s;
+    const char *why = s->replay ? shade__bad_run(s) : shade__bad_number(s);
     if (why) return why;
-    if (!sure && !shade__covered(s)) return shade__climb_on(&q, shade__nothing);
+    if (!sure && !shade__covered(s)) return shade__climb(s, &shade__nothing);
 
-    why = shade__climb(s, shade__test);
-    if (!why && !sure) why = shade__climb(s, shade__unseen);
+    why = shade__climb(s, &shade__test);
+    if (!why && !sure) why = shade__climb(s, &shade__unseen);
     if (why || !shade__is_drawn(s)) return why;
+    if (s->replay) return shade__why_plain(s);
 
     why = shade__why_wrong(s);
     return why ? why : shade__doubt(s);
 }
 
-/* Says that the clip rectangle is empty; "" where it lies beside the strip. */
+/* Says that the clip rectangle is empty; silent where it lies beside the strip. */
 static const char *shade__clip_fault(const shade_target *t)
 {
     shade_target picture = *t;
@@ -9884,7 +10409,7 @@ static const char *shade__clip_fault(const shade_target *t)
     if (!shade__clip_rectangle(&picture, clip))
         return "The clip rectangle is empty or outside the picture: check target.clip_x, clip_y, "
                "clip_width and clip_height; all four zero mean everywhere.";
-    return shade__clip_rectangle(t, clip) ? NULL : "";
+    return shade__clip_rectangle(t, clip) ? SHADE__GO_ON : SHADE__SILENT;
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
@@ -9903,288 +10428,19 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target, const
     return why ? why : "";
 }
 
-/*----------------------------------------------------------------------------------------- >>replay
-   Why lines or a pipeline give no picture, or a wrong one, in one sentence.
-     in      arguments of shade_draw_lines or shade_draw, its stats
-     out     a constant sentence; "" for nothing
-     method  The draw is run again without a picture.  Shaders of this section call the given ones
-             and count what these return.
-     holds   The caller's memory is only read, unless the caller's own shaders write.
-     way     explain_replay: run_again; why_matrix of lines; why_nowhere; why_kept_out; why_faint
-                                                                                           >>refs */
-
-/* What the shaders returned in one run. */
-typedef struct shade__tally {
-    shade_stats stats;                   /* fragments: neither discarded nor hidden */
-    uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
-    int         any_w;                   /* 1: some w is not 0 */
-    long long   fragments;               /* all of them; of these: */
-    long long   discarded, clear;        /* clear: alpha is 0 */
-    long long   nan, dark, bright;       /* a channel is not finite; all are below 8 of 255; one */
-                                         /* is 16 or more */
-} shade__tally;
-
-/* A draw that is run again. */
-typedef struct shade__replay {
-    const shade_target *target;          /* the caller's */
-    const shade_stats  *given;           /* the caller's; NULL: none */
-    const shade_line_state *lines;       /* NULL: the pipeline is the caller's */
-    shade__indices      indices;
-    int             corners;
-    shade_pipeline  pipe;                /* the given one, but for its raster */
-    shade_target    picture;             /* of this run; without colours */
-    shade__tally   *tally;
-} shade__replay;
-
-static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                                 shade_vertices *SHADE_RESTRICT out)
+/* Explains lines or a pipeline.   pre: all of r but mesh and state is set */
+static const char *shade__explain_replay(shade__replay *r, const shade_stats *stats)
 {
-    const shade__replay *r = (const shade__replay *)uniforms;
-    r->pipe.vertex(r->pipe.uniforms, in, out);
-    for (int i = 0; i < in->count; i++) {
-        const float x = out->clip[0][i], y = out->clip[1][i], w = out->clip[3][i];
-        const uint32_t bits =
-            shade__outcode(x, y, out->clip[2][i], w, r->pipe.raster.depth_zero_to_one);
-        if (!(bits & SHADE__OUT_BAD)) r->tally->outside &= bits;
-        r->tally->any_w |= w != 0;
-    }
-}
-
-/* Calls the given shader if a draw would. */
-static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                                   shade_colors *SHADE_RESTRICT out)
-{
-    const shade__replay *r = (const shade__replay *)uniforms;
-    const float black = shade__dim_of(r->target);
-    shade__tally *t = r->tally;
-    t->fragments += in->count;
-    if (!r->pipe.fragment || !(r->target->color || r->pipe.may_discard)) return;
-    r->pipe.fragment(r->pipe.uniforms, in, out);
-    for (int i = 0; i < in->count; i++) {
-        float most = 0;
-        int finite = 1;
-        for (int k = 0; k < 3; k++) {
-            finite &= shade__within(out->color[k][i], FLT_MAX);
-            most = shade__maxf(out->color[k][i], most);
-        }
-        t->nan += !finite;
-        t->discarded += out->discard[i] != 0;
-        t->clear += !(out->color[3][i] > 0);
-        t->dark += most < black;
-        t->bright += most >= 16;
-        if (!r->pipe.may_discard) out->discard[i] = 0;
-    }
-}
-
-static shade__tally shade__run_again(const shade__replay *r)
-{
-    shade__replay run = *r;
-    shade__tally tally;
-    shade__supply supply;
-    shade_pipeline p = r->pipe;
-    SHADE__ZERO(tally);
-    tally.outside = ~0u;
-    run.tally = &tally;
-    p.vertex = shade__replay_vertex;
-    p.fragment = shade__replay_fragment;
-    p.uniforms = &run;
-    p.may_discard = p.raster.depth_read_only = 1;
-    shade__supply_all(r->indices, r->corners, &supply);
-    shade__run_draw(&r->picture, &p, 0, shade_v3(0, 0, 0), &supply, &tally.stats);
-    return tally;
-}
-
-/* ---- the matrix of lines */
-
-/* Do the rows of z and w come from a perspective times a view: parallel, with w of length 1? */
-static int shade__is_camera(const shade_mat4 *m)
-{
-    const shade_mat4 one = shade_mat4_identity();
-    shade__camera c;
-    shade__camera_of(m, &one, &c);
-    return shade__faces_ahead(&c) && shade__abs(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
-}
-
-static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
-{
-    const shade_mat4 m = shade__or_identity(r->lines->clip_from_points);
-    const shade_mat4 turned = shade_mat4_transpose(m);
-    shade__replay by_rows = *r;
-    shade__stroke stroke = *(const shade__stroke *)r->pipe.uniforms;
-    if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
-        return "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or "
-               "not a projection; it is projection times view, in this order.";
-    /* w = -z, but the rest is not a perspective */
-    if (shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
-        (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
-        return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
-               "projection first, then view.";
-
-    if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
-                                      !shade__is_camera(&turned)))
-        return NULL;
-    shade__doubles(shade__entries(&turned), 16, stroke.clip_from_points);
-    by_rows.pipe.uniforms = &stroke;
-    return shade__run_again(&by_rows).fragments
-               ? "state.clip_from_points looks transposed (row-major): pass it through "
-                 "shade_mat4_transpose."
-               : NULL;
-}
-
-/* ---- no pixel of the whole picture is covered */
-
-/* The clip-space positions of points, each three times. */
-static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                                shade_vertices *SHADE_RESTRICT out)
-{
-    double end[4];
-    for (int i = 0; i < SHADE_LANES; i++) {
-        shade__stroke_end((const shade__stroke *)uniforms, in->index[i] / 3, end);
-        for (int k = 0; k < 4; k++) out->clip[k][i] = (float)end[k];
-    }
-}
-
-static const char *shade__why_outside(const shade__replay *r)
-{
-    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
-    shade__replay points = *r;
-    shade__tally t;
-    if (r->lines) points.pipe.vertex = shade__point_vertex;
-    t = shade__run_again(&points);
-    if (!t.any_w)
-        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 without a "
-               "projection; or the matrix is not projection times view, in this order.";
-    if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
-        return "All positions lie beyond the far plane, as if projection had near = far, degrees "
-               "for radians, or an aspect of 0; or raise far, or move the eye nearer.";
-    if (t.outside & SHADE__OUT_W)
-        return "All positions lie behind the eye, where w is negative: in clip space they are "
-               "projection times view times model times (P, 1), and the eye looks down -z.";
-    if (t.outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
-        return "All positions lie nearer than the near plane, or behind the eye; lower near, or "
-               "move the eye back.";
-    return "All positions lie beside the picture, before near or beyond far: in clip space they "
-           "are projection times view times model times (P, 1), with -w <= x, y, z <= w.";
-}
-
-static const char *shade__why_nowhere(const shade__replay *r, const shade_stats *n)
-{
-    shade__replay both = *r;
-    both.pipe.raster.cull = SHADE_CULL_NONE;
-    if (shade__run_again(&both).fragments)
-        return r->pipe.raster.cull == SHADE_CULL_FRONT
-                   ? "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; "
-                     "use SHADE_CULL_BACK or SHADE_CULL_NONE."
-                   : "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front "
-                     "is counter-clockwise on the screen.  Reverse the winding, or use "
-                     "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
-    if (n->clipped == n->triangles) return shade__why_outside(r);
-    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a "
-                      "line has gaps; or both ends coincide, or they lie beside the picture."
-                    : "The triangles cover no pixel centre: they have no area on the screen, since "
-                      "their corners coincide or they are seen edge-on, or lie beside the picture.";
-}
-
-/* ---- pixels are covered, but the draw stored none, or perhaps none */
-
-static const char *shade__why_kept_out(const shade__replay *r, const shade__tally *t)
-{
-    const shade_target *target = r->target;
-    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
-    shade__replay part = *r;
-    shade_raster *raster = &part.pipe.raster;
-    if (r->pipe.may_discard && t->discarded == t->fragments)
-        return "pipeline.fragment discards all pixels.";
-
-    part.picture = *target;
-    part.picture.color = NULL;
-    if (!target->depth || shade__run_again(&part).stats.fragments) return NULL;
-    if (raster->depth_test == SHADE_COMPARE_EQUAL)
-        return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds no depth that is "
-               "equal: draw the same positions with another test before.";
-    raster->depth_test = SHADE_COMPARE_EQUAL;
-    if (!r->given && shade__run_again(&part).stats.fragments) return NULL;    /* its own depth */
-    raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
-    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth possible */
-    if (!shade__run_again(&part).stats.fragments)
-        return "target.depth holds 0 where it is drawn (1 with SHADE_COMPARE_GREATER) or NaN, so "
-               "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
-               "depth of 1, or of 0 for a reversed projection.";
-    raster->depth_bias *= 2e-6f;    /* depths of coinciding planes differ by less */
-    if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
-        return "The lines lie in surfaces that target.depth already holds, and these hide them: "
-               "use SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
-    if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
-                      shade__depth_varies(target)))
-        return NULL;    /* one part of a scene may well be hidden */
-    return "Everything is hidden by depth that target.depth already holds: from other draws, or "
-           "from the frame before if shade_clear was not called; or raster.depth_bias pushes it "
-           "back.";
-}
-
-/* ---- pixels are drawn, but wrongly */
-
-static const char *shade__why_faint(const shade__replay *r, const shade__tally *t)
-{
-    const shade_raster *raster = &r->pipe.raster;
-    const int dark = t->dark == t->fragments, clear = t->clear == t->fragments;
-    if (!r->pipe.fragment && (!r->target->depth || raster->depth_read_only))
-        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
-               "or raster.depth_read_only is set.";
-    if (!r->pipe.fragment || !r->target->color) return NULL;
-    if (!r->pipe.may_discard && t->discarded)
-        return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
-    if (t->nan)
-        return r->lines ? "state.color holds NaN or infinity, and NaN is stored as black."
-                        : "pipeline.fragment gives NaN or infinity, and NaN is stored as black: "
-                          "check pipeline.uniforms, divisions and roots.";
-    if (raster->blend == SHADE_BLEND_OVER)
-        return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
-                       "out->color[3] of pipeline.fragment, or state.color.w of lines."
-                     : NULL;
-    if (dark && raster->blend == SHADE_BLEND_ADD)
-        return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
-    if (dark && r->lines)
-        return clear ? "state.color is not set: the lines are drawn in black." : NULL;
-    if (dark && raster->cull != SHADE_CULL_FRONT)    /* outlines are black */
-        return "pipeline.fragment gives black everywhere: check out->color[0] to [2], "
-               "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
-    return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
-               ? "Almost all colours are clipped to white, or a full channel: in out->color, and "
-                 "in state.color of lines, 1 is full light, not 255."
-               : NULL;
-}
-
-static const char *shade__explain_replay(shade__replay *r)
-{
-    const int sure = r->given && r->given->fragments > 0;
+    shade__survey s;
     const char *why = shade__clip_fault(r->target);
-    shade__tally t, in_clip;
     if (why) return why;
-    r->picture.width = r->target->width;
-    r->picture.height = r->target->height;
-    t = shade__run_again(r);
-
-    if (t.stats.rejected)
-        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge "
-                          "numbers (beyond 1e30), so that lines are left out."
-                        : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
-                          "that triangles are left out: check its uniforms and what it reads.";
-    if (r->lines) why = shade__why_matrix(r, &t);
-    if (why) return why;
-    if (!t.fragments) return shade__why_nowhere(r, &t.stats);
-
-    r->picture = *r->target;
-    r->picture.color = NULL;
-    r->picture.depth = NULL;
-    in_clip = shade__run_again(r);
-    if (!shade__is_band(r->target)) t = in_clip;
-    if (!t.fragments)
-        return "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width and "
-               "clip_height; all four zero mean everywhere.";
-    if (!in_clip.fragments) return "";
-    if (!sure) why = shade__why_kept_out(r, &t);
-    if (!why && (sure || !r->given)) why = shade__why_faint(r, &t);
+    SHADE__ZERO(r->mesh);
+    SHADE__ZERO(r->state);
+    r->state.raster = r->pipe.raster;
+    shade__open_survey(r->target, &r->mesh, &r->state, stats, &s);
+    s.replay = r;
+    s.farthest = (float)!shade__compare_of(&r->pipe.raster).greater;
+    why = shade__why(&s);
     return why ? why : "";
 }
 
@@ -10203,11 +10459,10 @@ SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
 
     SHADE__ZERO(r);
     r.target = target;
-    r.given = stats;
     r.indices = list;
     r.corners = index_count;
     r.pipe = *pipeline;
-    return shade__explain_replay(&r);
+    return shade__explain_replay(&r, stats);
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
@@ -10224,11 +10479,11 @@ SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
 
     SHADE__ZERO(r);
     r.target = target;
-    r.given = stats;
     r.lines = state;
     r.corners = 3 * point_count;
+    r.stroke = &stroke;
     shade__stroke_of(target, points, state, &stroke, &r.pipe);
-    return shade__explain_replay(&r);
+    return shade__explain_replay(&r, stats);
 }
 
 #else /* SHADE_NO_EXPLAIN */
