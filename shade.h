@@ -53,38 +53,39 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     133  options               >>types      262  materials, targets, states
-       >>light      447  the equation, colour  >>draw       555  shaders, meshes, pixels
-       >>tools      714  explain, lines, rays  >>plumbing   912  compilers, flags and bits
-       >>math      1053  vectors and matrices
+       >>config     134  options               >>types      263  materials, targets, states
+       >>light      448  the equation, colour  >>draw       556  shaders, meshes, pixels
+       >>tools      715  explain, lines, rays  >>plumbing   913  compilers, flags and bits
+       >>math      1054  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1417  processors            >>base      1652  bits, masks, rows of vectors
-       >>matrix    1849  cameras, inverses     >>power     2132  x^n
-       >>pixels    2198  formats, sRGB
+       >>machine   1418  processors            >>base      1653  bits, masks, rows of vectors
+       >>matrix    1850  cameras, inverses     >>power     2133  x^n
+       >>pixels    2199  formats, sRGB
      Inside: light
-       >>lamps     2509  attenuation, cones    >>terms     2761  one term at one point
-       >>surface   2836  material and lights   >>lit       2953  the whole sum, at many points
+       >>lamps     2510  attenuation, cones    >>terms     2762  one term at one point
+       >>surface   2837  material and lights   >>lit       2954  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3343  fields by owner       >>vertices  3556  shading, projection
-       >>triangles 3758  culling, edge setup   >>clip      4112  near, far, guard band
-       >>tiles     4299  edges and depth test  >>cover     4661  triangles, tile by tile
-       >>fragments 4929  interpolation, lod    >>texture   5204  texels, filters
-       >>store     5654  blending, packing
+       >>state     3344  fields by owner       >>vertices  3557  shading, projection
+       >>triangles 3759  culling, edge setup   >>clip      4113  near, far, guard band
+       >>tiles     4300  edges and depth test  >>cover     4662  triangles, tile by tile
+       >>fragments 4930  interpolation, lod    >>texture   5205  texels, filters
+       >>store     5655  blending, packing
      Inside: calls of the renderer
-       >>check     5905  refusals              >>seen      6112  view volume, chunks
-       >>drive     6232  shade_draw            >>mesh      6422  shade_draw_mesh
+       >>check     5906  refusals              >>seen      6113  view volume, chunks
+       >>drive     6233  shade_draw            >>mesh      6423  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6826  shade_draw_lines      >>camera    7018  eye and line of sight
-       >>shape     7112  normals, edges        >>chunks    7489  sorting and boxes
-       >>rays      7648  shade_pick            >>image     7839  makes mipmaps, PPM
-       >>presets   8182  classic materials
+       >>lines     6827  shade_draw_lines      >>camera    7019  eye and line of sight
+       >>shape     7113  normals, edges        >>chunks    7490  sorting and boxes
+       >>rays      7649  shade_pick            >>image     7840  makes mipmaps, PPM
+       >>presets   8183  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8265  shaders, run again    >>survey    8457  experiments on a draw
-       >>numbers   8956  what makes no sense   >>unseen    9251  why nothing is seen
-       >>black     9716  why all is black      >>wrong    10013  what is wrong; the calls
+       >>replay    8266  shaders, run again    >>survey    8535  experiments on a draw
+       >>numbers   8954  what makes no sense   >>unseen    9438  why nothing is in view
+       >>hidden    9720  why nothing is stored >>black     9901  why all is black
+       >>wrong    10283  what else is wrong    >>verdict  10663  the calls
      Sources
-       >>refs     10531                        >>history  10561
-       >>license  10567
+       >>refs     10970                        >>history  11000
+       >>license  11006
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8284,10 +8285,17 @@ typedef struct shade__shades {
 typedef struct shade__tally {
     shade_stats stats;                   /* fragments: neither discarded nor hidden */
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
-    int         any_w, other_w;          /* 1: some w is not 0; some w is not 1 */
+    int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; some w is not 0; not 1 */
     long long   fragments, discarded;    /* all of them, hidden or not; of these */
     shade__shades all, seen;             /* seen: those that have the stored depth */
+    int         rows;                    /* varyings that the vertex shader writes */
+    int         reads_more;              /* the fragment shader reads rows past pipe.varyings */
+    int         vertex_lanes_left;       /* 1: a shader wrote lane 0 of a packet, and left all */
+    int         fragment_lanes_left;     /*    others alone */
 } shade__tally;
+
+/* The bits of a NaN that no arithmetic gives: it marks floats that nobody has written. */
+#define SHADE__UNWRITTEN 0x7FC5AD1Eu
 
 /* A draw that is run again. */
 typedef struct shade__replay {
@@ -8306,6 +8314,8 @@ typedef struct shade__rerun {
     const shade__replay *replay;
     shade_vertex_shader *vertex;
     float                far_depth, far_margin;    /* depths this near to far_depth do not count */
+    shade_fragment_shader *fragment;     /* NULL: it is not called */
+    int                  checks;         /* what the caller's shaders read and write is checked */
     shade__tally        *tally;
 } shade__rerun;
 
@@ -8377,17 +8387,76 @@ static void shade__count_colors(const shade_target *t, const shade_fragments *in
     }
 }
 
+static void shade__mark(float *row, int count)
+{
+    for (int i = 0; i < count; i++) row[i] = shade__bits_float(SHADE__UNWRITTEN);
+}
+
+static int shade__is_unwritten(float x) { return shade__float_bits(x) == SHADE__UNWRITTEN; }
+
+/* Is lane 0 of the rows written, and all other lanes of the packet are not? */
+static int shade__lanes_are_left(const float *rows, int row_count, int count)
+{
+    int written = 0;
+    for (int k = 0; k < row_count; k++)
+        for (int i = 1; i < count; i++) written |= !shade__is_unwritten(rows[k * SHADE_LANES + i]);
+    for (int k = 0; k < row_count && count > 1 && !written; k++)
+        if (!shade__is_unwritten(rows[k * SHADE_LANES])) return 1;
+    return 0;
+}
+
+/* Looks at what the vertex shader writes of a packet. */
+static SHADE__NOINLINE void shade__check_vertices(const shade_pipeline *p,
+                                                  const shade_vertex_ids *in, shade__tally *t)
+{
+    shade_vertices out;
+    shade__mark(out.clip[0], 4 * SHADE_LANES);
+    shade__mark(out.varying[0], SHADE_MAX_VARYINGS * SHADE_LANES);
+    p->vertex(p->uniforms, in, &out);
+    t->vertex_lanes_left |= shade__lanes_are_left(out.clip[0], 4, in->count);
+    for (int k = 0; k < SHADE_MAX_VARYINGS; k++)
+        if (!shade__is_unwritten(out.varying[k][0])) t->rows = shade__max(t->rows, k + 1);
+}
+
+/* Looks at what a fragment shader reads and writes of a packet.  Its colours must change with the
+   rows past varyings, and be the same again with the first ones: it may be a random shader. */
+static SHADE__NOINLINE void shade__check_fragments(shade_fragment_shader *shader,
+                                                   const void *uniforms, int varyings,
+                                                   const shade_fragments *in, shade__tally *t)
+{
+    shade_fragments f = *in;
+    shade_colors c[3];
+    int differ = 0, again = 1;
+    for (int run = 0; run < 3; run++) {
+        for (int k = varyings; k < SHADE_MAX_VARYINGS; k++)
+            for (int i = 0; i < SHADE_LANES; i++) f.varying[k][i] = run == 1 ? 0.75f : 0.25f;
+        shade__mark(c[run].color[0], 4 * SHADE_LANES);
+        SHADE__ZERO(c[run].discard);
+        shader(uniforms, &f, &c[run]);
+    }
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < in->count; i++) {
+            const uint32_t first = shade__float_bits(c[0].color[k][i]);
+            differ |= first != shade__float_bits(c[1].color[k][i]);
+            again &= first == shade__float_bits(c[2].color[k][i]);
+        }
+    t->reads_more |= differ && again;
+    t->fragment_lanes_left |= shade__lanes_are_left(c[0].color[0], 3, in->count);
+}
+
 static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out)
 {
     const shade__rerun *run = (const shade__rerun *)uniforms;
     const shade_pipeline *pipe = &run->replay->pipe;
     run->vertex(pipe->uniforms, in, out);
+    if (run->checks) shade__check_vertices(pipe, in, run->tally);
     for (int i = 0; i < in->count; i++) {
         const float x = out->clip[0][i], y = out->clip[1][i], w = out->clip[3][i];
         const uint32_t bits =
             shade__outcode(x, y, out->clip[2][i], w, pipe->raster.depth_zero_to_one);
         if (!(bits & SHADE__OUT_BAD)) run->tally->outside &= bits;
+        run->tally->any_xy |= x != 0 || y != 0;
         run->tally->any_w |= w != 0;
         run->tally->other_w |= w != 1;
     }
@@ -8401,8 +8470,10 @@ static void shade__replay_fragment(const void *uniforms, const shade_fragments *
     const shade_pipeline *pipe = &run->replay->pipe;
     const shade_target *target = run->replay->target;
     shade__tally *t = run->tally;
-    if (pipe->fragment && (target->color || pipe->may_discard))
-        pipe->fragment(pipe->uniforms, in, out);
+    if (run->fragment && (target->color || pipe->may_discard))
+        run->fragment(pipe->uniforms, in, out);
+    if (run->checks && run->fragment && target->color)
+        shade__check_fragments(run->fragment, pipe->uniforms, pipe->varyings, in, t);
     t->fragments += in->count;
     for (int i = 0; i < in->count; i++) {
         t->discarded += out->discard[i] != 0;
@@ -8410,15 +8481,20 @@ static void shade__replay_fragment(const void *uniforms, const shade_fragments *
         if (run->far_margin > 0 && shade__within(in->z[i] - run->far_depth, run->far_margin))
             out->discard[i] = 1;
     }
-    if (pipe->fragment && target->color)
+    if (run->fragment && target->color)
         shade__count_colors(target, in, out, &pipe->raster, t);
 }
+
+enum {                                   /* how a draw is run again */
+    SHADE__UNDISCARDED = 1,              /* the fragment shader is not called */
+    SHADE__CHECKS = 2                    /* what shaders read and write is checked */
+};
 
 /* Runs the draw, with a raster and into a picture that may differ from the given ones; margin is
    the far_margin of a survey.  vertex NULL: the given one. */
 static shade__tally shade__run_again(const shade__replay *r, const shade_target *picture,
                                      const shade_raster *raster, shade_vertex_shader *vertex,
-                                     const float margin[2])
+                                     const float margin[2], unsigned how)
 {
     shade__rerun run;
     shade__tally tally;
@@ -8429,6 +8505,8 @@ static shade__tally shade__run_again(const shade__replay *r, const shade_target 
     tally.outside = ~0u;
     run.replay = r;
     run.vertex = vertex ? vertex : p.vertex;
+    run.fragment = how & SHADE__UNDISCARDED ? NULL : p.fragment;
+    run.checks = !r->lines && how & SHADE__CHECKS;
     run.far_depth = margin[0];
     run.far_margin = margin[1];
     run.tally = &tally;
@@ -8492,6 +8570,7 @@ typedef struct shade__survey {
     uint32_t         white_map;          /* the map counts as white, with its holes */
     float            far_margin;         /* depths this near to farthest do not count; 0: all do */
     int              lit_only;           /* count only pixels lit in the caller's picture */
+    unsigned         how;                /* SHADE__UNDISCARDED, SHADE__CHECKS */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
@@ -8577,6 +8656,8 @@ static void shade__tally_mesh(const void *uniforms, const shade_fragments *SHADE
     const shade__trial *trial = (const shade__trial *)uniforms;
     const shade__survey *s = trial->survey;
     shade__mesh_fragment(&trial->scene, in, out);
+    shade__check_fragments(s->state.fragment, s->state.uniforms, SHADE_MAX_VARYINGS, in,
+                           trial->tally);
     trial->tally->fragments += in->count;
     for (int i = 0; i < in->count; i++) trial->tally->discarded += out->discard[i] != 0;
     shade__count_colors(s->target, in, out, &s->state.raster, trial->tally);
@@ -8609,7 +8690,8 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
 static shade__tally shade__replay_of(const shade__survey *s, shade_vertex_shader *vertex)
 {
     const float far_depth[2] = { s->farthest, s->far_margin };
-    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_depth);
+    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_depth,
+                            s->how);
 }
 
 /* Counts the colours of all fragments in the clip rectangle.   pre: there is a fragment shader of
@@ -8621,6 +8703,7 @@ static shade__tally shade__tally_of(const shade__survey *s)
     shade__tally tally;
     q.picture = *s->target;
     q.picture.depth = NULL;
+    q.how = SHADE__CHECKS;
     if (s->replay) return shade__replay_of(&q, NULL);
 
     q.state.fragment = s->given_state->fragment;
@@ -8810,91 +8893,6 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->dim = shade__dim_of(target);
 }
 
-/* ---- other surfaces and lamps */
-
-/* The mesh and its map are white; the map keeps its holes. */
-static void shade__drop_colors(shade__survey *q)
-{
-    q->mesh.colors = NULL;
-    q->white_map = 1;
-}
-
-/* The material reflects all light, with wide highlights; white Lambert, for NULL, stays without. */
-static void shade__polish(shade__survey *q)
-{
-    const shade_vec3 one = shade_v3(1, 1, 1);
-    q->material.diffuse = q->material.ambient = one;
-    if (q->given_state->material) q->material.specular = one;
-    q->material.shininess = shade__minf(shade__maxf(q->material.shininess, 1), 4);
-}
-
-static void shade__whiten(shade__survey *q)
-{
-    shade__drop_colors(q);
-    shade__polish(q);
-}
-
-/* One white lamp, and no other light. */
-static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flags)
-{
-    shade_lighting *l = &q->state.lighting;
-    SHADE__ZERO(*l);
-    l->light_count = 1;
-    l->flags = flags;
-    q->lamps_replaced = 1;
-    q->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
-    q->lamp[0].position = position;
-}
-
-/* Copies the first of the given lamps into the survey. */
-static void shade__copy_lamps(shade__survey *q)
-{
-    shade_lighting *l = &q->state.lighting;
-    l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
-    q->lamps_replaced = 1;
-    for (int i = 0; i < l->light_count; i++) q->lamp[i] = l->lights[i];
-}
-
-/* The first of the given lamps, without attenuation and exponent. */
-static void shade__light_everywhere(shade__survey *q)
-{
-    shade__copy_lamps(q);
-    for (int i = 0; i < q->state.lighting.light_count; i++) {
-        shade_light *lamp = &q->lamp[i];
-        lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
-    }
-}
-
-/* One white lamp at the eye, and no other light. */
-static void shade__light_from_eye(shade__survey *q)
-{
-    const shade__camera *c = &q->camera;
-    const double *at = c->perspective ? c->eye : c->sight;
-    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
-    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
-                                (float)c->perspective), 0);
-}
-
-/* The lamps lose their cones.   pre: shade__copy_lamps */
-static void shade__open_cones(shade__survey *q)
-{
-    for (int i = 0; i < q->state.lighting.light_count; i++)
-        q->lamp[i].spot_direction = shade_v3(0, 0, 0);
-}
-
-static void shade__whiten_lamps(shade__survey *q)
-{
-    for (int i = 0; i < q->state.lighting.light_count; i++)
-        q->lamp[i].diffuse = q->lamp[i].specular = shade_v3(1, 1, 1);
-}
-
-/* Lights every fragment, where there is room for its position and normal. */
-static void shade__light_fragments(shade__survey *q)
-{
-    if (SHADE_MAX_VARYINGS > (q->state.diffuse_map ? 7 : 5))
-        q->state.shading = SHADE_SHADING_PER_FRAGMENT;
-}
-
 /* ---- questions that need no drawing */
 
 /* The SHADE__OUT_... bits that all corners share.  If z is 0 at the eye, but for the rounding of
@@ -8926,8 +8924,8 @@ static int shade__depth_varies(const shade_target *t)
     shade__clip_rectangle(t, clip);
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x++)
-            if (t->depth[shade__offset_of(t, x, y)] !=
-                t->depth[shade__offset_of(t, clip[0], clip[1])])
+            if (shade__float_bits(t->depth[shade__offset_of(t, x, y)]) !=
+                shade__float_bits(t->depth[shade__offset_of(t, clip[0], clip[1])]))
                 return 1;
     return 0;
 }
@@ -8959,7 +8957,54 @@ static int shade__faces_ahead(const shade__camera *c)
      way     no_mesh; bad_number: bad_matrix, bad_lamp, positions_are_bad; doubt: doubt_of_view,
              doubt_of_map, doubt_of_surface                                              >>unseen */
 
-/* Is the mesh empty, or do elements of an array overlap? */
+/* A question has three answers: a sentence, or one of these. */
+#define SHADE__GO_ON ((const char *)0)   /* nothing is found: the next question is asked */
+#define SHADE__SILENT ""                 /* it may be meant: nothing is said, and no more asked */
+
+/* The bytes that an array of the mesh spans: from its first element to the end of its last. */
+typedef struct shade__span {
+    uintptr_t from, to;
+    int       stride;
+} shade__span;
+
+static shade__span shade__span_of(const shade_mesh *m, const float *array, int stride, int bytes)
+{
+    shade__span s;
+    s.stride = stride ? stride : bytes;
+    s.from = s.to = (uintptr_t)array;
+    if (array) s.to += (uintptr_t)(m->vertex_count - 1) * (uintptr_t)s.stride + (uintptr_t)bytes;
+    return s;
+}
+
+/* Do two arrays with different strides share bytes? */
+static int shade__arrays_cross(const shade_mesh *m)
+{
+    const shade__span span[4] = { shade__span_of(m, m->positions, m->position_stride, 12),
+                                  shade__span_of(m, m->normals, m->normal_stride, 12),
+                                  shade__span_of(m, m->colors, m->color_stride, 12),
+                                  shade__span_of(m, m->texcoords, m->texcoord_stride, 8) };
+    for (int a = 0; a < 4; a++)
+        for (int b = 0; b < a; b++)
+            if (span[a].stride != span[b].stride && span[a].from < span[b].to &&
+                span[b].from < span[a].to)
+                return m->vertex_count > 1;
+    return 0;
+}
+
+/* Are the indices those of 32 bits, read by halves?  The high halves of small indices are 0. */
+static int shade__indices_are_halves(const shade_mesh *m)
+{
+    const int high = shade__low_byte_first();
+    uint32_t others = 0;
+    if (!m->indices16 || m->index_count < 6) return 0;
+    for (int i = 0; i < m->index_count; i++) {
+        if ((i & 1) != high) others |= m->indices16[i];
+        else if (m->indices16[i]) return 0;
+    }
+    return others != 0;
+}
+
+/* Is the mesh empty, or are its arrays not those that were meant? */
 static const char *shade__no_mesh(const shade_mesh *m)
 {
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
@@ -8971,7 +9016,14 @@ static const char *shade__no_mesh(const shade_mesh *m)
         return "mesh.position_stride, normal_stride or color_stride is below 12, or "
                "texcoord_stride below 8, so that elements overlap; strides count bytes, not "
                "floats, and 0 means tightly packed.";
-    return NULL;
+    if (shade__arrays_cross(m))
+        return "Two arrays of the mesh run through each other with different strides: set "
+               "position_stride, normal_stride, color_stride and texcoord_stride of interleaved "
+               "vertices to the bytes of a whole vertex.";
+    if (shade__indices_are_halves(m))
+        return "Every other entry of mesh.indices16 is 0: the array holds indices of 32 bits, "
+               "which belong in mesh.indices.";
+    return SHADE__GO_ON;
 }
 
 /* ---- matrices and numbers of the state */
@@ -9029,6 +9081,53 @@ static int shade__view_by_rows(const shade__survey *s)
     return shade__differ(&q, s);
 }
 
+/* Does state.model hold a perspective?  A matrix for shadows on a plane flattens. */
+static int shade__model_is_camera(const shade__survey *q)
+{
+    const shade_mat4 one = shade_mat4_identity();
+    shade__camera c;
+    shade__camera_of(&q->state.model, &one, &c);
+    return !shade__is_affine(&q->state.model) && shade__faces_ahead(&c) &&
+           shade_mat4_determinant(q->state.model) != 0;
+}
+
+static const char shade__model_holds_projection[] =
+    "state.model holds a projection, which belongs in state.projection: light is computed in the "
+    "space that state.model leads to.";
+
+static const char shade__projection_rows[] =
+    "state.projection looks transposed (row-major): of a projection alone, the -1 belongs in "
+    "col[2].w; pass it through shade_mat4_transpose.";
+
+/* Do columns 0, 1 and 3 stand at right angles? */
+static int shade__at_right_angles(const shade_mat4 *m)
+{
+    static const int pair[3][2] = { { 0, 1 }, { 0, 3 }, { 1, 3 } };
+    int turned = 1;
+    for (int k = 0; k < 3; k++) {
+        const shade_vec3 a = shade__xyz(m->col[pair[k][0]]), b = shade__xyz(m->col[pair[k][1]]);
+        turned &= shade__within(shade_dot(a, b), 1e-4f * shade_length(a) * shade_length(b));
+    }
+    return turned;
+}
+
+/* Is the transpose of m a camera without shear, though m is none?  Then its rows x, y and w, the
+   columns of m, stand at right angles. */
+static int shade__is_camera_by_rows(const shade_mat4 *m)
+{
+    const shade_mat4 turned = shade_mat4_transpose(*m);
+    return !shade__is_camera(m) && shade__is_camera(&turned) && shade__at_right_angles(m);
+}
+
+/* Does state.projection hold projection times view by rows? */
+static int shade__camera_by_rows(const shade__survey *s)
+{
+    shade__survey q = *s;
+    if (!shade__is_camera_by_rows(&s->state.projection)) return 0;
+    q.state.projection = shade_mat4_transpose(s->state.projection);
+    return shade__covered(&q) > 0;
+}
+
 static const char *shade__bad_matrix(const shade__survey *s)
 {
     const shade_mat4 *model = &s->state.model, *view = &s->state.view, *p = &s->state.projection;
@@ -9040,6 +9139,10 @@ static const char *shade__bad_matrix(const shade__survey *s)
     if (shade__view_by_rows(s))
         return "state.view looks transposed (row-major): its translation belongs in col[3]; pass "
                "it through shade_mat4_transpose.";
+    if (shade__model_is_camera(s) && !s->given_state->fragment &&
+        s->state.lighting.light_count > 0)
+        return shade__model_holds_projection;
+    if (shade__camera_by_rows(s)) return shade__projection_rows;
     if (shade__scales_w(model) || shade__scales_w(view))
         return "The last row of state.model or state.view is not 0, 0, 0, 1: set col[3].w to 1.";
     if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
@@ -9068,6 +9171,11 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (shade_dot4(l->position, l->position) == 0 && !shade__is_zero(l->diffuse))
         return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
                "lights nothing; fill it with shade_directional_light or shade_point_light.";
+    if (shade_min(shade_min(l->diffuse, l->specular), l->ambient).x < 0 ||
+        shade_min(shade_min(l->diffuse, l->specular), l->ambient).y < 0 ||
+        shade_min(shade_min(l->diffuse, l->specular), l->ambient).z < 0)
+        return "A light of lighting.lights has a negative colour: it takes light away from what it "
+               "shines on.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
@@ -9084,6 +9192,68 @@ static int shade__positions_are_bad(const shade__survey *s)
     shade_mesh_bounds(&all.mesh, &low, &high);
     low = shade_max(high, shade_neg(low));
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
+}
+
+/* Is a float of an attribute NaN, infinite or beyond 1e18, whose square is infinite? */
+static int shade__is_wild(const float *array, int stride, int floats, uint32_t vertex)
+{
+    const char *at = (const char *)array +
+                     (size_t)vertex * (size_t)(stride ? stride : floats * (int)sizeof(float));
+    int wild = 0;
+    for (int k = 0; k < floats; k++) {
+        float number;
+        SHADE_MEMCPY(&number, at + (size_t)k * sizeof number, sizeof number);
+        wild |= !shade__within(number, 1e18f);
+    }
+    return wild;
+}
+
+/* Does a triangle with an area have such a number? */
+static int shade__attribute_is_wild(const shade_mesh *m, const float *array, int stride,
+                                    int floats)
+{
+    for (int i = 0; array && i < shade__corner_count(m) / 3 * 3; i++) {
+        shade_vec3 p[3];
+        if (shade__is_wild(array, stride, floats, shade__corner_index(m, (uint32_t)i)) &&
+            !shade__is_zero(shade__face_normal(m, (uint32_t)i / 3, p)))
+            return 1;
+    }
+    return 0;
+}
+
+/* Looks at the attributes that the draw reads. */
+static const char *shade__bad_attribute(const shade__survey *s)
+{
+    const shade_mesh *m = s->given_mesh;
+    const shade_draw_state *d = s->given_state;
+    const int lit = d->lighting.light_count > 0 && d->shading != SHADE_SHADING_PER_FACE;
+    if (!s->target->color) return SHADE__GO_ON;
+    if ((d->fragment || lit) && shade__attribute_is_wild(m, m->normals, m->normal_stride, 3))
+        return "mesh.normals hold NaN, infinite or huge numbers (beyond 1e18), which no lamp "
+               "lights: normals must be floats, and mesh.normal_stride counts bytes; "
+               "shade_mesh_normals fills them.";
+    if (shade__attribute_is_wild(m, m->colors, m->color_stride, 3))
+        return "mesh.colors hold NaN, infinite or huge numbers (beyond 1e18): they are three "
+               "floats each, not bytes, and mesh.color_stride counts bytes.";
+    if ((d->fragment || d->diffuse_map) &&
+        shade__attribute_is_wild(m, m->texcoords, m->texcoord_stride, 2))
+        return "mesh.texcoords hold NaN, infinite or huge numbers (beyond 1e18): they are two "
+               "floats each, and mesh.texcoord_stride counts bytes.";
+    return SHADE__GO_ON;
+}
+
+/* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart on the screen?
+   The mesh is at most as wide as its pixels are many along a side. */
+static int shade__floats_are_coarse(const shade__survey *s)
+{
+    shade_vec3 low, high, size, most;
+    float step, wide;
+    shade_mesh_bounds(s->given_mesh, &low, &high);
+    size = shade_sub(high, low);
+    most = shade_max(high, shade_neg(low));
+    wide = shade__maxf(size.x, shade__maxf(size.y, size.z));
+    step = shade__maxf(most.x, shade__maxf(most.y, most.z)) * FLT_EPSILON / 2;
+    return step * shade__sqrt((float)shade__covered(s)) > wide;
 }
 
 /* The number of triangles that a draw of the mesh counts. */
@@ -9113,7 +9283,7 @@ static const char *shade__bad_number(const shade__survey *s)
     if (!why && shade__positions_are_bad(s))
         why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices "
               "make them so: positions must be floats, and mesh.position_stride counts bytes.";
-    return why;
+    return why ? why : shade__bad_attribute(s);
 }
 
 /* ---- numbers that are possible, but seldom right */
@@ -9157,6 +9327,16 @@ static int shade__u_reaches(const shade_mesh *m, int width)
     return width >= 16 && most >= (float)(width - 1) && most <= (float)width;
 }
 
+/* Has a level another size than shade_build_mipmaps gives it? */
+static int shade__levels_differ(const shade_texture *map)
+{
+    int differ = 0;
+    for (int k = 1; map->mipmaps && k <= map->mipmap_count && k <= 16; k++)
+        differ |= map->mipmaps[k - 1].width != shade__max(1, map->width >> k) ||
+                  map->mipmaps[k - 1].height != shade__max(1, map->height >> k);
+    return differ;
+}
+
 static const char *shade__doubt_of_map(const shade__survey *s)
 {
     const shade_texture *map = shade__map_of(s);
@@ -9171,6 +9351,9 @@ static const char *shade__doubt_of_map(const shade__survey *s)
         (!map->mipmaps || map->mipmap_count <= 0))
         return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
                "fill them with shade_build_mipmaps.";
+    if (map->filter == SHADE_FILTER_TRILINEAR && shade__levels_differ(map))
+        return "A level of state.diffuse_map.mipmaps is not max(1, width >> k) by "
+               "max(1, height >> k) texels, for k from 1 on: fill them with shade_build_mipmaps.";
     if (shade__u_reaches(&s->mesh, map->width))
         return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
                "1 over the map, whatever its size.";
@@ -9243,25 +9426,23 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1; 1e-5 is much.";
+    if (shade__floats_are_coarse(s))
+        return "mesh.positions lie so far from 0 that floats are more than a pixel apart there: "
+               "subtract the middle of the mesh in double, and move the mesh by state.model and "
+               "the eye by as much less.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
 }
 
 /*----------------------------------------------------------------------------------------- >>unseen
-   Why no pixel shows the draw: of a mesh, of lines or of a pipeline.
+   Why no pixel of the whole picture shows the draw: of a mesh, of lines or of a pipeline.
      in      a survey                        out  a sentence, or another answer
-     method  Ladders: tables of changes and sentences, tried from top to bottom.  For example: with
+     method  Ladders: tables of changes and answers, tried from top to bottom.  For example: with
              culling off, are there pixels?  Then raster.cull is at fault.
-     holds   A mesh outside one band or strip is not reported, because another band may show it.
-     way     climb: the ladder nothing, if no pixel of the whole picture is covered; else test, and
-             unseen                                                                       >>black */
+     way     climb the ladder nothing: climb_to                                          >>hidden */
 
 /* ---- ladders */
-
-/* A question has three answers: a sentence, or one of these. */
-#define SHADE__GO_ON ((const char *)0)   /* nothing is found: the next question is asked */
-#define SHADE__SILENT ""                 /* it may be meant: nothing is said, and no more asked */
 
 typedef struct shade__rung {
     int (*change)(shade__survey *q);     /* returns whether the answer holds */
@@ -9350,7 +9531,10 @@ static int shade__projection_by_rows(shade__survey *q)
 {
     shade__survey turned = *q;
     turned.state.projection = shade_mat4_transpose(q->state.projection);
-    return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
+    if (!shade__is_transposed(&q->state.projection) &&
+        (shade__is_camera(&q->state.projection) || !shade__is_camera(&turned.state.projection)))
+        return 0;
+    return !q->replay && shade__covered(&turned);
 }
 
 /* Does every triangle lie outside of the view volume? */
@@ -9360,14 +9544,7 @@ static int shade__is_beside(shade__survey *q)
     return stats.clipped + stats.rejected == stats.triangles;
 }
 
-static int shade__model_is_camera(shade__survey *q)
-{
-    const shade_mat4 one = shade_mat4_identity();
-    shade__camera c;
-    shade__camera_of(&q->state.model, &one, &c);
-    return !shade__is_affine(&q->state.model) && shade__faces_ahead(&c) &&
-           shade_mat4_determinant(q->state.model) != 0;
-}
+static int shade__model_has_camera(shade__survey *q) { return shade__model_is_camera(q); }
 
 static int shade__model_projects(shade__survey *q) { return !shade__is_affine(&q->state.model); }
 
@@ -9389,11 +9566,13 @@ static int shade__w_is_zero(shade__survey *q)
            !shade__replay_of(q, q->replay->lines ? shade__point_vertex : NULL).any_w;
 }
 
-/* Is w 1 everywhere, as without a projection? */
+/* Is w 1 everywhere, as without a projection?  Degenerate cameras make x and y 0 as well. */
 static int shade__w_is_one(shade__survey *q)
 {
-    return q->replay && !q->replay->lines && shade__is_beside(q) &&
-           !shade__replay_of(q, NULL).other_w;
+    shade__tally t;
+    if (!q->replay || q->replay->lines || !shade__is_beside(q)) return 0;
+    t = shade__replay_of(q, NULL);
+    return t.any_xy && !t.other_w;
 }
 
 static int shade__beyond_far(shade__survey *q)
@@ -9435,18 +9614,6 @@ static int shade__matrix_is_none(shade__survey *q)
     return shade__is_rigid(&m) && shade__is_beside(q);
 }
 
-/* Are columns 0, 1 and 3 at right angles, as those of view times projection are? */
-static int shade__is_turned_last(const shade_mat4 *m)
-{
-    static const int pair[3][2] = { { 0, 1 }, { 0, 3 }, { 1, 3 } };
-    int turned = 1;
-    for (int k = 0; k < 3; k++) {
-        const shade_vec3 a = shade__xyz(m->col[pair[k][0]]), b = shade__xyz(m->col[pair[k][1]]);
-        turned &= shade__within(shade_dot(a, b), 1e-4f * shade_length(a) * shade_length(b));
-    }
-    return turned;
-}
-
 /* Is w = -z, as in view times projection, though the rest is not a projection?  In one, far is
    -col[3].z / (col[2].z + 1), which is not negative beyond rounding. */
 static int shade__matrix_is_exchanged(shade__survey *q)
@@ -9455,11 +9622,12 @@ static int shade__matrix_is_exchanged(shade__survey *q)
     if (!q->replay || !q->replay->lines) return 0;
     m = shade__matrix_of(q);
     return shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
-           shade__is_turned_last(&m) &&
+           shade__at_right_angles(&m) &&    /* as in view times projection */
            (!shade__is_camera(&m) || (m.col[2].z > -0.99f && m.col[3].z < 0));
 }
 
-/* Do the lines show with the transposed matrix? */
+/* Do the lines show with the transposed matrix?  If they show with the given one, only a transposed
+   one that is a camera without shear proves it. */
 static int shade__matrix_by_rows(shade__survey *q)
 {
     shade__survey shown = *q;
@@ -9469,6 +9637,7 @@ static int shade__matrix_by_rows(shade__survey *q)
     if (!q->replay || !q->replay->lines) return 0;
     m = shade__matrix_of(q);
     turned = shade_mat4_transpose(m);
+    if (shade__appears(q) && !shade__is_camera_by_rows(&m)) return 0;
     if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
                                       !shade__is_camera(&turned)))
         return 0;
@@ -9480,6 +9649,9 @@ static int shade__matrix_by_rows(shade__survey *q)
     shown.replay = &by_rows;
     return shade__appears(&shown);
 }
+
+static const char shade__lines_by_rows[] =
+    "state.clip_from_points looks transposed (row-major): pass it through shade_mat4_transpose.";
 
 /* ---- why nothing is in view */
 
@@ -9496,26 +9668,20 @@ static const shade__ladder shade__nothing = {
         { shade__appears,
           "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
           "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
-          "matrix that mirrors, such as state.model, reverses it as well.", NULL },
+          "state.model that mirrors, or another matrix, reverses it as well.", NULL },
         { shade__is_scattered, SHADE__SILENT, NULL },
         { shade__all_cut,
           "state.alpha_cutoff is above every alpha of the mesh, (1 - transparency) times the "
           "alpha of diffuse_map; lower it.", NULL },
-        { shade__projection_by_rows,
-          "state.projection looks transposed (row-major): of a projection alone, the -1 belongs "
-          "in col[2].w; pass it through shade_mat4_transpose.", NULL },
+        { shade__projection_by_rows, shade__projection_rows, NULL },
         { shade__matrix_is_none,
           "Every line lies outside the cube from -1 to 1: state.clip_from_points is unset, or not "
           "a projection; it is projection times view, in this order.", NULL },
         { shade__matrix_is_exchanged,
           "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
           "projection first, then view.", NULL },
-        { shade__matrix_by_rows,
-          "state.clip_from_points looks transposed (row-major): pass it through "
-          "shade_mat4_transpose.", NULL },
-        { shade__model_is_camera,
-          "state.model holds a projection, which belongs in state.projection: light is computed "
-          "in the space that state.model leads to.", NULL },
+        { shade__matrix_by_rows, shade__lines_by_rows, NULL },
+        { shade__model_has_camera, shade__model_holds_projection, NULL },
         { shade__model_projects, SHADE__SILENT, NULL },
         { shade__projection_is_none,
           "Every triangle lies outside the cube from -1 to 1: state.projection is unset, or not a "
@@ -9524,13 +9690,13 @@ static const shade__ladder shade__nothing = {
           "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 without a "
           "projection; or the matrix is not projection times view, in this order.", NULL },
         { shade__w_is_one,
-          "Every triangle lies outside the cube from -1 to 1, and w is 1 everywhere: positions in "
-          "clip space are projection times view times model times (P, 1); without a perspective, "
-          "the box of shade_mat4_ortho must hold them.", NULL },
+          "All of it lies beside the picture, before near or beyond far, and w is 1 everywhere: "
+          "pipeline.vertex must write projection times view times model times (P, 1).  If that is "
+          "shade_mat4_ortho, its box must hold the positions.", NULL },
         { shade__beyond_far,
-          "All of it lies beyond the far plane of the projection; raise far, or move the eye "
-          "nearer.  A camera made with near = far, with degrees for radians, or with an aspect of "
-          "0 puts all there.", NULL },
+          "All of it lies beyond the far plane of the projection (state.projection); raise far, or "
+          "move the eye nearer.  A camera made with near = far, with degrees for radians, or with "
+          "an aspect of 0 puts all there.", NULL },
         { shade__view_is_inverse,
           "The mesh is out of view, but the inverse of state.view would show it: state.view takes "
           "the world to the eye, as shade_mat4_look_at does.", NULL },
@@ -9538,19 +9704,24 @@ static const shade__ladder shade__nothing = {
           "All of it lies behind the eye, where w is negative: a camera looks down -z in its own "
           "space; check the view and the model matrix.", NULL },
         { shade__before_near,
-          "All of it lies nearer than the near plane of the projection, or behind the eye; lower "
-          "near, or move the eye back.", NULL },
+          "All of it lies nearer than the near plane of the projection (state.projection), or "
+          "behind the eye; lower near, or move the eye back.", NULL },
         { shade__is_beside,
-          "All of it lies beside the picture, before near or beyond far; check the model matrix, "
-          "and where the view looks.", NULL },
+          "All of it lies beside the picture, before near or beyond far; check state.model, and "
+          "where the camera looks (state.view, state.projection), or what takes their place.",
+          NULL },
         { shade__always,
-          "No pixel centre is covered: all is smaller than a pixel, seen edge-on, without area "
-          "(a scale of 0, corners or ends that coincide, lines of a width below 1), or lies "
-          "beside the picture.", NULL },
+          "No pixel centre is covered: all is too small on the screen, seen edge-on, beside the "
+          "picture, or without area, because a scale of state.model is 0, corners coincide (equal "
+          "entries of mesh.indices), or state.width of lines is far below 1.", NULL },
     }
 };
 
-/* ---- pixels are covered, but the draw stored none, or perhaps none */
+/*----------------------------------------------------------------------------------------- >>hidden
+   Why a draw that covers pixels stored none of them, or perhaps none.
+     in      a survey                        out  a sentence, or another answer
+     holds   A mesh outside one band or strip is not reported, because another band may show it.
+     way     climb the ladders test and unseen                                            >>black */
 
 /* Would the reverse test show another depth in some pixel? */
 static int shade__test_is_turned(shade__survey *q)
@@ -9561,8 +9732,22 @@ static int shade__test_is_turned(shade__survey *q)
            shade__hides_nearest(q, 0);
 }
 
+/* Is near beyond far in a perspective?  With C = col[2].z and D = col[3].z, near = D / (C - 1) and
+   far = D / (C + 1). */
+static int shade__near_is_beyond_far(shade__survey *q)
+{
+    const shade_mat4 *p = &q->state.projection;
+    const float c = p->col[2].z, d = p->col[3].z;
+    return p->col[2].w == -1 && p->col[3].w == 0 && !q->state.raster.depth_zero_to_one &&
+           d / (c - 1) > d / (c + 1) && d / (c + 1) > 0 && shade__test_is_turned(q);
+}
+
 static const shade__ladder shade__test = {
     SHADE__EACH_ALONE, {
+        { shade__near_is_beyond_far,
+          "near of state.projection is beyond far, which turns depth round, so that far surfaces "
+          "hide near ones: exchange the two; or, if it is meant, use SHADE_COMPARE_GREATER with "
+          "depth cleared to 0.", NULL },
         { shade__test_is_turned,
           "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: "
           "use SHADE_COMPARE_LESS with depth cleared to 1, or with shade_mat4_perspective_reversed "
@@ -9719,6 +9904,91 @@ static const shade__ladder shade__unseen = {
      holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
              Black: none is brighter than 8 of 255.
      way     climb_to: the ladder black; helps: the mend of its rung                      >>wrong */
+
+/* ---- other surfaces and lamps */
+
+/* The mesh and its map are white; the map keeps its holes. */
+static void shade__drop_colors(shade__survey *q)
+{
+    q->mesh.colors = NULL;
+    q->white_map = 1;
+}
+
+/* The material reflects all light, with wide highlights; white Lambert, for NULL, stays without. */
+static void shade__polish(shade__survey *q)
+{
+    const shade_vec3 one = shade_v3(1, 1, 1);
+    q->material.diffuse = q->material.ambient = one;
+    if (q->given_state->material) q->material.specular = one;
+    q->material.shininess = shade__minf(shade__maxf(q->material.shininess, 1), 4);
+}
+
+static void shade__whiten(shade__survey *q)
+{
+    shade__drop_colors(q);
+    shade__polish(q);
+}
+
+/* One white lamp, and no other light. */
+static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flags)
+{
+    shade_lighting *l = &q->state.lighting;
+    SHADE__ZERO(*l);
+    l->light_count = 1;
+    l->flags = flags;
+    q->lamps_replaced = 1;
+    q->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
+    q->lamp[0].position = position;
+}
+
+/* Copies the first of the given lamps into the survey. */
+static void shade__copy_lamps(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
+    q->lamps_replaced = 1;
+    for (int i = 0; i < l->light_count; i++) q->lamp[i] = l->lights[i];
+}
+
+/* The first of the given lamps, without attenuation and exponent. */
+static void shade__light_everywhere(shade__survey *q)
+{
+    shade__copy_lamps(q);
+    for (int i = 0; i < q->state.lighting.light_count; i++) {
+        shade_light *lamp = &q->lamp[i];
+        lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
+    }
+}
+
+/* One white lamp at the eye, and no other light. */
+static void shade__light_from_eye(shade__survey *q)
+{
+    const shade__camera *c = &q->camera;
+    const double *at = c->perspective ? c->eye : c->sight;
+    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
+    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
+                                (float)c->perspective), 0);
+}
+
+/* The lamps lose their cones.   pre: shade__copy_lamps */
+static void shade__open_cones(shade__survey *q)
+{
+    for (int i = 0; i < q->state.lighting.light_count; i++)
+        q->lamp[i].spot_direction = shade_v3(0, 0, 0);
+}
+
+static void shade__whiten_lamps(shade__survey *q)
+{
+    for (int i = 0; i < q->state.lighting.light_count; i++)
+        q->lamp[i].diffuse = q->lamp[i].specular = shade_v3(1, 1, 1);
+}
+
+/* Lights every fragment, where there is room for its position and normal. */
+static void shade__light_fragments(shade__survey *q)
+{
+    if (SHADE_MAX_VARYINGS > (q->state.diffuse_map ? 7 : 5))
+        q->state.shading = SHADE_SHADING_PER_FRAGMENT;
+}
 
 /* ---- the mesh is drawn, but black: the surface */
 
@@ -10011,12 +10281,10 @@ static const shade__ladder shade__black = {
 };
 
 /*------------------------------------------------------------------------------------------ >>wrong
-   Why a picture is wrong, and the calls that explain it, in one sentence.
-     in      arguments of a draw, its stats  out  a constant sentence; "" for nothing
-     way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
-             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
-             why_black, wrong_light, flat; doubt.  shade_explain_draw, shade_explain_lines:
-             explain_replay: why: bad_run; the same ladders; why_plain: why_faint          >>refs */
+   Why a mesh shows in a wrong picture: depth, winding, and then light.
+     in      a survey                        out  a sentence, or another answer
+     holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
+     way     climb the ladders picture and wrong_light; climb_to flat                   >>verdict */
 
 /* ---- the mesh is drawn, but wrongly */
 
@@ -10073,6 +10341,85 @@ static int shade__lacks_depth(shade__survey *q)
     return shade__hides_nearest(q, 1);
 }
 
+/* Neighbours that were looked at, and those of them that go through their common edge in the same
+   direction, so that one of the two is wound the other way. */
+typedef struct shade__seams { int pairs, turned; } shade__seams;
+
+/* Counts the edge from corner k of a triangle to the next, if one other triangle has it. */
+static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__seams *seams)
+{
+    const shade_vec3 a = shade__corner(m, (uint32_t)(3 * triangle + k));
+    const shade_vec3 b = shade__corner(m, (uint32_t)(3 * triangle + (k + 1) % 3));
+    int same = 0, opposite = 0;
+    for (int i = 0; i < shade__corner_count(m) / 3 * 3; i++) {
+        const shade_vec3 c = shade__corner(m, (uint32_t)i);
+        const int at_a = shade__is_zero(shade_sub(c, a)), at_b = shade__is_zero(shade_sub(c, b));
+        shade_vec3 next;
+        if ((!at_a && !at_b) || i / 3 == triangle) continue;
+        next = shade__corner(m, (uint32_t)(i / 3 * 3 + (i + 1) % 3));
+        same += at_a && shade__is_zero(shade_sub(next, b));
+        opposite += at_b && shade__is_zero(shade_sub(next, a));
+    }
+    if (same + opposite != 1) return;
+    seams->pairs++;
+    seams->turned += same;
+}
+
+/* Looks at as many triangles as take the time of some frames: all of a small mesh. */
+static shade__seams shade__seams_of(const shade_mesh *m)
+{
+    const int all = shade__corner_count(m) / 3;
+    const int step = 1 + (int)((double)all * all / 4e6);
+    shade__seams seams = { 0, 0 };
+    for (int i = 0; i < all; i += step) {
+        shade_vec3 p[3];
+        if (shade__is_zero(shade__face_normal(m, (uint32_t)i, p))) continue;
+        for (int k = 0; k < 3; k++) shade__count_edge(m, i, k, &seams);
+    }
+    return seams;
+}
+
+/* Are faces wound both ways?  Below one pair of a hundred it may be the knot of a mesh. */
+static int shade__is_wound_both_ways(const shade__survey *s)
+{
+    const shade__seams seams = shade__seams_of(s->given_mesh);
+    return seams.turned > 1 && seams.turned * 100 >= seams.pairs;
+}
+
+static int shade__is_often_wound_both_ways(const shade__survey *s)
+{
+    const shade__seams seams = shade__seams_of(s->given_mesh);
+    return seams.turned > 1 && seams.turned * 10 >= seams.pairs;
+}
+
+/* Is a face left out whose neighbour is not? */
+static int shade__culled_both_ways(shade__survey *q)
+{
+    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_wound_both_ways(q);
+}
+
+static int shade__culled_often_both_ways(shade__survey *q)
+{
+    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_often_wound_both_ways(q);
+}
+
+static int shade__view_mirrors(shade__survey *q)
+{
+    return shade_mat4_determinant(q->state.view) < 0 && shade__backs_in_view(q);
+}
+
+static const char shade__both_ways[] =
+    "Faces are wound both ways: some neighbours, fewer than a tenth, go through their common edge "
+    "in the same direction.  Wind all faces counter-clockwise as seen from outside; until then "
+    "use SHADE_CULL_NONE and SHADE_FLAG_TWO_SIDED.";
+static const char shade__often_both_ways[] =
+    "Faces are wound both ways: a tenth or more of all neighbours go through their common edge in "
+    "the same direction.  Wind all faces counter-clockwise as seen from outside; until then use "
+    "SHADE_CULL_NONE and SHADE_FLAG_TWO_SIDED.";
+static const char shade__mirrored_view[] =
+    "state.view mirrors, since its determinant is negative, so that front faces count as back "
+    "faces: make it with shade_mat4_look_at, which only turns and moves.";
+
 static const char shade__inward[] =
     "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
     "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
@@ -10080,6 +10427,9 @@ static const char shade__inward[] =
 
 static const shade__ladder shade__picture = {
     SHADE__EACH_ALONE, {
+        { shade__culled_often_both_ways, shade__often_both_ways, NULL },
+        { shade__culled_both_ways, shade__both_ways, NULL },
+        { shade__view_mirrors, shade__mirrored_view, NULL },
         { shade__backs_in_view, shade__inward, NULL },
         { shade__lacks_depth,
           "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test "
@@ -10201,13 +10551,51 @@ static int shade__eye_is_astray(shade__survey *q)
     return (!terms || terms & SHADE_TERM_SPECULAR) && q->exact && shade__differ(q, &given);
 }
 
+/* Would the winding, or normals that disagree with it, be blamed? */
+static int shade__winding_is_wrong(const shade__survey *s)
+{
+    shade__survey faces = *s, turned = *s, inward = *s;
+    const int face_normals = !s->mesh.normals || s->state.shading == SHADE_SHADING_PER_FACE;
+    return (face_normals && shade__sides_matter(&faces)) || shade__normals_turned(&turned) ||
+           shade__wound_inward(&inward);
+}
+
+static int shade__lit_both_ways(shade__survey *q)
+{
+    return shade__winding_is_wrong(q) && shade__is_wound_both_ways(q);
+}
+
+static int shade__lit_often_both_ways(shade__survey *q)
+{
+    return shade__winding_is_wrong(q) && shade__is_often_wound_both_ways(q);
+}
+
+static int shade__light_is_mirrored(shade__survey *q)
+{
+    shade__survey turned = *q, inward = *q;
+    return shade_mat4_determinant(q->state.view) < 0 &&
+           (shade__normals_turned(&turned) || shade__wound_inward(&inward));
+}
+
+/* Light from behind is meant where other light shows the mesh. */
+static int shade__lamps_are_behind_all(shade__survey *q)
+{
+    shade__survey unlit = *q;
+    const unsigned terms = q->state.lighting.terms;
+    unlit.state.lighting.terms = (terms ? terms : ~0u) & (SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT);
+    return !(unlit.state.lighting.terms && shade__shows(&unlit)) && shade__lamps_behind(q);
+}
+
 static const shade__ladder shade__wrong_light = {
     SHADE__EACH_ALONE, {
         { shade__is_clipped,
           "Almost all that is lit is clipped to white: colours of lighting.lights, "
           "lighting.ambient, state.material and mesh.colors are linear, with 1 for full light, not "
           "255.", NULL },
-        { shade__lamps_behind, shade__behind, NULL },
+        { shade__lit_often_both_ways, shade__often_both_ways, NULL },
+        { shade__lit_both_ways, shade__both_ways, NULL },
+        { shade__light_is_mirrored, shade__mirrored_view, NULL },
+        { shade__lamps_are_behind_all, shade__behind, NULL },
         { shade__colors_are_zero, shade__black_colors, NULL },
         { shade__normals_turned,
           "mesh.normals point away from the eye on faces that are wound toward it: turn "
@@ -10272,6 +10660,14 @@ static const shade__ladder shade__flat = {
     }
 };
 
+/*---------------------------------------------------------------------------------------- >>verdict
+   The calls that explain a draw in one sentence, and their way through the ladders.
+     in      arguments of a draw, its stats  out  a constant sentence; "" for nothing
+     way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
+             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
+             why_black, wrong_light, flat; doubt.  shade_explain_draw, shade_explain_lines:
+             explain_replay: why: bad_run; the same ladders; why_plain: why_faint          >>refs */
+
 /* ---- the colours of a fragment shader of the caller, or of lines */
 
 /* The fragments that are visible for certain, or all: a fault that all of them have is visible. */
@@ -10289,7 +10685,17 @@ static const char *shade__why_faint(const shade__survey *s)
     const int lines = s->replay && s->replay->lines, cull = raster->cull;
     const shade__tally t = shade__tally_of(s);
     const shade__shades *v = shade__visible(s, &t);
+    if (!s->replay && t.fragments && t.discarded == t.fragments)
+        return "state.fragment discards all pixels of the mesh, or gives them an alpha below "
+               "state.alpha_cutoff.";
     if (!v->count) return SHADE__GO_ON;
+    if (t.fragment_lanes_left)
+        return "The fragment shader (state.fragment, pipeline.fragment) writes lane 0 of a packet "
+               "alone: it must write every lane, in a loop SHADE_EACH_LANE(i) over "
+               "out->color[k][i].";
+    if (s->replay && t.reads_more && t.rows > s->replay->pipe.varyings)
+        return "pipeline.varyings is smaller than the number of rows that pipeline.vertex writes "
+               "and pipeline.fragment reads, so that the last ones are not interpolated; raise it.";
     if (s->replay && !s->replay->pipe.may_discard && t.discarded)
         return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
     if (v->nan)
@@ -10307,8 +10713,9 @@ static const char *shade__why_faint(const shade__survey *s)
         return v->clear == v->count ? "state.color is not set: the lines are drawn in black."
                                     : SHADE__GO_ON;
     if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && cull != SHADE_CULL_FRONT)
-        return "The fragment shader gives black everywhere: check out->color[0] to [2], which it "
-               "must write in each lane, its uniforms, and the varyings.";    /* not of outlines */
+        return "The fragment shader (state.fragment, pipeline.fragment) gives black everywhere: "
+               "check out->color[0] to [2], which it must write in each lane, its uniforms, and "
+               "the varyings.";    /* not of outlines */
     return v->bright * 10 >= v->count * 9 && s->target->format != SHADE_FORMAT_RGBA32F
                ? "Almost all colours are clipped to white, or a full channel: in out->color, and "
                  "in state.color of lines, 1 is full light, not 255."
@@ -10363,24 +10770,54 @@ static const char *shade__why_wrong(const shade__survey *s)
 static const char *shade__bad_run(const shade__survey *s)
 {
     const shade__replay *r = s->replay;
-    const shade__tally t = shade__replay_of(s, NULL);
+    shade__survey q = *s;
+    shade__tally t;
+    q.how = SHADE__CHECKS;
+    t = shade__replay_of(&q, NULL);
+    if (t.vertex_lanes_left)
+        return "pipeline.vertex writes lane 0 of a packet alone: it must write every lane, in a "
+               "loop SHADE_EACH_LANE(i) over in->index[i] and out->clip[k][i].";
     if (t.stats.rejected)
         return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge "
                           "numbers (beyond 1e30), so that lines are left out."
                         : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
                           "that triangles are left out: check its uniforms and what it reads.";
+    shade__look_in_clip(&q);
+    q.how = 0;
+    t = shade__replay_of(&q, NULL);
     if (r->pipe.may_discard && t.fragments && t.discarded == t.fragments)
         return "pipeline.fragment discards all pixels.";
     return SHADE__GO_ON;
+}
+
+/* Do all pixels of the clip rectangle hold the same bytes? */
+static int shade__is_blank(const shade_target *t)
+{
+    const size_t bytes = shade__pixel_bytes(t->format);
+    const uint8_t *color = (const uint8_t *)t->color, *first;
+    int clip[4];
+    shade__clip_rectangle(t, clip);
+    first = color + shade__offset_of(t, clip[0], clip[1]) * bytes;
+    for (int y = clip[1]; y < clip[3]; y++)
+        for (int x = clip[0]; x < clip[2]; x++)
+            for (size_t k = 0; k < bytes; k++)
+                if (color[shade__offset_of(t, x, y) * bytes + k] != first[k]) return 0;
+    return 1;
 }
 
 /* Looks at a picture in which lines or a pipeline have pixels. */
 static const char *shade__why_plain(const shade__survey *s)
 {
     const shade_raster *raster = &s->given_state->raster;
+    shade__survey q = *s;
     if (!s->replay->pipe.fragment && (!s->target->depth || raster->depth_read_only))
         return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
                "or raster.depth_read_only is set.";
+    if (!s->replay->pipe.fragment && s->target->color && shade__is_blank(s->target))
+        return "pipeline.fragment is NULL, so that only depth is drawn, and target.color holds one "
+               "colour everywhere: set a fragment shader, or, if depth alone is wanted, make "
+               "target.color NULL.";
+    if (shade__matrix_by_rows(&q)) return shade__lines_by_rows;
     return s->replay->pipe.fragment && s->target->color ? shade__why_faint(s) : SHADE__GO_ON;
 }
 
@@ -10388,8 +10825,10 @@ static const char *shade__why(const shade__survey *s)
 {
     const int sure = s->given_stats && s->given_stats->fragments > 0;
     const char *why = s->replay ? shade__bad_run(s) : shade__bad_number(s);
+    shade__survey all = *s;
+    all.how = SHADE__UNDISCARDED;
     if (why) return why;
-    if (!sure && !shade__covered(s)) return shade__climb(s, &shade__nothing);
+    if (!sure && !shade__covered(&all)) return shade__climb(&all, &shade__nothing);
 
     why = shade__climb(s, &shade__test);
     if (!why && !sure) why = shade__climb(s, &shade__unseen);

@@ -805,6 +805,7 @@ SO(clip, TARGET->clip_width || TARGET->clip_x || TARGET->clip_height || TARGET->
 SO(too_wide, TARGET->clip_x + TARGET->clip_width > TARGET->width)
 SO(beyond_picture, so_too_wide(j) || TARGET->clip_y + TARGET->clip_height > TARGET->height)
 SO(shader, STATE->fragment != NULL)
+SO(model_projects, !ex_is_affine(STATE->model))
 SO(chunks, MESH->chunks != NULL)
 SO(other_stats, STAGE->other_stats)
 /* Is the eye of the view not the centre of projection, or does its axis look away? */
@@ -1119,6 +1120,7 @@ static const claim claims[] = {
     { "state.view looks transposed", so_view_by_rows, cure_view_by_rows, CHANGES },
     { "The last row of state.model", so_last_row, cure_nothing, STATED },
     { "that cameras return", so_degenerate, cure_camera, STATED },
+    { "state.model holds a projection", so_model_projects, cure_nothing, STATED },
     { "state.view holds a projection", so_not_rigid, cure_nothing, STATED },
     { "perspective_reversed, which", so_no_flag, cure_flag, STATED },
     { "light_count is negative", so_negative_count, cure_nothing, STATED },
@@ -1156,7 +1158,9 @@ static const claim claims[] = {
     /* wrong pixels */
     { "inside out", so_inside_out, cure_winding, CHANGES },
     { "Triangles drawn later hide", so_order, cure_depth, CHANGES },
-    { "The fragment shader gives black", so_shader, cure_shader, LIGHTS_UP },
+    { "fragment) gives black", so_shader, cure_shader, LIGHTS_UP },
+    { "adds nothing", so_shader, cure_shader, LIGHTS_UP },
+    { "Alpha is 0 everywhere", so_shader, cure_shader, LIGHTS_UP },
     { "lit is clipped", so_white, cure_255, DARKENS },
     { "mesh.normals point away from the eye", so_turned, cure_turned, CHANGES },
     /* darkness */
