@@ -14,6 +14,8 @@
 #include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/kit/scene/renderer.h"
+#include "examples/kit/core/camera.h"
+#include "examples/kit/core/color.h"
 #include "examples/shared/label.h"
 
 #ifndef NATIVE
@@ -836,6 +838,104 @@ int python_part_of(const model *m, int i, python_part *part)
     return m->part_count;
 }
 
+/* ---- arguments and cameras, of core/ --------------------------------------------------------- */
+
+NATIVE(color) int python_color(core_refusal *r, const char *argument, const char *word, double *rgb);
+int python_color(core_refusal *r, const char *argument, const char *word, double *rgb)
+{
+    return core_color(r, argument, word, rgb);
+}
+
+NATIVE(colors)
+int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count, int columns,
+                  int whole, int bytes, float *out, double *alpha);
+int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count, int columns,
+                  int whole, int bytes, float *out, double *alpha)
+{
+    return core_colors(r, argument, rows, count, columns, whole, bytes, out, alpha);
+}
+
+/* Returns the indices that were made, -1: refused */
+NATIVE(faces)
+int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows, int columns,
+                 int vertices, uint32_t *out);
+int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows, int columns,
+                 int vertices, uint32_t *out)
+{
+    return (int)core_faces(r, argument, faces, rows, columns, vertices, out);
+}
+
+/* x: eye, target, up; fov, aspect, near, far */
+NATIVE(look_at) int python_look_at(core_refusal *r, const double *x, core_camera *out);
+int python_look_at(core_refusal *r, const double *x, core_camera *out)
+{
+    return core_look_at(r, x, x + 3, x + 6, x[9], x[10], x[11], x[12], out);
+}
+
+NATIVE(opencv)
+int python_opencv(core_refusal *r, const double *K, const double *extrinsics, int width, int height,
+                  double near, double far, core_camera *out);
+int python_opencv(core_refusal *r, const double *K, const double *extrinsics, int width, int height,
+                  double near, double far, core_camera *out)
+{
+    return core_opencv(r, K, extrinsics, width, height, near, far, out);
+}
+
+NATIVE(opengl)
+int python_opengl(core_refusal *r, const double *projection, const double *pose, core_camera *out);
+int python_opengl(core_refusal *r, const double *projection, const double *pose, core_camera *out)
+{
+    return core_opengl(r, projection, pose, out);
+}
+
+NATIVE(range_of)
+int python_range_of(core_refusal *r, const char *argument, const double *projection, core_range *out);
+int python_range_of(core_refusal *r, const char *argument, const double *projection, core_range *out)
+{
+    return core_range_of(r, argument, projection, out);
+}
+
+NATIVE(view_name) const char *python_view_name(int i, double *angles);
+const char *python_view_name(int i, double *angles)
+{
+    return core_view_name(i, angles, angles + 1);
+}
+
+/* out: the way toward the eye, and the way up */
+SHADEDEF void python_direction(double azimuth, double elevation, int up, double *out);
+void python_direction(double azimuth, double elevation, int up, double *out)
+{
+    core_direction(azimuth, elevation, up, out, out + 3);
+}
+
+SHADEDEF int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
+                        core_camera *out);
+int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
+               core_camera *out)
+{
+    core_cloud cloud;
+    if (core_cloud_open(r, side, &cloud)) return r->code;
+    core_cloud_add(&cloud, points, NULL, count, NULL);
+    core_fit(&cloud, side, out);
+    return 0;
+}
+
+SHADEDEF void python_studio(const float *points, size_t count, const double *view, int up, double *out);
+void python_studio(const float *points, size_t count, const double *view, int up, double *out)
+{
+    core_ball ball = { .some = 0 };
+    core_ball_add(&ball, points, NULL, count, NULL);
+    core_ball_reach(&ball, points, NULL, count, NULL);
+    core_studio(&ball, view, up, out);
+}
+
+/* low and high: the box; out: from where it counts */
+NATIVE(origin) void python_origin_of(const double *low, const double *high, double *out);
+void python_origin_of(const double *low, const double *high, double *out)
+{
+    core_origin(low, high, out);
+}
+
 /* ---- cameras of renderer.h ------------------------------------------------------------------- */
 
 SHADEDEF renderer_scene *python_scene_open(void);
@@ -845,10 +945,12 @@ SHADEDEF void python_scene_close(renderer_scene *scene);
 void python_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
 
 NATIVE(scene_mesh)
-int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth);
-int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth)
+int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth,
+                      const double *origin);
+int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth,
+                      const double *origin)
 {
-    return renderer_set_mesh(scene, number, mesh, smooth);
+    return renderer_set_mesh(scene, number, mesh, smooth, origin);
 }
 
 NATIVE(scene_texture)
@@ -865,39 +967,70 @@ int python_scene_add(renderer_scene *scene, const renderer_object *records, int 
     return renderer_add(scene, records, count);
 }
 
-NATIVE(scene_remove) int python_scene_remove(renderer_scene *scene, int number);
-int python_scene_remove(renderer_scene *scene, int number)
+/* 1: done, 0: out of memory, -1: there is no such number; count 0 takes the object away. */
+NATIVE(scene_put)
+int python_scene_put(renderer_scene *scene, int number, const renderer_object *records, int count);
+int python_scene_put(renderer_scene *scene, int number, const renderer_object *records, int count)
 {
-    return renderer_remove(scene, number);
+    return renderer_put_object(scene, number, records, count);
 }
 
-/* The records of an object, or with number -1 of all */
-NATIVE(scene_find)
-renderer_object *python_scene_find(const renderer_scene *scene, int number, int *count);
-renderer_object *python_scene_find(const renderer_scene *scene, int number, int *count)
+NATIVE(scene_put_all)
+int python_scene_put_all(renderer_scene *scene, const renderer_object *records, int count);
+int python_scene_put_all(renderer_scene *scene, const renderer_object *records, int count)
 {
-    *count = scene->object_count;
-    return number < 0 ? scene->objects : renderer_find(scene, number, count);
+    return renderer_put_all(scene, records, count);
 }
 
-NATIVE(scene_set)
-int python_scene_set(renderer_scene *scene, const renderer_object *records, int count);
-int python_scene_set(renderer_scene *scene, const renderer_object *records, int count)
+NATIVE(scene_records)
+int python_scene_records(const renderer_scene *s, int number, renderer_object *to, int room);
+int python_scene_records(const renderer_scene *s, int number, renderer_object *to, int room)
 {
-    return renderer_set_objects(scene, records, count);
+    return renderer_records(s, number, to, room);
 }
 
-SHADEDEF int python_is_rigid(const double *rows);
-int python_is_rigid(const double *rows) { return renderer_is_rigid(rows); }
+/* The next number, which is made at_least this */
+NATIVE(scene_next) int python_scene_next(renderer_scene *scene, int at_least);
+int python_scene_next(renderer_scene *scene, int at_least)
+{
+    return renderer_next(scene, at_least);
+}
 
-/* to is a copy of the scene's records, or NULL: those are moved. */
+NATIVE(scene_hold) int python_scene_hold(renderer_scene *scene);
+int python_scene_hold(renderer_scene *scene) { return renderer_hold(scene); }
+
+NATIVE(scene_done) void python_scene_done(renderer_scene *scene);
+void python_scene_done(renderer_scene *scene) { renderer_done(scene); }
+
+NATIVE(not_rigid) int python_not_rigid(const double *rows, int count);
+int python_not_rigid(const double *rows, int count) { return renderer_not_rigid(rows, count); }
+
 NATIVE(scene_pose)
-int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,
-                      const double *rows, int count);
-int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,
-                      const double *rows, int count)
+int python_scene_pose(renderer_scene *scene, const int32_t *numbers, const double *rows, int count);
+int python_scene_pose(renderer_scene *scene, const int32_t *numbers, const double *rows, int count)
 {
-    return renderer_pose(scene, to ? to : scene->objects, numbers, rows, count);
+    return renderer_pose(scene, numbers, rows, count);
+}
+
+NATIVE(scene_light)
+void python_scene_light(renderer_scene *scene, const shade_light *lights, const double *places,
+                        int count, const float *ambient, int shadows);
+void python_scene_light(renderer_scene *scene, const shade_light *lights, const double *places,
+                        int count, const float *ambient, int shadows)
+{
+    renderer_set_lights(scene, lights, places, count, renderer_get(ambient), shadows);
+}
+
+/* colors: of the background 4 numbers, of the sky below and above 3 each */
+NATIVE(scene_behind)
+void python_scene_behind(renderer_scene *scene, int sky, int texture, const float *colors);
+void python_scene_behind(renderer_scene *scene, int sky, int texture, const float *colors)
+{
+    renderer_around a = { .sky = sky, .sky_texture = texture };
+    a.background = shade_v4(colors[0], colors[1], colors[2], colors[3]);
+    a.sky_low = renderer_get(colors + 4);
+    a.sky_high = renderer_get(colors + 7);
+    renderer_set_behind(scene, &a);
 }
 
 NATIVE(renderer_open) renderer *python_renderer_open(void);
@@ -925,6 +1058,7 @@ size_t python_size(int which)
                                    sizeof(shade_light),     sizeof(shade_chunk),
                                    sizeof(python_part),     sizeof(renderer_image),
                                    sizeof(renderer_object), sizeof(renderer_picture),
-                                   sizeof(python_picture) };
+                                   sizeof(python_picture),  sizeof(core_refusal),
+                                   sizeof(core_side),       sizeof(core_camera) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

@@ -30,7 +30,6 @@ step compile sh tests/scripts/dialects.sh
 step board sh tests/scripts/microcontroller.sh
 build build/shade.o    # which the README's programs are linked to as well
 step readme sh tests/scripts/readme.sh
-step rows sh tests/scripts/rows.sh
 build build/test_main
 step runner build/test_main
 build build/test_count
@@ -39,6 +38,7 @@ build build/golden pictures
 # G15
 step pictures build/golden out/*.ppm
 step shown sh examples/pictures/gallery.sh --check
+step png sh tests/scripts/png.sh
 # nothing here runs the programs: they are read for errors, unless they are there
 "$make" -s CFLAGS=-fsyntax-only programs >"$T/programs" 2>&1 || { cat "$T/programs"; failed=1; }
 grep 'left out' "$T/programs"

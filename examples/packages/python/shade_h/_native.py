@@ -105,22 +105,21 @@ class View(Structure):
                 ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("bent", c_int)]
 
 
-#: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count,
-#: light_count, shadows, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
-#: view, projection; background, sky_low, sky_high, ambient; objects, lights, color, depth, ids,
+#: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count, pose_count;
+#: near_z, far_z, empty_depth, tolerance; unused; view, projection; objects, poses, color, depth, ids,
 #: normals
-SHOT = struct.Struct("@12i4f32f13f6P")
+SHOT = struct.Struct("@9i4fi16d16f6P")
 
 
 #: renderer_object
-SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
-                  ("flags", np.int32), ("id", np.int32), ("first", np.int32), ("count", np.int32),
-                  ("size", np.float32, 3), ("turn", np.float32, (3, 3)),
-                  ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32, 3),
-                  ("shininess", np.float32), ("emission", np.float32), ("glow", np.float32, 3),
-                  ("repeat", np.float32, 2), ("metal", np.float32), ("tint", np.float32),
-                  ("cutoff", np.float32), ("relief", np.int32), ("glow_map", np.int32),
-                  ("strength", np.float32), ("glow_factor", np.float32, 3)])
+SOLID = np.dtype([("place", np.float64, 3), ("turn", np.float64, (3, 3)), ("kind", np.int32),
+                  ("mesh", np.int32), ("texture", np.int32), ("flags", np.int32), ("id", np.int32),
+                  ("first", np.int32), ("count", np.int32), ("size", np.float32, 3),
+                  ("rgba", np.float32, 4), ("specular", np.float32, 3), ("shininess", np.float32),
+                  ("emission", np.float32), ("glow", np.float32, 3), ("repeat", np.float32, 2),
+                  ("metal", np.float32), ("tint", np.float32), ("cutoff", np.float32),
+                  ("relief", np.int32), ("glow_map", np.int32), ("strength", np.float32),
+                  ("glow_factor", np.float32, 3), ("unused", np.int32)])
 
 
 class Image(Structure):
@@ -161,6 +160,28 @@ class OwnedMesh(Structure):
                 ("chunks", c_void_p)]
 
 
+class Refusal(Structure):
+    """core_refusal"""
+    _fields_ = [("code", c_int), ("argument", ctypes.c_char * 64), ("text", ctypes.c_char * 384)]
+
+
+class Side(Structure):
+    """core_side"""
+    _fields_ = [("azimuth", c_double), ("elevation", c_double), ("up", c_int), ("width", c_int),
+                ("height", c_int), ("ortho", c_int), ("fov", c_double), ("margin", c_double),
+                ("room", c_double)]
+
+
+class CameraOf(Structure):
+    """core_camera"""
+    _fields_ = [("view", c_double * 16), ("projection", c_double * 16)]
+
+
+class Range(Structure):
+    """core_range"""
+    _fields_ = [("near", c_double), ("far", c_double), ("parallel", c_int)]
+
+
 #: zip_inflate
 INFLATE = ctypes.CFUNCTYPE(c_int, c_void_p, c_size_t, c_void_p, c_size_t)
 
@@ -198,16 +219,33 @@ def _open() -> Any:
             ("python_texture_levels", c_int, 3 * [c_void_p] + [c_size_t, c_int]),
             ("python_heights", c_int, [c_void_p, c_int, c_int]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
+            ("python_color", c_int, [c_void_p, c_char_p, c_char_p, c_void_p]),
+            ("python_colors", c_int, [c_void_p, c_char_p, c_void_p, c_size_t] + 3 * [c_int] + 2 * [c_void_p]),
+            ("python_faces", c_int, [c_void_p, c_char_p, c_void_p, c_size_t, c_int, c_int, c_void_p]),
+            ("python_look_at", c_int, 3 * [c_void_p]),
+            ("python_opencv", c_int, 3 * [c_void_p] + [c_int, c_int, c_double, c_double, c_void_p]),
+            ("python_opengl", c_int, 4 * [c_void_p]),
+            ("python_range_of", c_int, [c_void_p, c_char_p, c_void_p, c_void_p]),
+            ("python_view_name", c_char_p, [c_int, c_void_p]),
+            ("python_direction", None, [c_double, c_double, c_int, c_void_p]),
+            ("python_fit", c_int, [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
+            ("python_studio", None, [c_void_p, c_size_t, c_void_p, c_int, c_void_p]),
+            ("python_origin_of", None, 3 * [c_void_p]),
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
-            ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
             ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
-            ("python_scene_remove", c_int, [c_void_p, c_int]),
-            ("python_scene_find", c_void_p, [c_void_p, c_int, c_void_p]),
-            ("python_scene_set", c_int, [c_void_p, c_void_p, c_int]),
-            ("python_is_rigid", c_int, [c_void_p]),
-            ("python_scene_pose", c_int, 4 * [c_void_p] + [c_int]),
+            ("python_scene_put", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_put_all", c_int, [c_void_p, c_void_p, c_int]),
+            ("python_scene_records", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_next", c_int, [c_void_p, c_int]),
+            ("python_scene_hold", c_int, [c_void_p]),
+            ("python_scene_done", None, [c_void_p]),
+            ("python_scene_light", None, 3 * [c_void_p] + [c_int, c_void_p, c_int]),
+            ("python_scene_behind", None, [c_void_p, c_int, c_int, c_void_p]),
+            ("python_not_rigid", c_int, [c_void_p, c_int]),
+            ("python_scene_pose", c_int, 3 * [c_void_p] + [c_int]),
             ("python_renderer_open", c_void_p, []),
             ("python_renderer_close", None, [c_void_p]),
             ("python_renderer_draw", c_int, [c_void_p, c_int, c_void_p, c_void_p, c_int, c_void_p]),
@@ -233,8 +271,9 @@ def _open() -> Any:
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     if (library.python_size(10), library.python_size(11)) != (SOLID.itemsize, SHOT.size):
         raise ImportError(f"{path} does not belong to this version: renderer_object")
-    if library.python_size(12) != ctypes.sizeof(FilePicture):
-        raise ImportError(f"{path} does not belong to this version: {FilePicture.__doc__}")
+    for i, twin in enumerate((FilePicture, Refusal, Side, CameraOf)):
+        if library.python_size(12 + i) != ctypes.sizeof(twin):
+            raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     return library
 
 
@@ -246,6 +285,16 @@ def check(result: int, what: str) -> None:
     if result:
         words = library.shade_result_string(result).decode()
         raise Error(f"{what}: {words}")
+
+
+def asked(function: Callable[..., Any], *given: Any) -> Any:
+    """What a function of the core returns, of arrays among others; raises what it refuses, by the
+    argument's name."""
+    why = Refusal()
+    got = function(ctypes.byref(why), *(pointer(one) if isinstance(one, np.ndarray) else one for one in given))
+    if why.code:
+        raise Error(f"{why.argument.decode()} {why.text.decode(errors='replace')}")
+    return got
 
 
 def interruptible(call: Callable[[c_int], Any], late: Callable[[Any], object] = bool) -> Any:

@@ -25,11 +25,10 @@ COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
 def origin_of(low: Doubles, high: Doubles) -> Doubles:
     """From where coordinates in a box are counted, so that floats keep their digits: zero, or for a
     box far away a round number near it, of which doubles subtract without rounding."""
-    middle, extent = (low + high) / 2, float((high - low).max())
-    if not np.isfinite(middle).all() or np.abs(middle).max() <= 16 * extent:
-        return np.zeros(3)
-    step = 10.0 ** np.ceil(np.log10(extent)) if extent > 0 else 1.0
-    return np.asarray(np.round(middle / step) * step)
+    out = np.empty(3)
+    box = np.array([low, high], float)
+    library.python_origin_of(pointer(box[0]), pointer(box[1]), pointer(out))
+    return out
 
 
 def _box(points: Doubles) -> tuple[Doubles, Doubles]:
@@ -524,6 +523,11 @@ def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:
     return out
 
 
+def is_file(value: object) -> bool:
+    """Is it a path, or a file that is open?"""
+    return isinstance(value, (str, bytes, os.PathLike)) or callable(getattr(value, "read", None))
+
+
 def mesh(value: Like, **options: Any) -> Mesh:
     """Makes a Mesh of a path, of a pair (vertices, faces), of an object with .vertices and .faces
     (trimesh), or of one with .tessellate (cadquery, build123d); of points alone, (n, 3), small
@@ -532,7 +536,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
-    if isinstance(value, (str, bytes, os.PathLike)) or callable(getattr(value, "read", None)):
+    if is_file(value):
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
