@@ -1516,15 +1516,15 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 4
 #endif
 
-/* On x86-64 gcc and clang compile each hot loop three times from one always-inlined body: for any
-   processor, for AVX2 and for AVX-512.  A call runs the best build that the processor supports.
-   All builds give the same bits, because none uses FMA.  For example,
+/* On x86-64 gcc and clang compile each hot loop up to four times from one always-inlined body: for
+   any processor, for SSE4.1, for AVX2 and for AVX-512.  A call runs the best build that the
+   processor supports.  All builds give the same bits, because none uses FMA.  For example,
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   becomes four functions.  Three are builds, made by SHADE__BUILD: shade__push_any,
-   shade__push_avx512 and
+   becomes five functions.  Four are builds, made by SHADE__BUILD: shade__push_any,
+   shade__push_sse41, shade__push_avx512 and
 
      __attribute__((target("avx2"))) static SHADE__HOT void
      shade__push_avx2(shade__draw *d, const shade__run *run, int runs)
@@ -1533,19 +1533,20 @@ typedef uint32_t shade__word;
          shade__push_body(d, run, runs);
      }
 
-   The body may use shade__width, the number of floats in a vector.  The fourth function is the one
+   The body may use shade__width, the number of floats in a vector.  The fifth function is the one
    to call, made by SHADE__CALL_BEST:
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
          const int best = SHADE__LEVEL;
-         if (best == 2) shade__push_avx512(d, run, runs);
-         else if (best == 1) shade__push_avx2(d, run, runs);
+         if (best == 3) shade__push_avx512(d, run, runs);
+         else if (best == 2) shade__push_avx2(d, run, runs);
+         else if (best == 1) shade__push_sse41(d, run, runs);
          else shade__push_any(d, run, runs);
      }
 
    Elsewhere shade__push calls shade__push_any, the only build.  Tests define SHADE__LEVEL as an int
-   expression, 0, 1 or 2, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
+   expression, 0 to 3, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
 #ifndef SHADE__TILE_TESTED
 #define SHADE__TILE_TESTED() ((void)0)
 #endif
@@ -1570,7 +1571,8 @@ typedef uint32_t shade__word;
 #else
 #define SHADE__LEVEL \
     (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
-     __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
+     __builtin_cpu_supports("avx512dq") ? 3 : __builtin_cpu_supports("avx2") ? 2 : \
+     __builtin_cpu_supports("sse4.1") ? 1 : 0)
 #endif
 #endif
 #ifdef SHADE__ASK_PROCESSOR
@@ -1582,13 +1584,15 @@ SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
     return ebx;
 }
 
-/* The build for a processor, 0, 1 or 2 as in SHADE__LEVEL.  features is EBX of leaf 7, saved is
-   XCR0, the registers that the operating system saves.  AVX-512 needs the features AVX2, F, DQ, BW
-   and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit vectors.     [Intel25] */
-SHADE__INLINE int shade__build_for(uint32_t features, uint32_t saved)
+/* The build for a processor, 0 to 3 as in SHADE__LEVEL.  basic is ECX of leaf 1, features is EBX of
+   leaf 7, and saved is XCR0, the registers that the operating system saves.  AVX-512 needs the
+   features AVX2, F, DQ, BW and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit
+   vectors; SSE4.1 is bit 19 of basic.                                                [Intel25] */
+SHADE__INLINE int shade__build_for(uint32_t basic, uint32_t features, uint32_t saved)
 {
-    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 2;
-    return (features & 0x20) && !(~saved & 6);
+    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 3;
+    if ((features & 0x20) && !(~saved & 6)) return 2;
+    return basic >> 19 & 1;
 }
 
 /* 1 + the build, or 0 before the first call: the only variable of the library.  In a virtual
@@ -1599,11 +1603,11 @@ static int shade__known_build;
    so leaf 7. */
 static SHADE__COLD int shade__ask_processor(void)
 {
-    uint32_t ecx, edx, saved = 0, features = shade__cpuid(7, &ecx);
+    uint32_t basic, edx, saved = 0, features = shade__cpuid(7, &basic);
     int best;
-    shade__cpuid(1, &ecx);
-    if (ecx >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
-    best = shade__build_for(features, saved);
+    shade__cpuid(1, &basic);
+    if (basic >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
+    best = shade__build_for(basic, features, saved);
     __atomic_store_n(&shade__known_build, best + 1, __ATOMIC_RELAXED);
     return best;
 }
@@ -1621,26 +1625,34 @@ SHADE__INLINE int shade__best_build(void)
 #define SHADE__AVX512 \
     __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
-#define SHADE__CALL_BEST(name, for_avx512, parameters, arguments, body) \
+#define SHADE__CALL_BEST(name, for_sse41, for_avx512, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
     SHADE__BUILD(name##_avx2, __attribute__((target("avx2"))), 8, parameters, body) \
     static void name parameters \
     { \
         const int best = SHADE__LEVEL; \
-        if (best == 2) for_avx512 arguments; \
-        else if (best == 1) name##_avx2 arguments; \
+        if (best == 3) for_avx512 arguments; \
+        else if (best == 2) name##_avx2 arguments; \
+        else if (best == 1) for_sse41 arguments; \
         else name##_any arguments; \
     }
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
+    SHADE__BUILD(name##_sse41, __attribute__((target("sse4.1"))), SHADE__ANY_WIDTH, parameters, \
+                 body) \
     SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
-    SHADE__CALL_BEST(name, name##_avx512, parameters, arguments, body)
-/* For loops that AVX-512 makes no faster: the AVX2 build serves in place of a third. */
+    SHADE__CALL_BEST(name, name##_sse41, name##_avx512, parameters, arguments, body)
+/* For loops that SSE4.1 makes no faster: the build for any processor serves in its place. */
+#define SHADE__DISPATCH_AVX(name, parameters, arguments, body) \
+    SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
+    SHADE__CALL_BEST(name, name##_any, name##_avx512, parameters, arguments, body)
+/* For loops that AVX-512 makes no faster either: the AVX2 build serves in its place. */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments, body) \
-    SHADE__CALL_BEST(name, name##_avx2, parameters, arguments, body)
+    SHADE__CALL_BEST(name, name##_any, name##_avx2, parameters, arguments, body)
 #else
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
     static void name parameters { name##_any arguments; }
+#define SHADE__DISPATCH_AVX SHADE__DISPATCH
 #define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
 
@@ -2709,10 +2721,10 @@ SHADE__INLINE int shade__points(int n, int width)
     return shade__max(n & -(int)SHADE__POINT, SHADE__POINT);
 }
 
-SHADE__DISPATCH(shade__arrive,
-                (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
-                (lamp, point, n, a),
-                shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
+SHADE__DISPATCH_AVX(shade__arrive,
+                    (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
+                    (lamp, point, n, a),
+                    shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
 
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount)
@@ -3277,10 +3289,10 @@ SHADE__INLINE void shade__lit_rows_body(const shade__surface *s, const shade_row
     shade__viewer(point, s->eye, n, &r.to_eye);
     for (int k = 0; k < s->lamps; k++) shade__add_lamp(k, n, &r, rgb);
 }
-SHADE__DISPATCH(shade__lit_rows,
-                (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
-                (s, rows, n, rgb),
-                shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
+SHADE__DISPATCH_AVX(shade__lit_rows,
+                    (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
+                    (s, rows, n, rgb),
+                    shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
 
 static void shade__lit_packet(const shade__surface *s, const shade_rows *rows, float *rgb)
 {
@@ -4897,8 +4909,8 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     runs->next = i;
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
-SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
-                (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
+SHADE__DISPATCH_AVX(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
+                    (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
 /* Draws all triangles of the setup.  The three functions are called one after the other to save
    stack; the last one can draw any triangle. */
