@@ -58,30 +58,30 @@
        >>light      581  the equation, colour  >>draw       689  shaders, meshes, pixels
        >>tools      848  explain, lines, rays  >>math      1048  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1412  processors            >>base      1647  bits, masks, rows of vectors
-       >>matrix    1844  cameras, inverses     >>power     2127  x^n
-       >>pixels    2193  formats, sRGB
+       >>machine   1412  processors            >>base      1659  bits, masks, rows of vectors
+       >>matrix    1856  cameras, inverses     >>power     2139  x^n
+       >>pixels    2205  formats, sRGB
      Inside: light
-       >>lamps     2502  attenuation, cones    >>terms     2754  one term at one point
-       >>surface   2829  material and lights   >>lit       2946  the whole sum, at many points
+       >>lamps     2514  attenuation, cones    >>terms     2766  one term at one point
+       >>surface   2841  material and lights   >>lit       2958  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3336  fields by owner       >>vertices  3548  shading, projection
-       >>triangles 3750  culling, edge setup   >>clip      4103  near, far, guard band
-       >>tiles     4289  edges and depth test  >>cover     4651  triangles, tile by tile
-       >>fragments 4919  interpolation, lod    >>texture   5194  texels, filters
-       >>store     5644  blending, packing
+       >>state     3348  fields by owner       >>vertices  3560  shading, projection
+       >>triangles 3762  culling, edge setup   >>clip      4115  near, far, guard band
+       >>tiles     4301  edges and depth test  >>cover     4663  triangles, tile by tile
+       >>fragments 4931  interpolation, lod    >>texture   5206  texels, filters
+       >>store     5680  blending, packing
      Inside: calls of the renderer
-       >>check     5895  refusals              >>seen      6102  view volume, chunks
-       >>drive     6222  shade_draw            >>mesh      6412  shade_draw_mesh
+       >>check     5947  refusals              >>seen      6154  view volume, chunks
+       >>drive     6274  shade_draw            >>mesh      6464  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6816  shade_draw_lines      >>camera    7008  eye and line of sight
-       >>shape     7102  normals, edges        >>chunks    7479  sorting and boxes
-       >>rays      7638  shade_pick            >>survey    7829  experiments on a draw
-       >>explain   8291  why nothing is seen   >>replay    9471  the same for lines, pipelines
-       >>image     9799  makes mipmaps, PPM    >>presets  10142  classic materials
+       >>lines     6868  shade_draw_lines      >>camera    7060  eye and line of sight
+       >>shape     7154  normals, edges        >>chunks    7531  sorting and boxes
+       >>rays      7690  shade_pick            >>survey    7881  experiments on a draw
+       >>explain   8343  why nothing is seen   >>replay    9523  the same for lines, pipelines
+       >>image     9851  makes mipmaps, PPM    >>presets  10194  classic materials
      Sources
-       >>refs     10227                        >>history  10257
-       >>license  10263
+       >>refs     10279                        >>history  10309
+       >>license  10315
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
