@@ -20,6 +20,7 @@
 # make install       header, programs, man pages, completions for bash, thumbnailer and types
 #                    below PREFIX in DESTDIR; make uninstall removes them;
 #                    make install-header: the header alone, for pkg-config and CMake
+# make findings      what other software does that one would not guess, and what of it changed
 # make vector-report loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -144,7 +145,7 @@ course:
 course-zip:
 	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/teaching/course/build.sh
 assignments:
-	@sh tests/scripts/assignments.sh
+	@sh examples/teaching/assignments/test/assignments.sh
 coverage:
 	@sh tests/scripts/coverage.sh
 mutation:
@@ -160,6 +161,8 @@ format:
 	clang-format -i --style=file $(FORMAT)
 format-check:
 	@clang-format -n -Werror --style=file $(FORMAT)
+findings:
+	@sh .ci/findings.sh
 dist:
 	@sh .ci/dist.sh
 prove:
@@ -214,5 +217,5 @@ clean:
 	rm -rf build out dist
 .PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
         conformance coverage mutation static lint format format-check prove fuzz gallery \
-        playground vector-report dist install install-header uninstall clean
+        playground vector-report findings dist install install-header uninstall clean
 .SECONDARY:

@@ -21,7 +21,7 @@ import numpy as np
 from python import FOV, LAMP, Scene, Vtk, box, capsule, display
 
 HERE = Path(__file__).resolve().parent
-sys.path.append(str(HERE.parent / "examples" / "packages" / "python" / "tests"))
+sys.path.append(str(HERE.parent / "examples" / "packages" / "python" / "test"))
 SIZES, FRAMES, COUNT, PARTS = (64, 84, 128, 256), 16, 32, 10
 GREY = (0.7, 0.65, 0.6)
 

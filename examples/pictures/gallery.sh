@@ -26,7 +26,7 @@ for tool in pnmenlarge pamdepth pnmtopng pngquant python3; do
 done
 make -s -C examples/microcontroller ../../build/microcontroller/picture.565 || exit 1
 pnmenlarge 3 build/microcontroller/picture.ppm >build/microcontroller.ppm || exit 1
-mkdir -p build/parts && python3 tests/thumbnail/parts.py build/parts || exit 1
+mkdir -p build/parts && python3 examples/programs/thumbnail/test/parts.py build/parts || exit 1
 build/thumbnail build/parts/assembly.obj build/drawing.ppm --views front,right,top,iso --ortho \
     --hidden --ids --dimensions --size 1200x900 || exit 1
 for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm build/drawing.ppm; do

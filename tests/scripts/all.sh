@@ -30,7 +30,6 @@ step compile sh tests/scripts/dialects.sh
 step board sh tests/scripts/microcontroller.sh
 build build/shade.o    # which the README's programs are linked to as well
 step readme sh tests/scripts/readme.sh
-step rows sh tests/scripts/rows.sh
 build build/test_main
 step runner build/test_main
 build build/test_count

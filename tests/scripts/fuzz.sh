@@ -1,6 +1,6 @@
 #!/bin/sh
-# fuzz.sh [seconds] [target ...] - fuzzes each target of tests/fuzz, 60 seconds in all, from the
-# committed corpus; what it finds grows in build/fuzz/work, and crashes stay in build/fuzz/crash.
+# fuzz.sh [seconds] [target ...] - fuzzes each target, of tests/fuzz and for readers of examples/kit/test,
+# 60 seconds in all, from the committed corpus; what it finds grows in build/fuzz/work, and crashes stay in build/fuzz/crash.
 # The last lines are the number of inputs: of this run, and of all runs since build/ was made.
 # Without clang and its fuzzer library the corpus is replayed instead.
 #     CC           compiler of the replay; CLANG the one that fuzzes
@@ -13,9 +13,11 @@ seconds=${1:-60}
 # G5
 targets=${*:-draw mesh sequence explain lines texture shape light reader surface}
 CC=${CC:-cc} CLANG=${CLANG:-clang} LANES=${FUZZ_LANES:-16} B=build/fuzz
-FLAGS="-std=c99 -O2 -g -I. -DSHADE_LANES=$LANES"
+FLAGS="-std=c99 -O2 -g -I. -Itests/fuzz -DSHADE_LANES=$LANES"
 CHECKS=${FUZZ_CHECKS--fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all}
 passed=0 failed=0
+# C file of a target: the readers' stand beside the readers
+source_of() { ls tests/fuzz/$1.c examples/kit/test/$1.c 2>/dev/null; }
 count() { if [ "$1" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi; }
 mkdir -p $B/crash
 
@@ -44,7 +46,7 @@ fuzz() {                                     # target, seconds
     [ $t = explain ] && { checks= object=quick; quick; }
     # its inputs are choices without magic numbers, its pictures small: 3 times as fast
     [ $t = sequence ] && checks="$checks -fno-sanitize-coverage=trace-cmp" searches=-entropic=0
-    if ! "$CLANG" $FLAGS $checks -fsanitize=fuzzer tests/fuzz/$t.c $B/$object.o -lm -o $B/$t; then
+    if ! "$CLANG" $FLAGS $checks -fsanitize=fuzzer $(source_of $t) $B/$object.o -lm -o $B/$t; then
         echo "$t does not build"; count 1; return
     fi
     # G1, G4
@@ -63,7 +65,7 @@ fuzz() {                                     # target, seconds
 }
 replay() {                                   # target
     t=$1
-    "$CC" $FLAGS $checks tests/fuzz/$t.c $B/replay.o -lm -o $B/replay-$t ||
+    "$CC" $FLAGS $checks $(source_of $t) $B/replay.o -lm -o $B/replay-$t ||
         { count 1; return; }
     sh tests/fuzz/corpus.sh unpack $t $B/corpus/$t
     log=$($B/replay-$t $B/corpus/$t/* 2>&1)

@@ -30,7 +30,7 @@ check() {                                    # what, the lines that offend
     failed=$((failed + 1)); echo "lint: $1"; printf '%s\n' "$2" | head -n 12 | sed 's/^/    /'
 }
 
-C="examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/*/*.[ch]"
+C="examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] .ci/test/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/*/*.[ch]"
 check "lines within 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR ": " length " columns" }' \
     $H Makefile $C)"
 check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H $C)"
@@ -84,7 +84,7 @@ check "lessons of fewer than 80 lines" "$(wc -l examples/lessons/[0-9]*.c |
     awk '$1 >= 80 && $2 != "total" { print $2 ": " $1 " lines" }')"
 # but for the choice of a processor's build and of copies, which bench measures one by one
 check "no private name of shade.h in examples and bench" "$(
-    grep -rnIE '\b(shade|SHADE)__[A-Za-z]' examples bench | grep -vE '^bench/(level.h:.*#define SHADE__LEVEL |run.sh:.*-DSHADE__SPECIALIZE=)')"
+    grep -rnIE --exclude-dir=test '\b(shade|SHADE)__[A-Za-z]' examples bench | grep -vE '^bench/(level.h:.*#define SHADE__LEVEL |run.sh:.*-DSHADE__SPECIALIZE=)')"
 if command -v clang >/dev/null; then
     check "no comma expressions but in the head of a for" "$(
         clang -std=c99 -Wcomma -fsyntax-only -DSHADE_IMPLEMENTATION -x c $H 2>&1 | grep Wcomma)"

@@ -68,7 +68,7 @@ check "a red triangle here" here "$T/ordner/red.obj" "$T/red.ppm"
 check "a red triangle under Wine" there_too "$(echo "Z:$T/ordner/red.obj" | tr / '\\')" "$T/red there.ppm"
 check "is as red" cmp "$T/red.ppm" "$T/red there.ppm"
 if [ "$zlib" ] && there python3; then
-    check "a 3MF" python3 tests/thumbnail/bomb.py "$T/a.3mf" 100
+    check "a 3MF" python3 examples/programs/thumbnail/test/bomb.py "$T/a.3mf" 100
     check "a 3MF here" here "$T/a.3mf" "$T/a.ppm"
     check "a 3MF under Wine" there_too "$T/a.3mf" "$T/a there.ppm"
     check "to the bit" cmp "$T/a.ppm" "$T/a there.ppm"

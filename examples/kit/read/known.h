@@ -1,6 +1,6 @@
 /* known.h - what a reader does with the names of its format: statements, properties, elements,
    extensions.  Each format has lists of them (model_known in files.h), which
-   tests/scripts/contract.sh walks: it holds programs and packages to them. */
+   examples/kit/test/contract.sh walks: it holds programs and packages to them. */
 #ifndef MODEL_KNOWN_H
 #define MODEL_KNOWN_H
 

@@ -10,7 +10,7 @@
 #include "../command/save.h"
 
 /* Formats of our own readers, and those that assimp reads as another reader does, which
-   tests/thumbnail/compared.txt names.  assimp is asked for no other. */
+   examples/programs/thumbnail/test/compared.txt names.  assimp is asked for no other. */
 static const char *const model_by_kit[] = {
     "obj", "stl", "ply", "off", "gltf", "glb", "3mf", NULL
 };

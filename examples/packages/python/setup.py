@@ -58,6 +58,8 @@ class SourceWithHeaders(sdist):
         headers = Path(base_dir) / "headers"
         for folder in FOLDERS:
             for header in (top() / folder).rglob("*.[ch]"):
+                if "test" in header.parts:
+                    continue
                 copy = headers / header.relative_to(top())
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(header, copy)

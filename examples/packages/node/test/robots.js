@@ -61,7 +61,7 @@ export const drives = {
     quadruped: (frame) => feet.flatMap((_, i) => [wave(frame, 0.4, i % 3 ? 3.14 : 0), wave(frame, 0.5, i % 3 ? 4.7 : 1.6)]),
 };
 
-// A small scene with all of it, of which examples/packages/python/tests/robots.json holds one state
+// A small scene with all of it, of which examples/packages/python/test/robots.json holds one state
 export const recorded = `<mujoco><asset><texture name="sky" type="skybox" builtin="gradient" rgb1=".5 .7 .9" rgb2=".1 .15 .2" width="4" height="24"/>
 <texture name="ground" type="2d" builtin="checker" rgb1=".25 .35 .45" rgb2=".15 .22 .3" width="4" height="4"/><texture name="cube" type="cube" builtin="gradient" rgb1=".9 .6 .1" rgb2=".2 .1 .4" width="4" height="24"/>
 <material name="ground" texture="ground" texrepeat="2 3"/><material name="cube" texture="cube" emission=".2"/>${octahedron}
