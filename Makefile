@@ -183,7 +183,10 @@ SAYS_compare   = tells by how much two pictures differ
 PLACE     = $(DESTDIR)$(PREFIX)
 HEADER    = include/shade.h share/pkgconfig/shade.pc share/cmake/shade/shade-config.cmake \
             share/cmake/shade/shade-config-version.cmake
-FILES     = $(HEADER) share/thumbnailers/shade.thumbnailer share/mime/packages/shade.xml
+# GNOME runs thumbnailers where they see /usr alone, and remembers each file that failed: there is no
+# entry for a program that lies elsewhere
+THUMBNAILER = $(if $(filter /usr /usr/%,$(PREFIX)),share/thumbnailers/shade.thumbnailer)
+FILES     = $(HEADER) share/mime/packages/shade.xml share/applications/shade-view.desktop $(THUMBNAILER)
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
             share/man/man1/shade-$p.1 share/bash-completion/completions/shade-$p)
 build/%.bash: build/% $(BESIDE)/completion.sh
@@ -199,7 +202,8 @@ install-header:
 	$(INSTALL) -m 644 build/shade-config.cmake build/shade-config-version.cmake \
 	    "$(PLACE)/share/cmake/shade"
 install: programs install-header
-	sh $(BESIDE)/thumbnailer.sh "$(PREFIX)" >build/shade.thumbnailer
+	sh $(BESIDE)/desktop.sh "$(PREFIX)" thumbnailer >build/shade.thumbnailer
+	sh $(BESIDE)/desktop.sh "$(PREFIX)" view >build/shade-view.desktop
 	for f in $(INSTALLED); do $(INSTALL) -d "$(PLACE)/$${f%/*}" || exit 1; done
 	for p in $(notdir $(PROGRAMS)); do \
 	    $(MAKE) -s build/$$p.1 build/$$p.bash && \
@@ -207,9 +211,12 @@ install: programs install-header
 	    $(INSTALL) -m 644 build/$$p.1 "$(PLACE)/share/man/man1/shade-$$p.1" && \
 	    $(INSTALL) -m 644 build/$$p.bash "$(PLACE)/share/bash-completion/completions/shade-$$p" || \
 	    exit 1; done
-	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
+	$(if $(THUMBNAILER),$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers")
+	$(INSTALL) -m 644 build/shade-view.desktop "$(PLACE)/share/applications"
 	$(INSTALL) -m 644 $(BESIDE)/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
-	@echo "for thumbnails in file managers: update-mime-database $(PREFIX)/share/mime"
+	@echo "$(if $(THUMBNAILER),for thumbnails in file managers: update-mime-database \
+	$(PREFIX)/share/mime,no thumbnails in file managers: GNOME shows thumbnailers /usr alone; \
+	install with PREFIX=/usr or /usr/local)"
 uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 

@@ -157,8 +157,10 @@ only=$1
 echo "| shade.h | flags | .text | .rodata | .data* | .bss | seconds to compile |"
 echo "|---|---|---|---|---|---|---|"
 row "as it comes" -O2
+row "no explanations" -O2 -DSHADE_NO_EXPLAIN
 row "no dispatch" -O2 -DSHADE_NO_DISPATCH
 row "small" -Os -DSHADE_NO_DISPATCH $small
+row "least" -Os -DSHADE_NO_DISPATCH -DSHADE_NO_EXPLAIN $small
 echo
 echo "(* constants with pointers in them, .data.rel.ro.)"
 echo

@@ -32,6 +32,11 @@ repeats $P/README.md 's/.*tar -xzf shade-\(.*\)\.tar\.gz/\1/p'
 check "the version of CHANGELOG.md" grep -q "^## ${V%.*}, " CHANGELOG.md
 check "the version of >>history" grep -q "^   ${V%.*} of " shade.h
 
+# ---- the size of shade.h's parts
+if command -v python3 >/dev/null; then
+    check "the ceilings of tokens" same "$(python3 tests/scripts/halves.py shade.h --budgets)" ""
+else left_out "the ceilings of tokens (no python3)"; fi
+
 # ---- the tarball: twice from git, and from itself
 git rev-parse --is-inside-work-tree >/dev/null 2>&1 || [ -f .ci/files ] ||
     { left_out "the release: no clone and no tarball"; finish; }

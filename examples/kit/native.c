@@ -845,10 +845,12 @@ SHADEDEF void python_scene_close(renderer_scene *scene);
 void python_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
 
 NATIVE(scene_mesh)
-int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth);
-int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth)
+int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth,
+                      const double *origin);
+int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh, int smooth,
+                      const double *origin)
 {
-    return renderer_set_mesh(scene, number, mesh, smooth);
+    return renderer_set_mesh(scene, number, mesh, smooth, origin);
 }
 
 NATIVE(scene_texture)
@@ -865,39 +867,70 @@ int python_scene_add(renderer_scene *scene, const renderer_object *records, int 
     return renderer_add(scene, records, count);
 }
 
-NATIVE(scene_remove) int python_scene_remove(renderer_scene *scene, int number);
-int python_scene_remove(renderer_scene *scene, int number)
+/* 1: done, 0: out of memory, -1: there is no such number; count 0 takes the object away. */
+NATIVE(scene_put)
+int python_scene_put(renderer_scene *scene, int number, const renderer_object *records, int count);
+int python_scene_put(renderer_scene *scene, int number, const renderer_object *records, int count)
 {
-    return renderer_remove(scene, number);
+    return renderer_put_object(scene, number, records, count);
 }
 
-/* The records of an object, or with number -1 of all */
-NATIVE(scene_find)
-renderer_object *python_scene_find(const renderer_scene *scene, int number, int *count);
-renderer_object *python_scene_find(const renderer_scene *scene, int number, int *count)
+NATIVE(scene_put_all)
+int python_scene_put_all(renderer_scene *scene, const renderer_object *records, int count);
+int python_scene_put_all(renderer_scene *scene, const renderer_object *records, int count)
 {
-    *count = scene->object_count;
-    return number < 0 ? scene->objects : renderer_find(scene, number, count);
+    return renderer_put_all(scene, records, count);
 }
 
-NATIVE(scene_set)
-int python_scene_set(renderer_scene *scene, const renderer_object *records, int count);
-int python_scene_set(renderer_scene *scene, const renderer_object *records, int count)
+NATIVE(scene_records)
+int python_scene_records(const renderer_scene *s, int number, renderer_object *to, int room);
+int python_scene_records(const renderer_scene *s, int number, renderer_object *to, int room)
 {
-    return renderer_set_objects(scene, records, count);
+    return renderer_records(s, number, to, room);
 }
 
-SHADEDEF int python_is_rigid(const double *rows);
-int python_is_rigid(const double *rows) { return renderer_is_rigid(rows); }
+/* The next number, which is made at_least this */
+NATIVE(scene_next) int python_scene_next(renderer_scene *scene, int at_least);
+int python_scene_next(renderer_scene *scene, int at_least)
+{
+    return renderer_next(scene, at_least);
+}
 
-/* to is a copy of the scene's records, or NULL: those are moved. */
+NATIVE(scene_hold) int python_scene_hold(renderer_scene *scene);
+int python_scene_hold(renderer_scene *scene) { return renderer_hold(scene); }
+
+NATIVE(scene_done) void python_scene_done(renderer_scene *scene);
+void python_scene_done(renderer_scene *scene) { renderer_done(scene); }
+
+NATIVE(not_rigid) int python_not_rigid(const double *rows, int count);
+int python_not_rigid(const double *rows, int count) { return renderer_not_rigid(rows, count); }
+
 NATIVE(scene_pose)
-int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,
-                      const double *rows, int count);
-int python_scene_pose(renderer_scene *scene, renderer_object *to, const int32_t *numbers,
-                      const double *rows, int count)
+int python_scene_pose(renderer_scene *scene, const int32_t *numbers, const double *rows, int count);
+int python_scene_pose(renderer_scene *scene, const int32_t *numbers, const double *rows, int count)
 {
-    return renderer_pose(scene, to ? to : scene->objects, numbers, rows, count);
+    return renderer_pose(scene, numbers, rows, count);
+}
+
+NATIVE(scene_light)
+void python_scene_light(renderer_scene *scene, const shade_light *lights, const double *places,
+                        int count, const float *ambient, int shadows);
+void python_scene_light(renderer_scene *scene, const shade_light *lights, const double *places,
+                        int count, const float *ambient, int shadows)
+{
+    renderer_set_lights(scene, lights, places, count, renderer_get(ambient), shadows);
+}
+
+/* colors: of the background 4 numbers, of the sky below and above 3 each */
+NATIVE(scene_behind)
+void python_scene_behind(renderer_scene *scene, int sky, int texture, const float *colors);
+void python_scene_behind(renderer_scene *scene, int sky, int texture, const float *colors)
+{
+    renderer_around a = { .sky = sky, .sky_texture = texture };
+    a.background = shade_v4(colors[0], colors[1], colors[2], colors[3]);
+    a.sky_low = renderer_get(colors + 4);
+    a.sky_high = renderer_get(colors + 7);
+    renderer_set_behind(scene, &a);
 }
 
 NATIVE(renderer_open) renderer *python_renderer_open(void);

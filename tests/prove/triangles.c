@@ -72,7 +72,7 @@ static void prove_batch(int stride, int vertices)
 static void prove_gather(int varyings, int again, int divided)
 {
     static shade_vertices vertices;
-    static shade__placed placed;
+    static shade__projected placed;
     shade__plan *plan = &d.plan;
     plan->pipe = &pipe;
     plan->varyings = varyings;
@@ -110,7 +110,7 @@ int main(void)
 #include "prove.h"
 
 static shade_vertices v;
-static shade__placed p;
+static shade__projected p;
 
 /* half the picture, from 1 to 16384 pixels; either convention of depth */
 static double any_half(void) { return Frama_C_double_interval(128, 2097152); }
@@ -225,7 +225,7 @@ static void prove_place(float w)
     for (int k = 0; k < 3; k++)
         p.vertex[12].clip[k] = Frama_C_float_interval(-1e32f, 1e32f);
     p.vertex[12].clip[3] = w;
-    shade__place_polygon(&plan, &p);
+    shade__polygon_to_window(&plan, &p);
     /*@ assert -16777216 <= p.vertex[12].x <= 16777216; */
     /*@ assert -16777216 <= p.vertex[12].y <= 16777216; */
 }

@@ -338,6 +338,7 @@ option_check "SHADE_NO_STDIO" '#define SHADE_NO_STDIO'
 option_check "SHADE_NO_LIBM" '#define SHADE_NO_LIBM'
 option_check "SHADE_NO_DISPATCH" '#define SHADE_NO_DISPATCH'
 option_check "SHADE_STATIC" '#define SHADE_STATIC'
+option_check "SHADE_NO_EXPLAIN" '#define SHADE_NO_EXPLAIN'
 option_check "small packets" '#define SHADE_LANES 16' '#define SHADE_MAX_VARYINGS 8'
 option_check "smallest" '#define SHADE_LANES 8' '#define SHADE_MAX_VARYINGS 1'
 option_check "biggest" '#define SHADE_LANES 256' '#define SHADE_MAX_VARYINGS 64'
@@ -356,6 +357,20 @@ refused() {
 }
 check "SHADE_LANES 24 is refused" refused "SHADE_LANES 24"
 check "SHADE_MAX_VARYINGS 65 is refused" refused "SHADE_MAX_VARYINGS 65"
+
+# without explanations the three functions have nothing to say, not even of NULL
+cat >"$T/silent.c" <<'END'
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+int main(void)
+{
+    return shade_explain(0, 0, 0, 0)[0] != SPEAKS || shade_explain_lines(0, 0, 1, 0, 0)[0] != SPEAKS ||
+           shade_explain_draw(0, 0, 0, 3, 3, 0)[0] != SPEAKS;
+}
+END
+says() { $CC -std=c99 $WARN $quick "$@" -I. "$T/silent.c" -lm -o "$T/silent" && "$T/silent"; }
+check "explanations speak" says "-DSPEAKS='t'"
+check "SHADE_NO_EXPLAIN: they return \"\"" says -DSPEAKS=0 -DSHADE_NO_EXPLAIN
 
 # -ffast-math: gcc is told not to heed it; clang cannot be told, and is refused where it compiles
 # the implementation
@@ -399,6 +414,9 @@ if command -v nm >/dev/null 2>&1; then
     check "no mutable globals" no_mutable_globals "$T/impl.o"
     check "exports begin with shade_" exports_only_shade "$T/impl.o"
     check "no mutable globals, freestanding" no_mutable_globals "$T/bare.o"
+    option '#define SHADE_NO_EXPLAIN'
+    check "SHADE_NO_EXPLAIN compiles" $CC -std=c99 $WARN $fixed $quick -I. -c "$T/option.c" -o "$T/silent.o"
+    check "... and needs no more" only "$T/silent.o" $(undefined "$T/impl.o")
     option '#define SHADE_STATIC'
     check "SHADE_STATIC compiles" $CC -std=c99 $WARN -O1 -I. -c "$T/option.c" -o "$T/static.o"
     printf '#define SHADE_STATIC\n#define SHADE_IMPLEMENTATION\n#include "shade.h"\n%s\n' \

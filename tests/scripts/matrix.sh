@@ -31,7 +31,7 @@ for cc in gcc clang; do
     for o in -O0 -O1 -O2 -O3 -Os; do one "$cc $o" "" $cc $o; done
     for flags in "-std=c99 -O2" "-std=gnu17 -O2" "-O3 -march=native" "-O2 -mavx2 -mfma" \
         "-O2 -DSHADE_NO_DISPATCH" "-O2 -DSHADE__LEVEL=0" "-O2 -DSHADE__LEVEL=1" \
-        "-O2 -DSHADE__LEVEL=2" "-O2 -DSHADE_NO_LIBM" \
+        "-O2 -DSHADE__LEVEL=2" "-O2 -DSHADE_NO_LIBM" "-O2 -DSHADE_NO_EXPLAIN" \
         "-O2 -DSHADE_LANES=8" "-O2 -DSHADE_LANES=16" "-O2 -DSHADE_LANES=64" "-O2 -DSHADE_LANES=256"; do
         one "$cc $flags" "" $cc $flags
     done

@@ -1,6 +1,6 @@
 #!/bin/sh
-# threads.sh - ThreadSanitizer finds nothing: lesson 19's bands, and tests/scripts/sharing.c, in which
-# threads share what they only read.  In both builds of the hot loops: for the processor as it was
+# threads.sh - ThreadSanitizer finds nothing: lesson 19's bands, tests/scripts/sharing.c, in which
+# threads share what they only read, and examples/kit/test/race.c, in which a scene changes.  In both builds of the hot loops: for the processor as it was
 # compiled for, and chosen when the program runs.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
@@ -22,4 +22,7 @@ for asks in -DTHREADS -DSHADE__ASK_PROCESSOR; do
     check "sharing.c compiles, $asks" sanitized "$T/sharing" tests/scripts/sharing.c $asks
     check "what is only read is shared, $asks" "$T/sharing"
 done
+# a scene that one thread changes while others draw it
+check "race.c compiles" sanitized "$T/race" examples/kit/test/race.c
+check "a scene is changed while it is drawn" "$T/race"
 finish

@@ -10,6 +10,7 @@
 #include "relief.h"
 #include "../draw/section.h"
 #include "studio.h"
+#include "surfaces.h"
 
 typedef float look_rows[3][SHADE_LANES];
 struct look;
@@ -43,6 +44,7 @@ typedef struct look {
     look_note *note; /* NULL: none */
     const void *noted;
     int unlit;      /* no lamp changes its colour: that of map, vertices and k_d */
+    int plain;      /* colours of vertices do not count */
     int notes_only; /* only note is wanted */
 } look;
 
@@ -52,7 +54,9 @@ enum { LOOK_P, LOOK_N = 3, LOOK_REST = 6 };
 
 static int look_has_pictures(const look *k) { return k->map || k->relief.map || k->glow_map; }
 
-static int look_uv(const look *k) { return k->mesh->colors ? LOOK_REST + 3 : LOOK_REST; }
+static const float *look_colors(const look *k) { return k->plain ? NULL : k->mesh->colors; }
+
+static int look_uv(const look *k) { return look_colors(k) ? LOOK_REST + 3 : LOOK_REST; }
 
 /* Emission and cool-to-warm tones have no shadows. */
 static int look_has_shadows(const model_options *o)
@@ -199,6 +203,7 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
 {
     const look *k = (const look *)uniforms;
     const shade_mesh *m = k->mesh;
+    const float *colors = look_colors(k);
     look_rows p, n;
     look_fetch(m->positions, 3, in, p[0]);
     look_fetch(m->normals, 3, in, n[0]);
@@ -207,12 +212,11 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
         const shade_vec4 at = { p[0][i], p[1][i], p[2][i], 1 };
         lane_put4(out->clip[0], i, shade_mat4_transform(k->clip_from_mesh, at));
     }
-    if (m->colors) look_fetch(m->colors, 3, in, out->varying[LOOK_REST]);
+    if (colors) look_fetch(colors, 3, in, out->varying[LOOK_REST]);
     if (look_has_pictures(k)) look_fetch(m->texcoords, 2, in, out->varying[look_uv(k)]);
     if (k->per_vertex) {
         look_rows light;
-        look_light(k, p[0], n[0], m->colors ? out->varying[LOOK_REST] : NULL, NULL, in->count,
-                   light);
+        look_light(k, p[0], n[0], colors ? out->varying[LOOK_REST] : NULL, NULL, in->count, light);
         SHADE_MEMCPY(out->varying[LOOK_P], light, sizeof light);
     } else if (k->placed)
         look_place(k, p, n, out->varying + LOOK_P, out->varying + LOOK_N);
@@ -245,7 +249,7 @@ static void look_surface(const look *k, const shade_fragments *in, look_rows P, 
 /* The light of fragments; texel is NULL where there is no map. */
 static void look_color(const look *k, const shade_fragments *in, look_rows texel, look_rows out)
 {
-    const float(*own)[SHADE_LANES] = k->mesh->colors ? in->varying + LOOK_REST : NULL;
+    const float(*own)[SHADE_LANES] = look_colors(k) ? in->varying + LOOK_REST : NULL;
     look_rows P, N, albedo, glow;
     for (int a = 0; a < 3 && own && texel && !k->per_vertex; a++) SHADE_EACH_LANE(i)
         {
@@ -405,7 +409,8 @@ static shade_result look_draw_chunks(const shade_target *target, look *k, const 
 /* Sets the surface of a part: that of the command line, or of the file, or the default. */
 static void look_dress(look *k, const model_options *o, const model *m, int surface)
 {
-    const model_surface *s = m->surface_count ? &m->surface[surface] : NULL;
+    const surface_choice choice = surface_choose(m, surface, &o->material, o->plain);
+    const model_surface *s = choice.own;
     static const relief level;
     k->map = NULL;
     k->relief = level;
@@ -415,10 +420,10 @@ static void look_dress(look *k, const model_options *o, const model *m, int surf
     k->map_is_opaque = 0;
     k->unlit = 0;
     k->metal = 0;
-    k->material = o->material;
+    k->material = choice.material;
+    k->plain = !choice.colored;
     k->rough = model_roughness(k->material.shininess);
-    if (!s || !s->set || (o->plain && !s->section)) return;
-    k->material = s->material;
+    if (!s) return;
     k->unlit = s->unlit;
     k->metal = s->metal;
     k->rough = s->rough > 0 ? s->rough : model_roughness(k->material.shininess);
@@ -525,8 +530,9 @@ static shade_result draw_opaque(const shade_target *target, look *k, const model
    map. */
 static int part_is_clear(const model *m, const model_options *o, int part)
 {
-    const model_surface *s = m->surface_count ? &m->surface[m->part[part].surface] : NULL;
-    if (!s || !s->set || o->plain) return 0;
+    const model_surface *s =
+        surface_choose(m, m->part[part].surface, &o->material, o->plain).own;
+    if (!s) return 0;
     return s->transparency > 0 || (s->blended && s->picture >= 0);
 }
 

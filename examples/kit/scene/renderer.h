@@ -8,14 +8,16 @@
        renderer_add(scene, &ball, 1);
        renderer_draw(&r, 1, scene, &picture, 1, NULL);
 
-   The scene holds meshes, textures and objects, and is only read while pictures are drawn: any
-   number of threads may share it, each with a renderer of its own, which holds scratch memory and
-   nothing that a picture depends on.  After the first picture of a size nothing is allocated.
+   The scene holds meshes, textures, objects, lamps and the sky.  Any number of threads may draw it
+   and change it: each draws with a renderer of its own, which holds scratch memory and nothing that
+   a picture depends on, and a picture shows the scene as it was when renderer_draw began.  After the
+   first picture of a size nothing is allocated.
    All arithmetic is that of shade.h or single operations of IEEE floats, so that the bits are equal
    on every machine; compile with -ffp-contract=off. */
 #ifndef SHARED_RENDERER_H
 #define SHARED_RENDERER_H
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "shade.h"
@@ -44,12 +46,11 @@ enum { /* renderer_object.flags */
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
 typedef struct renderer_object {
+    double place[3], turn[9];           /* turn: a rotation, row by row */
     int32_t kind, mesh, texture, flags; /* of textures 1 + numbers; 0: none */
     int32_t id;                         /* what ids hold: surfaces of one object share it */
     int32_t first, count;               /* the triangles of its mesh that it shows; count 0: all */
     float size[3];
-    float turn[9]; /* a rotation, row by row */
-    float place[3];
     float rgba[4]; /* linear where the picture is sRGB; alpha below 1: blended */
     float specular[3], shininess;
     float emission;    /* multiplies the colour */
@@ -60,10 +61,23 @@ typedef struct renderer_object {
     int32_t relief, glow_map; /* of a mesh with texcoords */
     float strength;           /* of the relief, as in a model_relief */
     float glow_factor[3];     /* of the light that glow_map has */
+    int32_t unused;           /* 0: records are compared byte by byte */
 } renderer_object;
 
 enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 11 };
 enum { RENDERER_SKY_PLAIN, RENDERER_SKY_GRADIENT, RENDERER_SKY_CUBE };
+
+/* What objects are lit by, and what is behind them */
+typedef struct renderer_around {
+    shade_light lights[RENDERER_LAMPS];
+    double places[RENDERER_LAMPS][4]; /* positions of the lights again, which may be far away */
+    int32_t light_count;
+    int32_t shadows;          /* bit k: lamp k, directional or a spot, casts shadows */
+    int32_t sky, sky_texture; /* RENDERER_SKY_...; the number of a cube */
+    shade_vec4 background;
+    shade_vec3 sky_low, sky_high; /* of a gradient, by the sine of the angle over the horizon */
+    shade_vec3 ambient;
+} renderer_around;
 
 /* What is drawn and where to.  Rows of the arrays follow each other without gaps. */
 typedef struct renderer_picture {
@@ -73,22 +87,19 @@ typedef struct renderer_picture {
     int32_t srgb;     /* non-zero: light is linear, color is stored as sRGB */
     int32_t solid;    /* non-zero: alpha is ignored; depth and ids have all objects */
     int32_t parallel; /* non-zero: the projection is orthographic */
-    int32_t object_count, light_count;
-    int32_t shadows;             /* bit k: lamp k, directional or a spot, casts shadows */
-    int32_t sky, sky_texture;    /* RENDERER_SKY_...; the number of a cube */
-    float near_z, far_z;         /* far_z from 1e30 on: there is none */
-    float empty_depth;           /* the depth of pixels that show nothing */
-    float tolerance;             /* pixels that round shapes may lie inside of the true ones */
-    shade_mat4 view, projection; /* row 2 of the projection is not read */
-    shade_vec4 background;
-    shade_vec3 sky_low, sky_high; /* of a gradient, by the sine of the angle over the horizon */
-    shade_vec3 ambient;
+    int32_t object_count, pose_count;
+    float near_z, far_z; /* far_z from 1e30 on: there is none */
+    float empty_depth;   /* the depth of pixels that show nothing */
+    float tolerance;     /* pixels that round shapes may lie inside of the true ones */
+    int32_t unused;
+    double view[16];              /* by columns */
+    shade_mat4 projection;        /* row 2 of the projection is not read */
     const renderer_object *objects; /* NULL: those of the scene */
-    const shade_light *lights;
-    uint8_t *color; /* any of these may be NULL */
-    float *depth;   /* along the axis of view */
-    int32_t *ids;   /* object and triangle, (-1, -1) where there is nothing */
-    float *normals; /* unit vectors in the world, zero where there is nothing */
+    const double *poses; /* NULL, or for each object of the scene, by number, 16 row by row */
+    uint8_t *color;      /* any of these may be NULL */
+    float *depth;        /* along the axis of view */
+    int32_t *ids;        /* object and triangle, (-1, -1) where there is nothing */
+    float *normals;      /* unit vectors in the world, zero where there is nothing */
 } renderer_picture;
 
 /* A mesh as it is drawn; of round shapes there is one for each level of detail. */
@@ -101,6 +112,8 @@ typedef struct renderer_shape {
     float sag;         /* how far chords lie inside of the true surface of radius 1 */
     shade_vec3 centre; /* of a sphere around it */
     float radius;
+    double origin[3]; /* from where its coordinates count */
+    int *users;       /* the states of scenes that have it; NULL: it is not counted */
 } renderer_shape;
 
 typedef struct renderer_texture {
@@ -108,25 +121,31 @@ typedef struct renderer_texture {
     shade_texture *levels;
     uint8_t *memory;
     int cube;
+    int *users;
 } renderer_texture;
 
 typedef struct renderer_scene {
     renderer_shape round[3][RENDERER_LEVELS]; /* spheres, capsules, cylinders */
     renderer_shape box, plane;
+    int borrowed; /* round, box and plane are those of another scene, which outlives it */
+    int serial;   /* of scenes that share a renderer's scratch memory: tells them apart */
+    /* its state, which a picture has a part in while it is drawn */
     renderer_shape *meshes;
     renderer_texture *textures;
     int mesh_count, texture_count;
-    renderer_object *objects; /* those of one number follow each other */
-    int *record;              /* the first of each number, -1: the number is free */
-    int object_count, object_room, number_count, free_numbers;
-    int borrowed; /* round, box and plane are those of another scene, which outlives it */
-    int serial;   /* of scenes that share a renderer's scratch memory: tells them apart */
-    int version;  /* counts changes of meshes and textures */
+    renderer_object *objects; /* by their numbers, which are given once */
+    int object_count, object_room, next_number;
+    renderer_around around;
+    int *users;  /* of meshes, textures and objects: the scene, and pictures being drawn */
+    int version; /* counts changes of meshes and textures */
+    struct renderer_scene *held; /* what pictures show until a change of several steps is done */
 } renderer_scene;
 
 /* An object that can be seen */
 typedef struct renderer_entry {
     const renderer_shape *shape;
+    shade_vec3 place; /* of the object, from the origin of the view */
+    float turn[9];
     shade_mat4 world;  /* from the shape's space */
     shade_mat3 normal; /* world, for normals */
     float lift;        /* of a capsule: half the length of its cylinder */
@@ -162,10 +181,12 @@ typedef struct renderer {
     float *depth, *large_depth;
     uint32_t *color, *large_color;
     renderer_map map[RENDERER_LAMPS];
+    renderer_object *moved; /* a copy of the scene's objects, where a picture has poses for them */
     renderer_object *known; /* what the shadow maps hold */
     int known_count, known_serial, known_version;
+    double known_origin[3];
     float known_tolerance;
-    size_t room[10];
+    size_t room[11];
 } renderer;
 
 /* ---- shapes ---------------------------------------------------------------------------------- */
@@ -177,8 +198,48 @@ static inline int renderer_slices(int level)
     return slices[level];
 }
 
+/* ---- one scene and several threads ------------------------------------------------------------ */
+
+/* A state is copied on write: a change while pictures are drawn makes a copy of the records, which
+   costs some microseconds, and draws nothing twice.  Nobody waits for a picture.  One lock for all
+   scenes guards the counts and the change itself, some hundred nanoseconds each. */
+#if defined(THREAD_NONE)
+static inline void renderer_lock(void) {}
+static inline void renderer_unlock(void) {}
+static inline void renderer_survive_fork(void) {}
+#elif defined(_WIN32)
+static SRWLOCK renderer_gate = SRWLOCK_INIT;
+static inline void renderer_lock(void) { AcquireSRWLockExclusive(&renderer_gate); }
+static inline void renderer_unlock(void) { ReleaseSRWLockExclusive(&renderer_gate); }
+static inline void renderer_survive_fork(void) {}
+#else
+static pthread_mutex_t renderer_gate = PTHREAD_MUTEX_INITIALIZER;
+static void renderer_lock(void) { pthread_mutex_lock(&renderer_gate); }
+static void renderer_unlock(void) { pthread_mutex_unlock(&renderer_gate); }
+static void renderer_at_fork(void)
+{
+    pthread_atfork(renderer_lock, renderer_unlock, renderer_unlock);
+}
+/* A child would wait for ever for a lock that a thread of its parent held. */
+static inline void renderer_survive_fork(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, renderer_at_fork);
+}
+#endif
+
+/* A count of one user.  NULL: out of memory */
+static inline int *renderer_count_new(void)
+{
+    int *n = (int *)malloc(sizeof *n);
+    if (n) *n = 1;
+    return n;
+}
+
 static inline void renderer_shape_free(renderer_shape *s)
 {
+    if (s->users && --*s->users) return;
+    free(s->users);
     free(s->positions);
     free(s->normals);
     free(s->texcoords);
@@ -351,8 +412,89 @@ static inline int renderer_make_plane(renderer_shape *s)
 
 static inline void renderer_texture_free(renderer_texture *t)
 {
+    if (t->users && --*t->users) return;
+    free(t->users);
     free(t->levels);
     free(t->memory);
+}
+
+/* Gives back a state, with the lock.  The last one frees it. */
+static inline void renderer_let_go(renderer_scene *s)
+{
+    if (!s->users || --*s->users) return;
+    free(s->users);
+    for (int i = 0; i < s->mesh_count; i++) renderer_shape_free(&s->meshes[i]);
+    for (int i = 0; i < s->texture_count; i++) renderer_texture_free(&s->textures[i]);
+    free(s->meshes);
+    free(s->textures);
+    free(s->objects);
+}
+
+/* What a picture shows: nothing of it changes until it is let go. */
+static inline renderer_scene renderer_snapshot(const renderer_scene *s)
+{
+    renderer_scene out;
+    renderer_lock();
+    out = s->held ? *s->held : *s;
+    ++*out.users;
+    renderer_unlock();
+    return out;
+}
+
+static inline void *renderer_twin(const void *from, int count, size_t size)
+{
+    void *to = malloc((size_t)count * size + 1);
+    if (to && count) memcpy(to, from, (size_t)count * size);
+    return to;
+}
+
+/* Makes the state the scene's own, with the lock, where pictures have it too.  0: out of memory */
+static inline int renderer_own(renderer_scene *s)
+{
+    renderer_scene n = *s;
+    if (*s->users == 1) return 1;
+    n.users = renderer_count_new();
+    n.objects = (renderer_object *)renderer_twin(s->objects, s->object_count, sizeof *n.objects);
+    n.meshes = (renderer_shape *)renderer_twin(s->meshes, s->mesh_count, sizeof *n.meshes);
+    n.textures = (renderer_texture *)renderer_twin(s->textures, s->texture_count, sizeof *n.textures);
+    n.object_room = s->object_count;
+    if (!n.users || !n.objects || !n.meshes || !n.textures) {
+        free(n.users);
+        free(n.objects);
+        free(n.meshes);
+        free(n.textures);
+        return 0;
+    }
+    for (int i = 0; i < n.mesh_count; i++)
+        if (n.meshes[i].users) ++*n.meshes[i].users;
+    for (int i = 0; i < n.texture_count; i++)
+        if (n.textures[i].users) ++*n.textures[i].users;
+    --*s->users;
+    *s = n;
+    return 1;
+}
+
+/* Pictures show what there is now until renderer_done.  0: out of memory */
+static inline int renderer_hold(renderer_scene *s)
+{
+    renderer_scene *held = (renderer_scene *)malloc(sizeof *held);
+    if (!held) return 0;
+    renderer_lock();
+    *held = *s;
+    ++*held->users;
+    s->held = held;
+    renderer_unlock();
+    return 1;
+}
+
+static inline void renderer_done(renderer_scene *s)
+{
+    renderer_scene *held = s->held;
+    renderer_lock();
+    s->held = NULL;
+    if (held) renderer_let_go(held);
+    renderer_unlock();
+    free(held);
 }
 
 static inline void renderer_scene_close(renderer_scene *s)
@@ -362,12 +504,9 @@ static inline void renderer_scene_close(renderer_scene *s)
         renderer_shape_free(&s->round[i / RENDERER_LEVELS][i % RENDERER_LEVELS]);
     if (!s->borrowed) renderer_shape_free(&s->box);
     if (!s->borrowed) renderer_shape_free(&s->plane);
-    for (int i = 0; i < s->mesh_count; i++) renderer_shape_free(&s->meshes[i]);
-    for (int i = 0; i < s->texture_count; i++) renderer_texture_free(&s->textures[i]);
-    free(s->meshes);
-    free(s->textures);
-    free(s->objects);
-    free(s->record);
+    renderer_lock();
+    renderer_let_go(s);
+    renderer_unlock();
     free(s);
 }
 
@@ -375,7 +514,9 @@ static inline void renderer_scene_close(renderer_scene *s)
 static inline renderer_scene *renderer_scene_open(void)
 {
     renderer_scene *s = (renderer_scene *)calloc(1, sizeof *s);
-    int good = s && renderer_make_box(&s->box) && renderer_make_plane(&s->plane);
+    int good = s && (s->users = renderer_count_new()) != NULL && renderer_make_box(&s->box) &&
+               renderer_make_plane(&s->plane);
+    renderer_survive_fork();
     for (int k = 0; good && k < RENDERER_LEVELS; k++)
         good = renderer_make_sphere(&s->round[0][k], renderer_slices(k), 0) &&
                renderer_make_sphere(&s->round[1][k], renderer_slices(k), 1) &&
@@ -395,7 +536,10 @@ static inline renderer_scene *renderer_scene_like(const renderer_scene *of, int 
     s->plane = of->plane;
     s->borrowed = 1;
     s->serial = serial;
-    return s;
+    s->users = renderer_count_new();
+    if (s->users) return s;
+    free(s);
+    return NULL;
 }
 
 /* A copy of rows of width floats; what is absent stays NULL.  0: out of memory */
@@ -488,18 +632,25 @@ static inline int renderer_shape_of(renderer_shape *s, const shade_mesh *m, int 
 /* Puts a copy of a mesh in the place of mesh number; with m NULL that is freed.  Numbers are the
    caller's.  0: out of memory, and nothing has changed */
 static inline int renderer_set_mesh(renderer_scene *scene, int number, const shade_mesh *m,
-                                    int smooth)
+                                    int smooth, const double *origin)
 {
     static const renderer_shape none;
-    renderer_shape s = none, *all = (renderer_shape *)renderer_reach_to(
-                                 scene->meshes, &scene->mesh_count, number, sizeof s);
-    if (!all) return 0;
-    scene->meshes = all;
-    if (m && !renderer_shape_of(&s, m, smooth)) return 0;
-    renderer_shape_free(&all[number]);
-    all[number] = s;
-    scene->version++;
-    return 1;
+    renderer_shape s = none, *all = NULL;
+    if (m && (!renderer_shape_of(&s, m, smooth) || !(s.users = renderer_count_new()))) return 0;
+    renderer_lock();
+    if (renderer_own(scene))
+        all = (renderer_shape *)renderer_reach_to(scene->meshes, &scene->mesh_count, number,
+                                                  sizeof s);
+    if (all) {
+        scene->meshes = all;
+        renderer_shape_free(&all[number]);
+        if (m && origin) memcpy(s.origin, origin, sizeof s.origin);
+        all[number] = s;
+        scene->version++;
+    } else
+        renderer_shape_free(&s);
+    renderer_unlock();
+    return all != NULL;
 }
 
 /* A picture as the scene has it, and its faces */
@@ -541,15 +692,21 @@ static inline int renderer_set_texture(renderer_scene *scene, int number,
                                        const renderer_image *from)
 {
     static const renderer_texture none;
-    renderer_texture t = none, *all = (renderer_texture *)renderer_reach_to(
-                                   scene->textures, &scene->texture_count, number, sizeof t);
-    if (!all) return 0;
-    scene->textures = all;
-    if (from && !renderer_texture_of(&t, from)) return 0;
-    renderer_texture_free(&all[number]);
-    all[number] = t;
-    scene->version++;
-    return 1;
+    renderer_texture t = none, *all = NULL;
+    if (from && (!renderer_texture_of(&t, from) || !(t.users = renderer_count_new()))) return 0;
+    renderer_lock();
+    if (renderer_own(scene))
+        all = (renderer_texture *)renderer_reach_to(scene->textures, &scene->texture_count, number,
+                                                    sizeof t);
+    if (all) {
+        scene->textures = all;
+        renderer_texture_free(&all[number]);
+        all[number] = t;
+        scene->version++;
+    } else
+        renderer_texture_free(&t);
+    renderer_unlock();
+    return all != NULL;
 }
 
 static inline renderer *renderer_open(void) { return (renderer *)calloc(1, sizeof(renderer)); }
@@ -568,6 +725,7 @@ static inline void renderer_close(renderer *r)
     free(r->color);
     free(r->large_color);
     free(r->known);
+    free(r->moved);
     free(r);
 }
 
@@ -598,71 +756,114 @@ static inline int renderer_object_room(renderer_scene *s, int count)
     return 1;
 }
 
-/* Finds the first record of each number. */
-static inline void renderer_number(renderer_scene *s)
+/* The first record with at least this number */
+static inline int renderer_first(const renderer_scene *s, int number)
 {
-    for (int k = 0; k < s->number_count; k++) s->record[k] = -1;
-    for (int i = s->object_count; i-- > 0;) s->record[s->objects[i].id] = i;
-    s->free_numbers = 0;
-    for (int k = 0; k < s->number_count; k++) s->free_numbers += s->record[k] < 0;
+    int low = 0, high = s->object_count;
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        if (s->objects[middle].id < number)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
-/* Takes records in place of all.  Those of one number follow each other.  0: out of memory, and all
-   stays */
-static inline int renderer_set_objects(renderer_scene *s, const renderer_object *from, int count)
+/* The records of an object, with the lock.  NULL: there is no such number */
+static inline renderer_object *renderer_find(const renderer_scene *s, int number, int *count)
 {
-    int most = 0, *record;
-    for (int i = 0; i < count; i++) most = from[i].id > most ? from[i].id : most;
-    record = (int *)renderer_reach_to(s->record, &s->number_count, most, sizeof *record);
-    if (!record) return 0;
-    s->record = record;
-    if (!renderer_object_room(s, count)) return 0;
-    if (count) memcpy(s->objects, from, (size_t)count * sizeof *from);
-    s->object_count = count;
-    renderer_number(s);
+    const int at = renderer_first(s, number);
+    *count = 0;
+    while (at + *count < s->object_count && s->objects[at + *count].id == number) ++*count;
+    return *count ? s->objects + at : NULL;
+}
+
+/* Puts records of one object in the place of those that it has, with the lock.  0: out of memory */
+static inline int renderer_put_in(renderer_scene *s, int number, const renderer_object *from,
+                                  int count)
+{
+    const int at = renderer_first(s, number);
+    int had;
+    renderer_find(s, number, &had);
+    if (!renderer_object_room(s, s->object_count - had + count)) return 0;
+    memmove(s->objects + at + count, s->objects + at + had,
+            (size_t)(s->object_count - at - had) * sizeof *s->objects);
+    for (int i = 0; i < count; i++) {
+        s->objects[at + i] = from[i];
+        s->objects[at + i].id = number;
+    }
+    s->object_count += count - had;
     return 1;
 }
 
-/* The records of an object.  NULL: there is no such number */
-static inline renderer_object *renderer_find(const renderer_scene *s, int number, int *count)
-{
-    const int at = number >= 0 && number < s->number_count ? s->record[number] : -1;
-    *count = 0;
-    while (at >= 0 && at + *count < s->object_count && s->objects[at + *count].id == number)
-        ++*count;
-    return at >= 0 ? s->objects + at : NULL;
-}
-
-/* Adds the records of one object and gives them the least free number.  -1: out of memory */
+/* Adds the records of one object and returns its number, which no other one had or will have.
+   -1: out of memory, or of numbers */
 static inline int renderer_add(renderer_scene *s, const renderer_object *from, int count)
 {
-    const int had = s->object_count;
-    int number = s->free_numbers ? 0 : s->number_count, *record;
-    while (number < s->number_count && s->record[number] >= 0) number++;
-    if (!renderer_object_room(s, had + count)) return -1;
-    s->free_numbers -= number < s->number_count;
-    record = (int *)renderer_reach_to(s->record, &s->number_count, number, sizeof *record);
-    if (!record) return -1;
-    s->record = record;
-    s->record[number] = had;
-    for (int i = 0; i < count; i++) {
-        s->objects[had + i] = from[i];
-        s->objects[had + i].id = number;
-    }
-    s->object_count = had + count;
+    int number = -1;
+    renderer_lock();
+    if (s->next_number < INT32_MAX && renderer_own(s) &&
+        renderer_put_in(s, s->next_number, from, count))
+        number = s->next_number++;
+    renderer_unlock();
     return number;
 }
 
-/* Takes an object away; the others keep their numbers.  0: there is none */
-static inline int renderer_remove(renderer_scene *s, int number)
+/* Gives an object other records, or with count 0 takes it away.  1: done, 0: out of memory, -1:
+   there is no such number */
+static inline int renderer_put_object(renderer_scene *s, int number, const renderer_object *from,
+                                      int count)
+{
+    int done, had;
+    renderer_lock();
+    done = renderer_find(s, number, &had) ? renderer_own(s) : -1;
+    if (done > 0) done = renderer_put_in(s, number, from, count);
+    renderer_unlock();
+    return done;
+}
+
+/* Puts all records, by their numbers, in the place of all that there are.  0: out of memory */
+static inline int renderer_put_all(renderer_scene *s, const renderer_object *from, int count)
+{
+    int done;
+    renderer_lock();
+    done = renderer_own(s) && renderer_object_room(s, count);
+    if (done && count) memcpy(s->objects, from, (size_t)count * sizeof *from);
+    if (done) s->object_count = count;
+    if (done && count && s->next_number <= from[count - 1].id)
+        s->next_number = from[count - 1].id + 1;
+    renderer_unlock();
+    return done;
+}
+
+/* The number of the next object, which is made at_least this */
+static inline int renderer_next(renderer_scene *s, int at_least)
+{
+    int number;
+    renderer_lock();
+    if (s->next_number < at_least) s->next_number = at_least;
+    number = s->next_number;
+    renderer_unlock();
+    return number;
+}
+
+/* Copies the records of an object, or with number -1 of all, into room for so many.  Returns how
+   many there are: with more than there is room for nothing is copied. */
+static inline int renderer_records(const renderer_scene *s, int number, renderer_object *to,
+                                   int room)
 {
     int count;
-    renderer_object *o = renderer_find(s, number, &count);
-    if (!o) return 0;
-    s->object_count -= count;
-    memmove(o, o + count, (size_t)(s->objects + s->object_count - o) * sizeof *o);
-    renderer_number(s);
-    return 1;
+    const renderer_object *from;
+    renderer_lock();
+    from = renderer_find(s, number, &count);
+    if (number < 0) {
+        from = s->objects;
+        count = s->object_count;
+    }
+    if (count && count <= room) memcpy(to, from, (size_t)count * sizeof *to);
+    renderer_unlock();
+    return count;
 }
 
 /* 1: the rows of a 4 x 4 matrix are a rotation and a translation, within 1/1000 of unit length and
@@ -684,27 +885,82 @@ static inline int renderer_is_rigid(const double *m)
     return turned > 0 && m[15] < 1 + 1e-3 && m[15] > 1 - 1e-3;
 }
 
-/* Moves objects: a matrix of 16, row by row, for each of count numbers.  numbers NULL: all objects,
-   in the order of their numbers.  to are the scene's records, or a copy of them.  Returns which
-   matrix is refused, and nothing moves then; -1: all did. */
-static inline int renderer_pose(const renderer_scene *s, renderer_object *to,
-                                const int32_t *numbers, const double *rows, int count)
+/* m: 16 numbers, row by row */
+static inline void renderer_move(renderer_object *o, const double *m)
+{
+    for (int k = 0; k < 9; k++) o->turn[k] = m[4 * (k / 3) + k % 3];
+    for (int k = 0; k < 3; k++) o->place[k] = m[4 * k + 3];
+}
+
+/* Moves records that follow each other, a matrix for each number; returns how many matrices there
+   are numbers for. */
+static inline int renderer_move_all(renderer_object *o, int count, const double *rows, int poses)
+{
+    int n = -1;
+    for (int i = 0; i < count; i++) {
+        if (!i || o[i].id != o[i - 1].id) n++;
+        if (n < poses) renderer_move(&o[i], rows + 16 * (size_t)n);
+    }
+    return n + 1;
+}
+
+/* Which of so many matrices is no rotation and translation; -1: all are */
+static inline int renderer_not_rigid(const double *rows, int count)
 {
     for (int i = 0; i < count; i++)
         if (!renderer_is_rigid(rows + 16 * (size_t)i)) return i;
-    for (int i = 0, next = 0; i < count; i++) {
-        const double *m = rows + 16 * (size_t)i;
-        int n, records;
-        while (!numbers && next < s->number_count && s->record[next] < 0) next++;
-        n = numbers ? numbers[i] : next++;
-        const renderer_object *from = renderer_find(s, n, &records);
-        for (int k = 0; from && k < records; k++) {
-            renderer_object *o = to + (from - s->objects) + k;
-            for (int a = 0; a < 9; a++) o->turn[a] = (float)m[4 * (a / 3) + a % 3];
-            for (int a = 0; a < 3; a++) o->place[a] = (float)m[4 * a + 3];
-        }
-    }
     return -1;
+}
+
+/* Moves objects: a matrix of 16, row by row, for each of count numbers, or with numbers NULL for
+   each object in their order.  All move at once, or none.  -1: done; else the first matrix that is
+   refused, or -2: an object is missing, or there are others than count, -3: out of memory */
+static inline int renderer_pose(renderer_scene *s, const int32_t *numbers, const double *rows,
+                                int count)
+{
+    int bad = renderer_not_rigid(rows, count), had;
+    if (bad >= 0) return bad;
+    renderer_lock();
+    for (int i = 0; numbers && i < count; i++)
+        if (!renderer_find(s, numbers[i], &had)) bad = -2;
+    if (!numbers && renderer_move_all(s->objects, s->object_count, rows, 0) != count) bad = -2;
+    if (bad == -1 && !renderer_own(s)) bad = -3;
+    if (bad == -1 && !numbers) renderer_move_all(s->objects, s->object_count, rows, count);
+    for (int i = 0; numbers && bad == -1 && i < count; i++) {
+        renderer_object *o = renderer_find(s, numbers[i], &had);
+        renderer_move_all(o, had, rows + 16 * (size_t)i, 1);
+    }
+    renderer_unlock();
+    return bad;
+}
+
+/* ---- lamps and sky --------------------------------------------------------------------------- */
+
+/* Up to RENDERER_LAMPS lamps, with 4 numbers each for their places in double.  Shadows: a bit for
+   each lamp, which must be directional or a spot.  Pictures show all of it or nothing. */
+static inline void renderer_set_lights(renderer_scene *s, const shade_light *lights,
+                                       const double *places, int count, shade_vec3 ambient,
+                                       int shadows)
+{
+    renderer_lock();
+    if (count) memcpy(s->around.lights, lights, (size_t)count * sizeof *lights);
+    if (count) memcpy(s->around.places, places, (size_t)count * 4 * sizeof *places);
+    s->around.light_count = count;
+    s->around.ambient = ambient;
+    s->around.shadows = shadows;
+    renderer_unlock();
+}
+
+/* Takes what stands behind all objects of from: background, sky, sky_texture, sky_low, sky_high. */
+static inline void renderer_set_behind(renderer_scene *s, const renderer_around *from)
+{
+    renderer_lock();
+    s->around.background = from->background;
+    s->around.sky = from->sky;
+    s->around.sky_texture = from->sky_texture;
+    s->around.sky_low = from->sky_low;
+    s->around.sky_high = from->sky_high;
+    renderer_unlock();
 }
 
 /* ---- what can be seen ------------------------------------------------------------------------ */
@@ -722,6 +978,8 @@ enum { RENDERER_ALONE = 200 };
 typedef struct renderer_view {
     const renderer_picture *p;
     const renderer_scene *scene;
+    const shade_light *lights; /* of the scene, from the origin */
+    double origin[3];          /* from where the world of this picture counts */
     shade_mat4 view, projection;
     shade_mat4 clip, place; /* world to clip space; camera to world */
     shade_vec3 eye;
@@ -746,11 +1004,58 @@ static inline void renderer_aim(renderer_view *v)
     }
 }
 
+/* From where a picture counts, so that floats tell what is near its eye apart: from zero, or where
+   the eye is more than 65,536 times near from it, from a round number beside the eye.  65,536 times
+   near floats still tell a hundredth of near, and within a step of 4,096 to 8,192 times near the
+   shadow maps are kept.  step: 0, or that step */
+static inline double renderer_step(const renderer_picture *p, const double *eye)
+{
+    const double size = p->parallel ? 1 / (double)p->projection.col[1].y : (double)p->near_z;
+    const double near = size < 0 ? -size : size;
+    double most = 0, step = 1;
+    for (int k = 0; k < 3; k++) most = fabs(eye[k]) > most ? fabs(eye[k]) : most;
+    if (!(most > 65536 * near && near > 1e-300)) return 0;
+    while (step < 4096 * near) step *= 2;
+    while (step > 8192 * near) step /= 2;
+    return step;
+}
+
+static inline void renderer_locate(renderer_view *v)
+{
+    const double *m = v->p->view;
+    double eye[3], move[3], step;
+    for (int k = 0; k < 3; k++)
+        eye[k] = -(m[4 * k] * m[12] + m[4 * k + 1] * m[13] + m[4 * k + 2] * m[14]);
+    step = renderer_step(v->p, eye);
+    for (int k = 0; k < 3 && step > 0; k++) v->origin[k] = step * floor(eye[k] / step + 0.5);
+    for (int k = 0; k < 3; k++)
+        move[k] = m[12 + k] + m[k] * v->origin[0] + m[4 + k] * v->origin[1] + m[8 + k] * v->origin[2];
+    for (int k = 0; k < 4; k++)
+        v->view.col[k] = shade_v4((float)m[4 * k], (float)m[4 * k + 1], (float)m[4 * k + 2],
+                                  (float)m[4 * k + 3]);
+    v->view.col[3] = shade_v4((float)move[0], (float)move[1], (float)move[2], (float)m[15]);
+}
+
+/* Where an object stands, and its shape's own origin, from the origin of the view: subtracted in
+   double, before they are floats */
+static inline void renderer_stand(const renderer_view *v, const renderer_object *o,
+                                  renderer_entry *e)
+{
+    const double *t = o->turn, *from = v->origin;
+    const double *own = o->kind == RENDERER_MESH ? v->scene->meshes[o->mesh].origin : NULL;
+    double at[3] = { o->place[0] - from[0], o->place[1] - from[1], o->place[2] - from[2] };
+    for (int k = 0; k < 3 && own && (own[0] != 0 || own[1] != 0 || own[2] != 0); k++)
+        for (int j = 0; j < 3; j++) at[k] += t[3 * k + j] * (double)o->size[j] * own[j];
+    e->place = shade_v3((float)at[0], (float)at[1], (float)at[2]);
+    for (int k = 0; k < 9; k++) e->turn[k] = (float)t[k];
+}
+
 /* The picture's camera with reversed depth, 1 at near and 0 at far, of which floats keep as many
    digits far away as nearby. */
 static inline renderer_view renderer_view_of(const renderer_picture *p, const renderer_scene *s)
 {
-    renderer_view v = { .p = p, .scene = s, .view = p->view, .projection = p->projection };
+    renderer_view v = { .p = p, .scene = s, .projection = p->projection };
+    renderer_locate(&v);
     const float n = p->near_z, f = p->far_z;
     const shade_vec4 *row = v.projection.col;
     float slope = f >= 1e30f ? 0 : p->parallel ? 1 / (f - n) : n / (f - n);
@@ -795,16 +1100,26 @@ static inline float renderer_most(const float *size)
 
 /* Turn, place and size of an object as one matrix.  The two halves of a capsule are only scaled by
    its radius here: they are lifted apart vertex by vertex. */
-static inline shade_mat4 renderer_world(const renderer_object *o)
+static inline shade_mat4 renderer_world(const renderer_object *o, const renderer_entry *e)
 {
-    const float *t = o->turn, *s = o->size;
+    const float *t = e->turn, *s = o->size;
     const float up = o->kind == RENDERER_CAPSULE ? s[0] : s[2];
     shade_mat4 m;
     m.col[0] = shade_v4(t[0] * s[0], t[3] * s[0], t[6] * s[0], 0);
     m.col[1] = shade_v4(t[1] * s[1], t[4] * s[1], t[7] * s[1], 0);
     m.col[2] = shade_v4(t[2] * up, t[5] * up, t[8] * up, 0);
-    m.col[3] = shade_v4(o->place[0], o->place[1], o->place[2], 1);
+    m.col[3] = shade_v4(e->place.x, e->place.y, e->place.z, 1);
     return m;
+}
+
+/* The height of the eye over a plane, in double, because its place may be far away */
+static inline float renderer_height(const renderer_view *v, const renderer_object *o)
+{
+    const float eye[3] = { v->eye.x, v->eye.y, v->eye.z };
+    double sum = 0;
+    for (int k = 0; k < 3; k++)
+        sum += (v->origin[k] + (double)eye[k] - o->place[k]) * o->turn[3 * k + 2];
+    return (float)sum;
 }
 
 /* An endless plane is a large one below the eye.  Its size stays below 1e5 distances of the eye, so
@@ -812,10 +1127,11 @@ static inline shade_mat4 renderer_world(const renderer_object *o)
 static inline void renderer_stretch(const renderer_view *v, const renderer_object *o,
                                     renderer_entry *e)
 {
-    const float *t = o->turn;
+    const float *t = e->turn;
     const shade_vec3 n = shade_v3(t[2], t[5], t[8]);
-    const shade_vec3 at = shade_v3(o->place[0], o->place[1], o->place[2]);
-    const float height = shade_dot(shade_sub(v->eye, at), n);
+    const float height = v->origin[0] == 0 && v->origin[1] == 0 && v->origin[2] == 0
+                             ? shade_dot(shade_sub(v->eye, e->place), n)
+                             : renderer_height(v, o);
     const float away = height < 0 ? -height : height, most = 1e4f * (1 + away);
     const float far_z = v->far_z < most ? 2 * v->far_z : most;
     const shade_vec3 foot = shade_madd(v->eye, -height, n);
@@ -830,14 +1146,14 @@ static inline void renderer_stretch(const renderer_view *v, const renderer_objec
 
 /* The sphere around an object */
 static inline float renderer_reach(const renderer_scene *s, const renderer_object *o,
-                                   shade_vec3 *centre)
+                                   const renderer_entry *e, shade_vec3 *centre)
 {
     const float *z = o->size;
-    *centre = shade_v3(o->place[0], o->place[1], o->place[2]);
+    *centre = e->place;
     switch (o->kind) {
     case RENDERER_MESH: {
         const renderer_shape *m = &s->meshes[o->mesh];
-        *centre = shade_mat4_transform_point(renderer_world(o), m->centre);
+        *centre = shade_mat4_transform_point(renderer_world(o, e), m->centre);
         return m->radius * renderer_most(z);
     }
     case RENDERER_SPHERE:
@@ -884,15 +1200,17 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
     const int endless = renderer_is_endless(o);
     const int holes = renderer_has_holes(o) ? RENDERER_KEY_HOLES : 0;
     shade_vec3 centre;
-    const float radius = renderer_reach(v->scene, o, &centre);
+    float radius;
     if ((o->flags & RENDERER_HIDDEN) || o->rgba[3] <= 0) return 0;
+    renderer_stand(v, o, e);
+    radius = renderer_reach(v->scene, o, e, &centre);
     e->distance = v->far_z;
     if (!endless && !renderer_in_view(v, centre, radius, &e->distance)) return 0;
     /* spheres around ground and walls reach behind the eye, which mostly sees them behind others:
        drawn last, they are not lit where they are hidden, a fifth of the pixels of robots.py */
     e->order = e->distance > v->near_z ? e->distance : v->far_z;
     e->object = number;
-    e->world = renderer_world(o);
+    e->world = renderer_world(o, e);
     e->sag = e->lift = 0;
     e->uneven = (o->kind == RENDERER_MESH || o->kind == RENDERER_ELLIPSOID) &&
                 (o->size[0] != o->size[1] || o->size[0] != o->size[2]);
@@ -984,10 +1302,10 @@ static inline shade_vec2 renderer_uv(const renderer_shape *s, const renderer_obj
 }
 
 /* Place in the object, in its unit: what textures stick to */
-static inline shade_vec3 renderer_local(const renderer_object *o, shade_vec3 world)
+static inline shade_vec3 renderer_local(const renderer_entry *e, shade_vec3 world)
 {
-    const float *t = o->turn;
-    const shade_vec3 d = shade_sub(world, shade_v3(o->place[0], o->place[1], o->place[2]));
+    const float *t = e->turn;
+    const shade_vec3 d = shade_sub(world, e->place);
     return shade_v3(t[0] * d.x + t[3] * d.y + t[6] * d.z, t[1] * d.x + t[4] * d.y + t[7] * d.z,
                     t[2] * d.x + t[5] * d.y + t[8] * d.z);
 }
@@ -1034,7 +1352,7 @@ static inline void renderer_vertex_of(const renderer_batch *b, const renderer_en
     const shade_vec3 n = shade_mat3_transform(e->normal, renderer_get(s->normals + at));
     renderer_set(out + 3, e->uneven ? shade_normalize(n) : n);
     if (b->texture) {
-        const shade_vec3 local = renderer_local(o, world);
+        const shade_vec3 local = renderer_local(e, world);
         if (b->texture->cube)
             renderer_set(out + 6, renderer_in_cube(o, local));
         else {
@@ -1134,7 +1452,7 @@ static inline void renderer_surface_of(const renderer_batch *b, const renderer_e
     if (b->glows) renderer_fill(s->emission, o->emission, first, last);
     for (int k = 0; k < 3 && b->glows; k++) renderer_fill(s->glow[k], o->glow[k], first, last);
     if (b->unlit) renderer_fill(s->unlit, o->flags & RENDERER_UNLIT ? 1 : 0, first, last);
-    if (b->v->p->shadows) renderer_fill(s->sag, e->sag, first, last);
+    if (b->v->scene->around.shadows) renderer_fill(s->sag, e->sag, first, last);
     if (first)
         s->alike &= o->shininess == s->shininess[0];
     else
@@ -1397,7 +1715,7 @@ static inline void renderer_see_lamps(const renderer_batch *b, const shade_fragm
     if (b->meshes) renderer_face_normals(b, in, owner, one, faces);
     for (int k = 0; k < b->lighting->light_count; k++) {
         SHADE_EACH_LANE(i) { visible[k][i] = 1; }
-        if (b->v->p->shadows >> k & 1)
+        if (b->v->scene->around.shadows >> k & 1)
             renderer_shadow(&b->r->map[k], s, (const float(*)[SHADE_LANES])in->varying[0],
                             (const float(*)[SHADE_LANES])faces, visible[k]);
     }
@@ -1467,7 +1785,7 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     }
     rows.albedo = s.albedo[0];
     if (s.glossy) rows.specular = s.specular[0];
-    if (b->v->p->shadows) {
+    if (b->v->scene->around.shadows) {
         renderer_see_lamps(b, in, &s, N, owner, one, visible);
         rows.visibility = visible[0];
     }
@@ -1585,7 +1903,7 @@ static inline int renderer_add_faces(renderer *r, const renderer_view *v, render
 static inline shade_mat3 renderer_normals(const renderer_view *v, const renderer_entry *e)
 {
     const renderer_object *o = &v->p->objects[e->object];
-    const float *t = o->turn;
+    const float *t = e->turn;
     shade_mat3 turn;
     for (int k = 0; k < 3; k++) turn.col[k] = shade_v3(t[k], t[3 + k], t[6 + k]);
     return e->uneven || o->size[0] < 0 ? shade_normal_matrix(e->world) : turn;
@@ -1730,19 +2048,19 @@ static inline void renderer_sky(const void *uniforms, const shade_fragments *SHA
                                 shade_colors *SHADE_RESTRICT out)
 {
     const renderer_view *v = (const renderer_view *)uniforms;
-    const renderer_picture *p = v->p;
+    const renderer_around *a = &v->scene->around;
     float d[3][SHADE_LANES];
-    if (p->sky == RENDERER_SKY_CUBE) { /* +y of the cube is up, which is +z of the world */
+    if (a->sky == RENDERER_SKY_CUBE) { /* +y of the cube is up, which is +z of the world */
         for (int i = 0; i < SHADE_LANES; i++) {
             const shade_vec3 at = lane(in->varying[0], i);
             lane_put(d[0], i, shade_v3(at.x, at.z, -at.y));
         }
-        renderer_sample_cube(&v->scene->textures[p->sky_texture], d, out->color);
+        renderer_sample_cube(&v->scene->textures[a->sky_texture], d, out->color);
         return;
     }
     for (int i = 0; i < SHADE_LANES; i++) {
         const shade_vec3 at = shade_normalize(lane(in->varying[0], i));
-        lane_put(out->color[0], i, shade_lerp(p->sky_low, p->sky_high, 0.5f + 0.5f * at.z));
+        lane_put(out->color[0], i, shade_lerp(a->sky_low, a->sky_high, 0.5f + 0.5f * at.z));
     }
 }
 
@@ -1751,23 +2069,25 @@ static inline shade_result renderer_draw_sky(const shade_target *target, const r
     shade_pipeline pipeline = { renderer_sky_vertices, renderer_sky, v, .varyings = 3 };
     pipeline.raster.depth_test = SHADE_COMPARE_GREATER_EQUAL;
     pipeline.raster.depth_zero_to_one = 1;
-    if (v->p->sky == RENDERER_SKY_PLAIN) return SHADE_OK;
+    if (v->scene->around.sky == RENDERER_SKY_PLAIN) return SHADE_OK;
     return shade_draw(target, &pipeline, NULL, 3, 3, NULL);
 }
 
 /* ---- the shadow map -------------------------------------------------------------------------- */
 
 /* The sphere around what casts shadows.  Its radius is 0 where nothing does. */
-static inline float renderer_casters(const renderer_picture *p, const renderer_scene *s,
-                                     shade_vec3 *centre)
+static inline float renderer_casters(const renderer_view *v, const renderer_picture *p,
+                                     const renderer_scene *s, shade_vec3 *centre)
 {
+    renderer_entry e;
     shade_vec3 low = shade_v3(1e30f, 1e30f, 1e30f), high = shade_neg(low), at;
     for (int i = 0; i < p->object_count; i++) {
         const renderer_object *o = &p->objects[i];
         if ((o->flags & (RENDERER_HIDDEN | RENDERER_CASTS_NO_SHADOW)) || renderer_is_endless(o))
             continue;
         if (o->kind == RENDERER_PLANE) continue; /* a floor hides nothing that is seen */
-        const float r = renderer_reach(s, o, &at);
+        renderer_stand(v, o, &e);
+        const float r = renderer_reach(s, o, &e, &at);
         low = shade_min(low, shade_sub(at, shade_v3(r, r, r)));
         high = shade_max(high, shade_add(at, shade_v3(r, r, r)));
     }
@@ -1810,16 +2130,19 @@ static inline float renderer_aim_spot(const shade_light *lamp, shade_vec3 at, sh
 /* How far along the way of a lamp the finite planes reach, which its map shows and the sphere
    around what casts shadows does not: cut off at the far plane, they would be dark along that
    line. */
-static inline float renderer_floors(const renderer_picture *p, const renderer_scene *s,
-                                    shade_vec3 at, shade_vec3 aim, float most)
+static inline float renderer_floors(const renderer_view *v, const renderer_picture *p,
+                                    const renderer_scene *s, shade_vec3 at, shade_vec3 aim,
+                                    float most)
 {
+    renderer_entry e;
     for (int i = 0; i < p->object_count; i++) {
         const renderer_object *o = &p->objects[i];
         shade_vec3 centre;
         if ((o->flags & (RENDERER_HIDDEN | RENDERER_CASTS_NO_SHADOW)) || renderer_is_endless(o))
             continue;
         if (o->kind != RENDERER_PLANE) continue;
-        const float r = renderer_reach(s, o, &centre);
+        renderer_stand(v, o, &e);
+        const float r = renderer_reach(s, o, &e, &centre);
         const float away = shade_dot(aim, shade_sub(centre, at)) + r;
         most = away > most ? away : most;
     }
@@ -1828,24 +2151,25 @@ static inline float renderer_floors(const renderer_picture *p, const renderer_sc
 
 /* The view of the lamp: of a distant one the sphere around what casts shadows */
 static inline renderer_view renderer_lamp_view(renderer_map *m, const renderer_picture *p,
-                                               const renderer_scene *s)
+                                               const renderer_scene *s, const double *origin)
 {
     const shade_light *lamp = &m->lamp;
     renderer_view v = { .p = p, .scene = s, .shadows = 1 };
+    memcpy(v.origin, origin, sizeof v.origin);
     shade_vec3 centre, aim, at = shade_v3(lamp->position.x, lamp->position.y, lamp->position.z);
-    const float reach = 1.01f * renderer_casters(p, s, &centre), size = (float)m->size;
+    const float reach = 1.01f * renderer_casters(&v, p, s, &centre), size = (float)m->size;
     if (lamp->position.w == 0) {
         aim = shade_neg(shade_normalize(at));
         at = shade_madd(centre, -2 * reach, aim);
         v.near_z = 0.5f * reach;
-        v.far_z = renderer_floors(p, s, at, aim, 3.5f * reach);
+        v.far_z = renderer_floors(&v, p, s, at, aim, 3.5f * reach);
         v.parallel = 1;
         v.projection = shade_mat4_ortho(-reach, reach, -reach, reach, v.near_z, v.far_z);
         v.scale = 0.5f * size / reach;
     } else {
         const float tangent = renderer_aim_spot(lamp, at, centre, reach, &v, &aim);
         const float half = tangent * v.near_z;
-        v.far_z = renderer_floors(p, s, at, aim, v.far_z);
+        v.far_z = renderer_floors(&v, p, s, at, aim, v.far_z);
         v.projection = shade_mat4_frustum(-half, half, -half, half, v.near_z, v.far_z);
         v.scale = 0.5f * size / tangent;
     }
@@ -1867,11 +2191,13 @@ static inline int renderer_map_size(const renderer_picture *p)
 }
 
 /* Whether the maps are of these objects; else they are noted.  -1: out of memory */
-static inline int renderer_is_known(renderer *r, const renderer_picture *p, const renderer_scene *s)
+static inline int renderer_is_known(renderer *r, const renderer_picture *p, const renderer_scene *s,
+                                    const double *origin)
 {
     const size_t bytes = (size_t)p->object_count * sizeof *p->objects;
     if (r->known && r->known_count == p->object_count && r->known_tolerance == p->tolerance &&
         r->known_serial == s->serial && r->known_version == s->version &&
+        !memcmp(r->known_origin, origin, sizeof r->known_origin) &&
         (!bytes || !memcmp(r->known, p->objects, bytes)))
         return 1;
     r->known = (renderer_object *)renderer_room(r->known, &r->room[4], bytes + 1);
@@ -1881,13 +2207,15 @@ static inline int renderer_is_known(renderer *r, const renderer_picture *p, cons
     r->known_tolerance = p->tolerance;
     r->known_serial = s->serial;
     r->known_version = s->version;
+    memcpy(r->known_origin, origin, sizeof r->known_origin);
     return 0;
 }
 
 static inline shade_result renderer_draw_map(renderer *r, renderer_map *m,
-                                             const renderer_picture *p, const renderer_scene *s)
+                                             const renderer_picture *p, const renderer_scene *s,
+                                             const double *origin)
 {
-    const renderer_view v = renderer_lamp_view(m, p, s);
+    const renderer_view v = renderer_lamp_view(m, p, s, origin);
     const shade_target target = { .width = m->size, .height = m->size, .depth = m->depth };
     renderer_batch b = { .r = r, .v = &v };
     shade_result result = shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
@@ -1897,22 +2225,23 @@ static inline shade_result renderer_draw_map(renderer *r, renderer_map *m,
 }
 
 /* Draws the maps anew of which an object or the lamp has changed since they were drawn. */
-static inline shade_result renderer_cast(renderer *r, const renderer_picture *p,
-                                         const renderer_scene *s)
+static inline shade_result renderer_cast(renderer *r, const renderer_view *v)
 {
-    const int size = renderer_map_size(p), known = renderer_is_known(r, p, s);
+    const renderer_picture *p = v->p;
+    const renderer_around *around = &v->scene->around;
+    const int size = renderer_map_size(p), known = renderer_is_known(r, p, v->scene, v->origin);
     shade_result result = known < 0 ? SHADE_ERROR_CAPACITY : SHADE_OK;
     for (int k = 0; k < RENDERER_LAMPS && known < 1; k++) r->map[k].valid = 0;
-    for (int k = 0; k < p->light_count && !result; k++) {
+    for (int k = 0; k < around->light_count && !result; k++) {
         renderer_map *m = &r->map[k];
-        if (!(p->shadows >> k & 1)) continue;
-        if (m->valid && m->size == size && !memcmp(&m->lamp, &p->lights[k], sizeof m->lamp))
+        if (!(around->shadows >> k & 1)) continue;
+        if (m->valid && m->size == size && !memcmp(&m->lamp, &v->lights[k], sizeof m->lamp))
             continue;
         m->valid = 0;
         m->size = size;
-        m->lamp = p->lights[k];
+        m->lamp = v->lights[k];
         m->depth = (float *)renderer_room(m->depth, &m->room, 4 * (size_t)size * (size_t)size);
-        result = m->depth ? renderer_draw_map(r, m, p, s) : SHADE_ERROR_CAPACITY;
+        result = m->depth ? renderer_draw_map(r, m, p, v->scene, v->origin) : SHADE_ERROR_CAPACITY;
         m->valid = !result;
     }
     return result;
@@ -1962,9 +2291,8 @@ static inline shade_result renderer_draw_objects(renderer *r, const shade_target
                                                  const renderer_view *v,
                                                  const shade_lighting *lighting, int notes)
 {
-    const renderer_picture *p = v->p;
     renderer_batch b = { .r = r, .v = v, .lighting = lighting, .notes = notes };
-    shade_result result = shade_clear(target, p->background, 0);
+    shade_result result = shade_clear(target, v->scene->around.background, 0);
     if (!result) result = renderer_draw_entries(r, target, &b, renderer_gather(r, v, 0));
     if (!result && lighting) result = renderer_draw_sky(target, v);
     if (result || !lighting) return result;
@@ -1993,20 +2321,38 @@ static inline shade_result renderer_draw_large(renderer *r, const shade_target *
     return result ? result : shade_resolve(small, &large, n);
 }
 
+/* Lamps with places count from the origin of the view. */
+static inline void renderer_near_lights(renderer_view *v, shade_light *to)
+{
+    const renderer_around *a = &v->scene->around;
+    for (int k = 0; k < a->light_count; k++) {
+        shade_vec4 *at = &to[k].position;
+        to[k] = a->lights[k];
+        if (at->w == 0) continue;
+        at->x = (float)(a->places[k][0] - (double)at->w * v->origin[0]);
+        at->y = (float)(a->places[k][1] - (double)at->w * v->origin[1]);
+        at->z = (float)(a->places[k][2] - (double)at->w * v->origin[2]);
+    }
+    v->lights = to;
+}
+
 /* Draws a picture.  Its arrays are complete when the result is SHADE_OK; else those that were begun
    may hold anything.  Numbers of meshes, textures and lamps must be good: the bindings check. */
 static inline shade_result renderer_draw_one(renderer *r, const renderer_scene *s,
                                              const renderer_picture *p)
 {
+    const renderer_around *around = &s->around;
     const size_t pixels = (size_t)p->width * (size_t)p->height;
-    const renderer_view v = renderer_view_of(p, s);
     const int notes = p->ids || p->normals, large = p->color && p->samples > 1;
     const size_t objects = (size_t)p->object_count;
-    shade_lighting lighting = { .lights = p->lights, .light_count = p->light_count };
+    shade_light lights[RENDERER_LAMPS];
+    shade_lighting lighting = { .lights = lights, .light_count = around->light_count };
     const shade_lighting *lit = p->color && !large ? &lighting : NULL;
     shade_target target = { .width = p->width, .height = p->height, .srgb = p->srgb };
+    renderer_view v = renderer_view_of(p, s);
     shade_result result = SHADE_OK;
-    lighting.ambient = p->ambient;
+    renderer_near_lights(&v, lights);
+    lighting.ambient = around->ambient;
     lighting.flags = p->parallel ? SHADE_FLAG_INFINITE_VIEWER : 0;
     r->entries = (renderer_entry *)renderer_room(r->entries, &r->room[0],
                                                  (objects + 1) * sizeof *r->entries);
@@ -2015,7 +2361,7 @@ static inline shade_result renderer_draw_one(renderer *r, const renderer_scene *
     if (!r->entries || !r->depth || !r->color) return SHADE_ERROR_CAPACITY;
     target.depth = r->depth;
     target.color = p->color && p->channels == 4 ? (void *)p->color : (void *)r->color;
-    if (p->color && p->shadows) result = renderer_cast(r, p, s);
+    if (p->color && around->shadows) result = renderer_cast(r, &v);
     if (!result) renderer_clear_notes(p);
     if (!result && large) result = renderer_draw_large(r, &target, &v, &lighting);
     if (p->color && p->channels == 3 && large)
@@ -2040,6 +2386,24 @@ typedef struct renderer_work {
     const volatile int *stop;
 } renderer_work;
 
+/* The objects that a picture shows: those that it brings, or the scene's, moved where it has poses */
+static inline shade_result renderer_shown(renderer *r, const renderer_scene *s,
+                                            renderer_picture *p)
+{
+    const size_t bytes = (size_t)s->object_count * sizeof *s->objects;
+    if (p->objects) return SHADE_OK;
+    p->objects = s->objects;
+    p->object_count = s->object_count;
+    if (!p->poses) return SHADE_OK;
+    r->moved = (renderer_object *)renderer_room(r->moved, &r->room[10], bytes + 1);
+    if (!r->moved) return SHADE_ERROR_CAPACITY;
+    if (bytes) memcpy(r->moved, s->objects, bytes);
+    p->objects = r->moved;
+    if (renderer_move_all(r->moved, s->object_count, p->poses, p->pose_count) != p->pose_count)
+        return SHADE_ERROR_ARGUMENT;
+    return SHADE_OK;
+}
+
 static inline void renderer_draw_share(void *data, int share)
 {
     renderer_work *w = (renderer_work *)data;
@@ -2049,26 +2413,29 @@ static inline void renderer_draw_share(void *data, int share)
     for (int i = (int)(count * share / w->shares); i < end && !result; i++) {
         renderer_picture p = w->pictures[i];
         if (w->stop && *w->stop) return;
-        if (!p.objects) {
-            p.objects = w->scene->objects;
-            p.object_count = w->scene->object_count;
-        }
-        result = renderer_draw_one(w->r[share], w->scene, &p);
+        result = renderer_shown(w->r[share], w->scene, &p);
+        if (!result) result = renderer_draw_one(w->r[share], w->scene, &p);
     }
     w->results[share] = result;
 }
 
-/* Draws pictures by at most BANDS_MOST renderers, in equal shares.  Pictures without objects show
-   those of the scene.  Once *stop is set, which may be NULL, the rest is left out. */
+/* Draws pictures by at most BANDS_MOST renderers, in equal shares, all of the scene as it is now.
+   Pictures without objects show those of the scene: SHADE_ERROR_ARGUMENT where they have poses for
+   another number of objects than there are now.  Once *stop is set, which may be NULL, the rest is
+   left out. */
 static inline shade_result renderer_draw(renderer *const *r, int renderers, const renderer_scene *s,
                                          const renderer_picture *pictures, int count,
                                          const volatile int *stop)
 {
-    renderer_work w = { r, s, pictures, renderers, count, { SHADE_OK }, stop };
+    renderer_scene now = renderer_snapshot(s);
+    renderer_work w = { r, &now, pictures, renderers, count, { SHADE_OK }, stop };
     if (renderers == 1)
         renderer_draw_share(&w, 0);
     else
         bands_run(renderers, renderers, renderer_draw_share, &w);
+    renderer_lock();
+    renderer_let_go(&now);
+    renderer_unlock();
     for (int i = 0; i < renderers; i++)
         if (w.results[i]) return w.results[i];
     return SHADE_OK;

@@ -643,10 +643,11 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
     state.raster.blend = clear ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
     state.raster.depth_read_only = clear;
     for (int i = 0; i < s->model.part_count && !result; i++) {
-        const shade_mesh mesh = model_part_mesh(&s->model, i);
+        shade_mesh mesh = model_part_mesh(&s->model, i);
         look k;
         if (part_is_clear(&s->model, &o, i) != clear) continue;
         look_dress(&k, &o, &s->model, s->model.part[i].surface);
+        if (k.plain) mesh.colors = NULL;
         if (k.map && k.glow_map == k.map) k.material.emission = k.glow;
         state.material = &k.material;
         state.lighting = k.unlit ? unlit : lit->lighting;

@@ -127,6 +127,12 @@ export function matrix(name, value) {
     return Float64Array.from(value);
 }
 
+/** A place, in double, whose numbers fit floats. */
+export function place(name, value) {
+    vector(name, value, 3);
+    return Float64Array.from(value);
+}
+
 /** The same for a pose, whose last row is 0 0 0 1. */
 export function pose(name, value) {
     const got = matrix(name, value);

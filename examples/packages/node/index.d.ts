@@ -259,18 +259,19 @@ export type Beside = (name: string) => Uint8Array | null;
 /** Reads OBJ, STL, PLY, OFF, glTF, GLB or 3MF: one mesh for each surface, as render takes them.  The bytes tell the
     format, where format does not.  STL and 3MF have +z up.  Materials of OBJ, buffers and pictures that are files of
     their own come by beside; what is missing, and what is not drawn, is a warning.  Rejects with a ShadeError for a
-    file that is damaged or needs what is not read.  3MF needs DecompressionStream: Node.js from 18 on. */
+    file that is damaged or needs what is not read.  3MF needs DecompressionStream: Node.js from 18 on.  A color takes the
+    place of all that the file says of its surfaces: materials, pictures, colours of vertices and faces. */
 export function readModel(bytes: Uint8Array, options?: {
-    format?: "obj" | "stl" | "ply" | "off" | "gltf" | "glb" | "3mf"; picture?: Decoder; beside?: Beside;
+    format?: "obj" | "stl" | "ply" | "off" | "gltf" | "glb" | "3mf"; picture?: Decoder; beside?: Beside; color?: Color;
 }): Promise<MeshSource[]>;
 
 /** Reads glTF 2.0, GLB or JSON whose buffers are data URIs: one mesh for each surface, as render takes
     them, with +y up.  What is not drawn, pictures without a decoder among it, is a warning.  Throws
     ShadeError for a file that is damaged or needs what is not read. */
-export function readGltf(bytes: Uint8Array, options?: { picture?: Decoder }): MeshSource[];
+export function readGltf(bytes: Uint8Array, options?: { picture?: Decoder; color?: Color }): MeshSource[];
 
 /** Reads 3MF: one mesh for each surface, with colours by vertex and +z up, of all that the file builds.
     Needs DecompressionStream: Node.js from 18 on.  Rejects with a ShadeError for a file that is damaged,
     unpacks to far more than it has, or needs what is not read.  The DOMParser that 1.2 wanted is not used. */
 export function read3mf(bytes: Uint8Array,
-                        options?: { picture?: Decoder; DOMParser?: unknown }): Promise<MeshSource[]>;
+                        options?: { picture?: Decoder; color?: Color; DOMParser?: unknown }): Promise<MeshSource[]>;

@@ -1,6 +1,6 @@
 // Reads models by the module.  Each surface becomes one mesh, as render takes them.  What 3MF has packed is
 // unpacked by the platform, before it is read.
-import { ShadeError, WRAPS, choice, encoded, record, texture } from "./arguments.js";
+import { ShadeError, WRAPS, choice, color, encoded, record, texture } from "./arguments.js";
 
 // module_model, python_part and python_picture of module.c, in words of four bytes
 const MODEL = 16, PART = 31, PICTURE = 8;
@@ -87,24 +87,26 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
         return images;
     }
 
-    function meshOf(all, at, images) {
+    function meshOf(all, at, images, plain) {
         const ints = words(at, PART).slice(), values = floats(at, PART).slice();
         const corners = words(all.indices, all.corners).slice(ints[0], ints[0] + ints[1]);
         const used = Uint32Array.from(new Set(corners)).sort(), place = new Map();
         used.forEach((vertex, i) => place.set(vertex, i));
         const of = (name, width, change) => rows(floats(all[name], width * all.vertices), width, used, change);
+        const form = { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
+                       indices: corners.map((vertex) => place.get(vertex)),
+                       ...(all.smooth ? { normals: of("normals", 3) } : {}) };
+        if (plain !== undefined) return { ...form, color: plain };
         const k = [...values.subarray(8, 21)], [isSet, isOpaque, isBlended] = ints.subarray(3, 6);
         const [transparency, cutoff] = values.subarray(6, 8), blend = isBlended || transparency > 0;
         const [map, relief, glow] = [...ints.subarray(23, 26)].map((number) => images.get(number));
         const material = { emission: k.slice(0, 3), ambient: k.slice(3, 6), diffuse: k.slice(6, 9),
                            specular: k.slice(9, 12), shininess: k[12] };
-        return { positions: of("positions", 3, (x, axis) => x + all.origin[axis]),
-                 indices: corners.map((vertex) => place.get(vertex)),
+        return { ...form,
                  ...(isSet ? { material, metal: values[21], roughness: values[22] } : {}),
                  ...(ints[30] ? { unlit: true } : {}),
                  ...(blend ? { blend: true, opacity: 1 - transparency } : {}),
                  ...(map && cutoff > 0 ? { cutoff } : {}),
-                 ...(all.smooth ? { normals: of("normals", 3) } : {}),
                  ...(all.colors ? { colors: of("colors", 3, displayed) } : {}),
                  ...(map || relief || glow ? { uv: of("uv", 2, (x, axis) => (axis ? 1 - x : x)) } : {}),
                  ...(map ? { texture: isOpaque ? opaque(map) : map } : {}),
@@ -124,10 +126,11 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 told.add(line);
             };
             if (text(warning)) warn(unnamed(text(warning)));
-            const images = picturesOf(model, options, (line) => warn(`model: ${line}`));
+            const images = options.color === undefined ? picturesOf(model, options, (line) => warn(`model: ${line}`))
+                : new Map();
             return Array.from({ length: parts }, (_, i) => {
                 library.model_part(model, i, part);
-                return meshOf(all, part, images);
+                return meshOf(all, part, images, options.color);
             });
         });
     }
@@ -143,6 +146,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
                 throw new ShadeError(`options.${name} must be a function`);
             }
         }
+        if (given.color !== undefined) color("options.color", given.color);
         return { ...given, format: format === undefined ? "" : `.${choice("options.format", format, FORMATS)}` };
     }
 
@@ -182,7 +186,7 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
     }
 
     function readGltf(bytes, options) {
-        const asked = { ...checked(bytes, options, ["picture"]), format: ".glb" };
+        const asked = { ...checked(bytes, options, ["picture", "color"]), format: ".glb" };
         return withMemory((room) => opened(put(room(bytes.length), bytes), bytes.length, asked));
     }
 
@@ -207,14 +211,14 @@ export function readersOf({ library, withMemory, take, put, floats, words, text,
     }
 
     async function readModel(bytes, options) {
-        const asked = checked(bytes, options, ["format", "picture", "beside"]);
+        const asked = checked(bytes, options, ["format", "picture", "beside", "color"]);
         const packed = bytes[0] === 0x50 && bytes[1] === 0x4B;    // PK
         if (asked.format === ".3mf" || (!asked.format && packed)) return unpackedFirst(bytes, asked);
         return withMemory((room) => opened(put(room(bytes.length), bytes), bytes.length, asked));
     }
 
     async function read3mf(bytes, options) {
-        const asked = checked(bytes, options, ["picture", "DOMParser"]);
+        const asked = checked(bytes, options, ["picture", "color", "DOMParser"]);
         return unpackedFirst(bytes, { ...asked, format: ".3mf" });
     }
     return { readModel, readGltf, read3mf };

@@ -479,22 +479,13 @@ void module_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
 
 /* A mesh that is ready, whose coordinates begin at (x, y, z) */
 EXPORT(scene_made)
-int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, float x, float y,
-                      float z);
-int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, float x, float y,
-                      float z)
+int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, double x, double y,
+                      double z);
+int module_scene_made(renderer_scene *scene, int number, const module_mesh *m, double x, double y,
+                      double z)
 {
-    const float origin[3] = { x, y, z };
-    shade_mesh placed = m->mesh;
-    const size_t floats = 3 * (size_t)placed.vertex_count;
-    float *positions = (float *)malloc(floats * sizeof *positions + 1);
-    int made = 0;
-    for (size_t i = 0; positions && i < floats; i++)
-        positions[i] = m->mesh.positions[i] + origin[i % 3];
-    placed.positions = positions;
-    if (positions) made = renderer_set_mesh(scene, number, &placed, 0);
-    free(positions);
-    return made;
+    const double origin[3] = { x, y, z };
+    return renderer_set_mesh(scene, number, &m->mesh, 0, origin);
 }
 
 /* 1: the relief of a mesh holds heights, and no normals. */

@@ -1,6 +1,6 @@
 // MuJoCo's own Renderer without OpenGL: the same calls, shapes and units, over @mujoco/mujoco.
 import * as check from "./arguments.js";
-import { AT, HIDDEN, plainRecord } from "./renderer.js";
+import { AT, HIDDEN, PLACE, TURN, plainRecord } from "./renderer.js";
 
 const { ShadeError } = check;
 
@@ -103,16 +103,16 @@ class Stage {
     /** The words of a geom's record; null for what is no surface here. */
     #record(g) {
         if (!(g.type >= 0 && g.type < KINDS.length - 1)) return null;
-        const { floats, ints } = plainRecord();
+        const { floats, ints, doubles } = plainRecord();
         const shape = g.type === MESH || g.type === HEIGHT_FIELD;
         const mapped = shape && g.type === MESH && g.texcoord;
         ints[AT.kind] = KINDS[g.type];
         if (shape) ints[AT.mesh] = this.#mesh(g.type, g.type === MESH ? g.dataid >> 1 : g.dataid);
-        ints[AT.texture] = g.texid >= 0 ? 1 + this.#texture(g.texid) : 0;
+        ints[AT.texture] = g.texid >= 0 ? 1 + this.#renderer._slot(this.#texture(g.texid)) : 0;
         floats.set(shape ? [1, 1, 1] : g.size, AT.size);
         if (g.type === 0) floats[AT.size + 2] = 0;
-        floats.set(g.mat, AT.turn);
-        floats.set(g.pos, AT.place);
+        doubles.set(g.mat, TURN);
+        doubles.set(g.pos, PLACE);
         floats.set(g.rgba, AT.rgba);
         floats.fill(g.specular, AT.specular, AT.specular + 3);
         floats[AT.shininess] = 128 * g.shininess;

@@ -6,7 +6,7 @@ import { rotationOf } from "./camera.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 45, SHOT = 67, LIGHT = 21, IMAGE = 8;
+const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];
@@ -17,9 +17,12 @@ const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsu
 export const HIDDEN = 1;
 const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS = 8;
 // Where the fields of renderer_object begin, in words
-export const AT = { kind: 0, mesh: 1, texture: 2, flags: 3, id: 4, first: 5, count: 6, size: 7, turn: 10, place: 19,
-                    rgba: 22, specular: 26, shininess: 29, emission: 30, glow: 31, repeat: 34, metal: 36, tint: 37,
-                    cutoff: 38, relief: 39, glow_map: 40, strength: 41, glow_factor: 42 };
+export const AT = { kind: 24, mesh: 25, texture: 26, flags: 27, id: 28, first: 29, count: 30, size: 31, rgba: 34,
+                    specular: 38, shininess: 41, emission: 42, glow: 43, repeat: 46, metal: 48, tint: 49,
+                    cutoff: 50, relief: 51, glow_map: 52, strength: 53, glow_factor: 54 };
+/** Place and turn are doubles, before all. */
+export const PLACE = 0, TURN = 3, POSE = 12;
+const NOT_RIGID = "must be a rotation and a translation, without scale, by columns";
 const FRAME = ["color", "depth", "ids", "normals"];
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
 
@@ -32,23 +35,56 @@ function pictured(value) {
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
 export function plainRecord() {
     const floats = new Float32Array(OBJECT), ints = new Int32Array(floats.buffer);
-    floats.set([1, 0, 0, 0, 1, 0, 0, 0, 1], AT.turn);
+    const doubles = new Float64Array(floats.buffer, 0, POSE);
+    doubles.set([1, 0, 0, 0, 1, 0, 0, 0, 1], TURN);
     floats.fill(1, AT.rgba, AT.rgba + 4);
     floats[AT.shininess] = 32;
     floats.fill(1, AT.repeat, AT.repeat + 2);
-    return { floats, ints };
+    return { floats, ints, doubles };
 }
 
-/** The least number that a map does not have. */
+/** The least number that is not taken. */
 function free(taken) {
+    const all = new Set(taken);
     let number = 0;
-    while (taken.has(number)) number++;
+    while (all.has(number)) number++;
     return number;
+}
+
+/** An object of a renderer: what add() gave the number of */
+class Solid {
+    #of; #number;
+
+    constructor(of, number) { [this.#of, this.#number] = [of, number]; }
+
+    get renderer() { return this.#of; }
+    get number() { return this.#number; }
+    valueOf() { return this.#number; }
+    toString() { return `${this.#number}`; }
+    toJSON() { return this.#number; }
+
+    /** From the object to the world, 4 x 4 by columns.  Assigned, it moves: as a matrix or as a place. */
+    get pose() { return this.#of._pose(this); }
+    set pose(value) {
+        const m = this.pose;
+        if (value?.length === 3) m.set(check.place("pose", value), 12);
+        this.#of.pose(this, value?.length === 3 ? m : value);
+    }
+
+    /** As add() and change() take it */
+    get color() { return this.#of._options(this).color ?? "white"; }
+    set color(value) { this.#of.change(this, { color: value }); }
+
+    change(options) { this.#of.change(this, options); }
+    show(visible = true) { this.#of.show(this, visible); }
+
+    /** Takes it away; its number is not given again. */
+    remove() { this.#of.remove(this); }
 }
 
 /** A matrix of 4 x 4 by columns, row by row. */
 function rows(name, value) {
-    const m = check.vector(name, value, 16);
+    const m = check.matrix(name, value);
     return Array.from({ length: 16 }, (_, k) => m[4 * (k % 4) + Math.floor(k / 4)]);
 }
 
@@ -64,6 +100,11 @@ function rangeOf(p) {
     const near = b / (a - 1), far = a < -1 ? b / (a + 1) : 3e30;
     if (!(near > 0 && near < far)) throw refused();
     return { near, far: Math.min(far, 3e30), parallel: 0 };
+}
+
+/** A copy of options, whose arrays the caller may change afterwards */
+function own(options) {
+    return Object.fromEntries(Object.entries(options).map(([name, value]) => [name, check.isArray(value) ? value.slice() : value]));
 }
 
 /** The class, over the functions of index.js that know the module's memory. */
@@ -89,9 +130,9 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #made = library.scene_open();
         #shown = new Map();    // object to { shape, options }, as add() took them
         #meshes = new Map();   // number to shape
-        #textures = new Map(); // number to { cube, owned }: whether it came with a shape
-        #state = { lamps: new Float32Array(0), ambient: [0, 0, 0], shadows: 0,
-                   background: [1, 1, 1, 1], sky: 0, skyTexture: -1, low: [0, 0, 0], high: [0, 0, 0] };
+        #textures = new Map(); // number to { slot, cube, owned }: whether it came with a shape
+        #nextTexture = 0;
+        #behind = { sky: 0, background: [1, 1, 1, 1] };
 
         constructor(height, width, options) {
             const got = check.record("options", options, ["samples", "srgb", "tolerance"]);
@@ -106,6 +147,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             if (!this.#made || !scratch) throw new RangeError("memory is not enough for a scene");
             forgotten.register(this, this.#made, this);
+            this.#setBehind({});
             this.light([{ position: [0.5, -1, 1.2, 0], diffuse: [0.75, 0.75, 0.75],
                           specular: [0.75, 0.75, 0.75] }], [0.25, 0.25, 0.25]);
         }
@@ -120,7 +162,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         /** A mesh for add(): a Mesh with its colour, pictures, transparency, holes and material, or positions,
          *  indices, normals, uv and colors. */
-        mesh(source) { return this.#taken(source, free(this.#meshes)); }
+        mesh(source) { return this.#taken(source, free(this.#meshes.keys())); }
 
         #taken(source, number) {
             const made = prepared(source);
@@ -145,8 +187,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const { floats, ints } = shape.record, shown = (rgb) => (this.srgb ? rgb : rgb.map(check.encoded));
             ["texture", "relief", "glow_map"].forEach((name, i) => {
                 if (!maps[i]) return;
-                const number = this.#texture(maps[i], free(this.#textures), maps[i].wrap, name !== "relief");
-                ints[AT[name]] = 1 + number;
+                const number = this.#texture(maps[i], null, maps[i].wrap, name !== "relief");
+                ints[AT[name]] = 1 + this.#textures.get(number).slot;
                 shape.textures.push(number);
                 this.#textures.get(number).owned = true;
             });
@@ -171,17 +213,19 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
          *  objects show it. */
         update(shape, source) {
             this.#known(shape);
-            const made = shape.ground ? this.#ground(source, ...shape.ground, shape.mesh) : this.#taken(source, shape.mesh);
-            const gone = shape.textures;
-            Object.assign(shape, made);
-            for (const [number, { shape: of, options }] of this.#shown) {
-                if (of === shape) this.#write(number, this.#dressed(number, shape, options));
-            }
-            gone.forEach((texture) => this.#drop(texture));
+            this.#atOnce(() => {
+                const made = shape.ground ? this.#ground(source, ...shape.ground, shape.mesh) : this.#taken(source, shape.mesh);
+                const gone = shape.textures;
+                Object.assign(shape, made);
+                for (const [number, { shape: of, options }] of this.#shown) {
+                    if (of === shape) this.#write(number, this.#dressed(number, shape, options));
+                }
+                gone.forEach((texture) => this.#drop(texture));
+            });
         }
 
         /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
-        _mesh(source, number = free(this.#meshes)) {
+        _mesh(source, number = free(this.#meshes.keys())) {
             const got = check.record("mesh", source, ["positions", "indices", "normals", "uv"]);
             const positions = check.rows("positions", got.positions, 3), vertices = positions.length / 3;
             if (!positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
@@ -200,7 +244,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 const set = { positions: at[0], normals: at[1], texcoords: at[2], vertex_count: vertices,
                               indices: at[3], index_count: indices.length };
                 const ask = Uint32Array.from(MESH, (name) => set[name] ?? 0);
-                return library.scene_mesh(this.#scene, number, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0);
+                return library.scene_mesh(this.#scene, number, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0, 0);
             });
             if (!made) throw new RangeError("memory is not enough for the mesh");
             return this.#shape(number, indices.length / 3);
@@ -208,8 +252,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         /** Ground for add(): rows of heights along y, over x from -half[0] to half[0]. */
         height_field(heights, rows, columns, half) {
-            const shape = this.#ground(heights, rows, columns, half, free(this.#meshes));
-            return Object.assign(shape, { ground: [rows, columns, half] });
+            const shape = this.#ground(heights, rows, columns, half, free(this.#meshes.keys()));
+            return Object.assign(shape, { ground: [rows, columns, Float64Array.from(half)] });
         }
 
         #ground(heights, rows, columns, half, number) {
@@ -230,16 +274,15 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
          *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
          *  Texture. */
-        texture(picture) { return this.#texture(pictured(picture), free(this.#textures)); }
+        texture(picture) { return this.#texture(pictured(picture), null); }
 
         /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
         update_texture(number, picture) {
-            const { cube, owned } = this.#textureOf("number", number);
+            const { cube } = this.#textureOf("number", number);
             if (cube !== (picture?.faces === 6)) {
                 throw new ShadeError(`picture: texture ${number} is ${cube ? "" : "no "}cube, and the picture is not`);
             }
             this.#texture(pictured(picture), number);
-            this.#textures.get(number).owned = owned;
         }
 
         #textureOf(name, number) {
@@ -247,6 +290,9 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!this.#textures.has(number)) throw new ShadeError(`${name}: there is no texture ${number}`);
             return this.#textures.get(number);
         }
+
+        /** Where the module has a texture */
+        _slot(number) { return this.#textures.get(number).slot; }
 
         #texture(picture, number, wrap = check.wraps("", picture), colors = true) {
             const { data, width, height, faces = 1 } = picture;
@@ -258,14 +304,17 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!check.isArray(data) || data.length !== 4 * width * height) {
                 throw new ShadeError(`data must hold ${4 * width * height} bytes`);
             }
+            const old = this.#textures.get(number);
+            const slot = old?.slot ?? free([...this.#textures.values()].map((texture) => texture.slot));
             const made = withMemory((room) => {
                 const bytes = put(room(data.length), check.bytesOf("data", data));
                 const image = Uint32Array.of(bytes, width, height / faces, faces, this.srgb && colors ? 1 : 0, ...wrap);
-                return library.scene_texture(this.#scene, number, put(room(4 * IMAGE), image));
+                return library.scene_texture(this.#scene, slot, put(room(4 * IMAGE), image));
             });
             if (!made) throw new RangeError("memory is not enough for the texture");
-            this.#textures.set(number, { cube: faces === 6, owned: false });
-            return number;
+            const named = number ?? this.#nextTexture++;
+            this.#textures.set(named, { slot, cube: faces === 6, owned: old?.owned ?? false });
+            return named;
         }
 
         /** A texture of 2 x 2 squares, which repeats. */
@@ -282,46 +331,51 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** Adds an object, of "plane", "sphere", "ellipsoid", "capsule", "cylinder", "box" or what mesh()
-         *  and height_field() return, and gives its number, which ids have. */
+         *  and height_field() return, and gives its number, which ids have; object() has more of it. */
         add(shape, size, options) {
             const got = check.record("options", options, ["at", "pose", ...LOOKS]), { at = [0, 0, 0], pose, ...looks } = got;
             if (typeof shape === "string") check.choice("shape", shape, Object.keys(KINDS));
             else this.#known(shape);
-            const { floats } = this.#record(shape, looks);
+            const { floats, doubles } = this.#record(shape, looks);
             if (got.at && pose !== undefined) throw new ShadeError("at does not go with pose, which has a place");
             floats.set(this.#size(shape, size), AT.size);
-            floats.set(check.vector("at", at, 3), AT.place);
-            const number = withMemory((room) => library.scene_add(this.#scene, put(room(4 * OBJECT), floats), 1));
-            if (number < 0) throw new RangeError("memory is not enough for the object");
-            this.#shown.set(number, { shape, options: looks });
+            doubles.set(check.place("at", at), PLACE);
             if (pose !== undefined) {
-                try {
-                    this.#move(() => "pose", [number], [pose]);
-                } catch (error) {
-                    this.remove(number);
-                    throw error;
+                const m = rows("pose", pose);
+                if (!this.#rigid([m])) throw new ShadeError(`pose ${NOT_RIGID}`);
+                for (let k = 0; k < 3; k++) {
+                    doubles[PLACE + k] = m[4 * k + 3];
+                    doubles.set(m.slice(4 * k, 4 * k + 3), TURN + 3 * k);
                 }
             }
+            const number = withMemory((room) => library.scene_add(this.#scene, put(room(4 * OBJECT), floats), 1));
+            if (number < 0) throw new RangeError("memory is not enough for the object");
+            this.#shown.set(number, { shape, options: own(looks) });
             return number;
         }
 
+        /** An object by its number, with number, pose, color, change(), show() and remove(); every call that takes
+         *  a number takes it, and it is one in arithmetic. */
+        object(number) { return new Solid(this, this.#number("number", number)); }
+
         /** Changes what is given of an object, as add() takes it; undefined is as without a word. */
         change(number, options) {
-            this.#object(number);
+            const at = this.#number("number", number);
             const { size, ...looks } = check.record("options", options, ["size", ...LOOKS]);
-            const { shape, options: old } = this.#shown.get(number), all = { ...old, ...looks };
-            const { floats, ints } = this.#dressed(number, shape, all);
+            const { shape, options: old } = this.#shown.get(at), all = { ...old, ...own(looks) };
+            const { floats, ints } = this.#dressed(at, shape, all);
             if (size !== undefined) floats.set(this.#size(shape, size), AT.size);
-            this.#write(number, { floats, ints });
-            this.#shown.set(number, { shape, options: all });
+            this.#write(at, { floats, ints });
+            this.#shown.set(at, { shape, options: all });
         }
 
         /** The record of an object by now, where it is, with other looks */
         #dressed(number, shape, options) {
-            const old = this.#object(number), record = this.#record(shape, options);
+            const old = this.#recordOf(number), record = this.#record(shape, options);
             record.ints[AT.id] = number;
             record.ints[AT.flags] |= old.ints[AT.flags] & HIDDEN;
             record.floats.set(old.floats.subarray(AT.size, AT.rgba), AT.size);
+            record.ints.set(old.ints.subarray(0, 2 * POSE));
             return record;
         }
 
@@ -340,29 +394,64 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 if (got[name] !== undefined) floats[AT[name]] = check.number(name, got[name], 0, 1e6);
             }
             if (got.texture !== undefined) {
-                this.#textureOf("texture", got.texture);
-                ints[AT.texture] = 1 + got.texture;
+                ints[AT.texture] = 1 + this.#textureOf("texture", got.texture).slot;
             }
             floats.set(check.vector("repeat", got.repeat ?? [1, 1], 2), AT.repeat);
             for (const name of ["two_sided", "casts_shadow"]) if (got[name] !== undefined) check.flag(name, got[name]);
             ints[AT.flags] |= (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
-            return { floats, ints };
+            return { floats, ints, doubles: new Float64Array(floats.buffer, 0, POSE) };
         }
 
         #known(shape) {
             if (!shape || this.#meshes.get(shape.mesh) !== shape) throw new ShadeError("shape must be of this renderer");
         }
 
-        /** An object's record in the module's memory */
-        #object(number) {
-            check.integer("number", number, 0, 2 ** 31 - 1);
-            if (!this.#shown.has(number)) throw new ShadeError(`number: there is no object ${number}`);
-            const at = withMemory((room) => library.scene_find(this.#scene, number, room(4)));
-            return { floats: new Float32Array(library.memory.buffer, at, OBJECT),
-                     ints: new Int32Array(library.memory.buffer, at, OBJECT) };
+        /** The number of an object, which may be given as a Solid */
+        #number(name, value) {
+            if (value instanceof Solid && value.renderer !== this) {
+                throw new ShadeError(`${name}: object ${value} is of another Renderer`);
+            }
+            const number = check.integer(name, value instanceof Solid ? value.number : value, 0, 2 ** 31 - 1);
+            void this.#scene;
+            if (!this.#shown.has(number)) throw new ShadeError(`${name}: there is no object ${number}`);
+            return number;
         }
 
-        #write(number, { ints }) { this.#object(number).ints.set(ints); }
+        /** A copy of an object's record */
+        #recordOf(number) {
+            const words = withMemory((room) => {
+                const at = room(4 * OBJECT);
+                library.scene_records(this.#scene, number, at, 1);
+                return new Int32Array(library.memory.buffer, at, OBJECT).slice();
+            });
+            return { ints: words, floats: new Float32Array(words.buffer), doubles: new Float64Array(words.buffer, 0, POSE) };
+        }
+
+        _options(number) { return this.#shown.get(this.#number("number", number)).options; }
+
+        _pose(number) {
+            const { doubles } = this.#recordOf(this.#number("number", number)), m = new Float64Array(16);
+            for (let k = 0; k < 9; k++) m[4 * (k % 3) + Math.floor(k / 3)] = doubles[TURN + k];
+            m.set([...doubles.subarray(PLACE, PLACE + 3), 1], 12);
+            return m;
+        }
+
+        #write(number, { ints }) {
+            const done = withMemory((room) => library.scene_put(this.#scene, number, put(room(4 * OBJECT), ints), 1));
+            if (!done) throw new RangeError("memory is not enough for the object");
+        }
+
+        /** A change of several steps, of which pictures show all or nothing */
+        #atOnce(change) {
+            if (!library.scene_hold(this.#scene)) throw new RangeError("memory is not enough");
+            try { change(); } finally { library.scene_done(this.#scene); }
+        }
+
+        /** 1: matrices, row by row, are rotations and translations. */
+        #rigid(matrices) {
+            const rows = Float64Array.from(matrices.flat());
+            return withMemory((room) => library.not_rigid(put(room(rows.byteLength + 8), rows), matrices.length)) < 0;
+        }
 
         #size(shape, size) {
             if (typeof shape !== "string") {
@@ -382,81 +471,85 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         /** Moves an object: 4 x 4 by columns, a rotation and a translation. */
         pose(number, pose) {
-            this.#object(number);
-            this.#move(() => `pose of object ${number}`, [number], [pose]);
+            const at = this.#number("number", number);
+            this.#move(() => `pose of object ${at}`, [at], [pose]);
         }
 
         /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
          *  where one is refused. */
         poses(poses, numbers = this.objects) {
             if (!check.isArray(numbers)) throw new ShadeError("numbers must be an array");
-            numbers.forEach((number) => this.#object(number));
-            this.#move((i) => `poses[${i}]`, numbers, poses);
+            this.#move((i) => `poses[${i}]`, Array.from(numbers, (number, i) => this.#number(`numbers[${i}]`, number)), poses);
         }
 
-        /** to: where a copy of all objects is, which moves in their place */
-        #move(named, numbers, poses, to = 0) {
-            if (poses?.length !== numbers.length) {
-                throw new ShadeError(`${named("").replace("[]", "")} must hold ${numbers.length} matrices`);
-            }
-            const matrices = Float64Array.from(Array.from(poses, (pose, i) => rows(named(i), pose)).flat());
+        #move(named, numbers, poses) {
+            const matrices = this.#matrices(named, numbers.length, poses);
             const refused = withMemory((room) => library.scene_pose(
-                this.#scene, to, put(room(4 * numbers.length + 4), Int32Array.from(numbers)),
+                this.#scene, put(room(4 * numbers.length + 4), Int32Array.from(numbers)),
                 put(room(matrices.byteLength + 8), matrices), numbers.length));
-            if (refused >= 0) {
-                throw new ShadeError(`${named(refused)} must be a rotation and a translation, without scale, by columns`);
+            if (refused >= 0) throw new ShadeError(`${named(refused)} ${NOT_RIGID}`);
+        }
+
+        /** So many matrices, row by row */
+        #matrices(named, count, poses) {
+            if (poses?.length !== count) {
+                throw new ShadeError(`${named("").replace("[]", "")} must hold ${count} matrices`);
             }
+            return Float64Array.from(Array.from(poses, (pose, i) => rows(named(i), pose)).flat());
         }
 
         /** Hides an object, or shows it again. */
         show(number, visible = true) {
-            const { ints } = this.#object(number);
+            const at = this.#number("number", number), { ints } = this.#recordOf(at);
             check.flag("visible", visible);
             ints[AT.flags] = (ints[AT.flags] & ~HIDDEN) | (visible ? 0 : HIDDEN);
+            this.#write(at, { ints });
         }
 
-        /** Takes away an object by its number, which the next one may have, or a shape that no object shows, with
-         *  the textures that came with it.  Its memory is given back. */
+        /** Takes away an object by its number, which none is given again, or a shape that no object shows, with the
+         *  textures that came with it.  Its memory is given back. */
         remove(what) {
-            if (typeof what === "number") {
-                this.#object(what);
-                library.scene_remove(this.#scene, what);
-                this.#shown.delete(what);
+            if (typeof what === "number" || what instanceof Solid) {
+                const number = this.#number("what", what);
+                library.scene_put(this.#scene, number, 0, 0);
+                this.#shown.delete(number);
                 return;
             }
             this.#known(what);
             for (const [number, { shape }] of this.#shown) {
                 if (shape === what) throw new ShadeError(`what: object ${number} shows the shape; remove that before`);
             }
-            library.scene_mesh(this.#scene, what.mesh, 0, 0);
+            library.scene_mesh(this.#scene, what.mesh, 0, 0, 0);
             this.#meshes.delete(what.mesh);
             what.textures.forEach((texture) => this.#drop(texture));
         }
 
         /** Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with it. */
         remove_texture(number) {
-            const { owned } = this.#textureOf("number", number), s = this.#state;
-            const shown = this.objects.find((i) => this.#object(i).ints[AT.texture] === 1 + number);
+            const { owned, slot } = this.#textureOf("number", number), { sky, texture } = this.#behind;
+            const shown = this.objects.find((i) => this.#recordOf(i).ints[AT.texture] === 1 + slot);
             const who = shown !== undefined ? `object ${shown}` : owned ? "a shape"
-                : s.sky === 2 && s.skyTexture === number ? "the sky" : null;
+                : sky === 2 && texture === number ? "the sky" : null;
             if (who) throw new ShadeError(`number: ${who} has texture ${number}`);
             this.#drop(number);
         }
 
         #drop(texture) {
-            library.scene_texture(this.#scene, texture, 0);
+            library.scene_texture(this.#scene, this.#textures.get(texture).slot, 0);
             this.#textures.delete(texture);
         }
 
         /** Takes away all objects, shapes and textures, and gives back their memory; lamps and a background of
          *  one colour stay. */
         clear() {
-            library.scene_set(this.#scene, 0, 0);
+            this.#atOnce(() => {
+                library.scene_put_all(this.#scene, 0, 0);
+                for (const number of this.#meshes.keys()) library.scene_mesh(this.#scene, number, 0, 0, 0);
+                [...this.#textures.keys()].forEach((number) => this.#drop(number));
+                if (this.#behind.sky === 2) this.#setBehind({ background: this.#behind.background });
+            });
             this.#shown.clear();
-            for (const number of this.#meshes.keys()) library.scene_mesh(this.#scene, number, 0, 0);
             this.#meshes.clear();
-            [...this.#textures.keys()].forEach((number) => this.#drop(number));
-            if (this.#state.sky === 2) this.#state.sky = 0;
         }
 
         // ---- what it is lit by
@@ -478,26 +571,32 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 }
                 shadows |= 1 << number;
             }
-            Object.assign(this.#state, { lamps, count: rows.length, shadows,
-                                         ambient: check.vector("ambient", ambient, 3) });
+            const places = Float64Array.from(rows.flatMap((row) => [...row.slice(0, 4)])), around = check.vector("ambient", ambient, 3);
+            withMemory((room) => library.scene_light(
+                this.#scene, put(room(lamps.byteLength), lamps), put(room(places.byteLength + 8), places), rows.length,
+                put(room(12), Float32Array.from(around)), shadows));
+        }
+
+        /** What is behind all objects, at once; of a texture its number */
+        #setBehind({ sky = 0, texture = -1, low = [0, 0, 0], high = [0, 0, 0], background = this.#behind.background }) {
+            const slot = sky === 2 ? this.#textures.get(texture).slot : -1;
+            withMemory((room) => library.scene_behind(
+                this.#scene, sky, slot, put(room(40), Float32Array.of(...background, ...low, ...high))));
+            this.#behind = { sky, texture, background };
         }
 
         /** One colour behind all objects. */
-        background(color) {
-            void this.#scene;
-            Object.assign(this.#state, { background: [...this.#color("color", color), 1], sky: 0 });
-        }
+        background(color) { this.#setBehind({ background: [...this.#color("color", color), 1] }); }
 
         /** A sky from the colour straight below to that straight above, +z. */
         sky(low = "#dfe8f0", high = "#4a7ab0") {
-            void this.#scene;
-            Object.assign(this.#state, { sky: 1, low: this.#color("low", low), high: this.#color("high", high) });
+            this.#setBehind({ sky: 1, low: this.#color("low", low), high: this.#color("high", high) });
         }
 
         /** A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL. */
         sky_texture(texture) {
             if (!this.#textureOf("texture", texture).cube) throw new ShadeError(`texture ${texture} is no cube`);
-            Object.assign(this.#state, { sky: 2, skyTexture: texture });
+            this.#setBehind({ sky: 2, texture });
         }
 
         // ---- pictures
@@ -527,25 +626,23 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 throw new ShadeError(`poses must have a row for each of ${seen.length} cameras, not ${poses.length}`);
             }
             const shots = seen.map((camera, i) => this.#seen(`cameras[${i}]`, camera));
-            shots.forEach((shot, i) => { if (poses) shot.records = this.#moved(`poses[${i}]`, poses[i]); });
+            shots.forEach((shot, i) => { if (poses) shot.poses = this.#posed(`poses[${i}]`, poses[i]); });
             return this._draw(out ?? this.frame({ pictures: seen.length }), shots, options);
         }
 
         #seen(name, camera) {
-            const view = check.vector(`${name}.view`, camera?.view, 16);
+            const view = check.matrix(`${name}.view`, camera?.view);
             const projection = check.vector(`${name}.projection`, camera?.projection, 16);
             rotationOf(`${name}.view`, view);
             return { view, projection, ...rangeOf(projection) };
         }
 
-        /** A copy of all objects, moved */
-        #moved(name, poses) {
-            return withMemory((room) => {
-                const words = () => new Int32Array(library.memory.buffer, from, OBJECT * this.objects.length);
-                const from = library.scene_find(this.#scene, -1, room(4)), at = put(room(words().byteLength + 4), words());
-                this.#move((i) => `${name}[${i}]`, this.objects, poses, at);
-                return new Int32Array(library.memory.buffer, at, words().length).slice();
-            });
+        /** Matrices of all objects, row by row */
+        #posed(name, poses) {
+            const named = (i) => `${name}[${i}]`, matrices = this.#matrices(named, this.#shown.size, poses);
+            const bad = withMemory((room) => library.not_rigid(put(room(matrices.byteLength + 8), matrices), this.#shown.size));
+            if (bad >= 0) throw new ShadeError(`${named(bad)} ${NOT_RIGID}`);
+            return matrices;
         }
 
         /** A picture for each of shots, whose records are objects, one after the other, in place of those that were
@@ -556,7 +653,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             check.flag("solid", solid);
             if (typeof empty_depth !== "number") throw new ShadeError("empty_depth must be a number");
             check.record("out", out, FRAME);
-            const pixels = this.height * this.width, s = this.#state, scene = this.#scene, at = {};
+            const pixels = this.height * this.width, scene = this.#scene, at = {};
             const channels = out.color?.length === 4 * shots.length * pixels ? 4 : 3;
             const arrays = [["color", channels, 1], ["depth", 1, 4], ["ids", 2, 4], ["normals", 3, 4]];
             const Kinds = { color: [Uint8Array, Uint8ClampedArray], depth: [Float32Array, Float64Array],
@@ -571,18 +668,18 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 }
                 at[name] = out[name] ? kept(name, bytes * width * pixels) : 0;
             }
-            at.lights = kept("lights", 4 * LIGHT * LAMPS);
-            put(at.lights, s.lamps);
-            shots.forEach(({ view, projection, near, far, parallel, records }, i) => {
+            shots.forEach(({ view, projection, near, far, parallel, records, poses }, i) => {
                 at.objects = records ? put(kept("objects", records.byteLength + 4), records) : 0;
+                at.poses = poses ? put(kept("poses", poses.byteLength + 8), poses) : 0;
                 const shot = kept("shot", 4 * SHOT);
                 const ints = new Int32Array(library.memory.buffer, shot, SHOT);
                 const floats = new Float32Array(library.memory.buffer, shot, SHOT);
                 ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, solid ? 1 : 0, parallel,
-                          records ? records.length / OBJECT : 0, s.count, s.shadows, s.sky, s.skyTexture]);
-                floats.set([near, far, empty_depth, this.tolerance, ...view, ...projection,
-                            ...s.background, ...s.low, ...s.high, ...s.ambient], 12);
-                ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);
+                          records ? records.length / OBJECT : 0, poses ? poses.length / 16 : 0]);
+                floats.set([near, far, empty_depth, this.tolerance, 0], 9);
+                new Float64Array(library.memory.buffer, shot, SHOT / 2).set(view, 7);
+                floats.set(projection, 46);
+                ints.set([at.objects, at.poses, at.color, at.depth, at.ids, at.normals], 62);
                 succeed("camera", library.renderer_draw(scratch, scene, shot));
                 for (const [name, width, bytes] of arrays) {
                     const Kind = bytes === 1 ? Uint8Array : name === "ids" ? Int32Array : Float32Array;

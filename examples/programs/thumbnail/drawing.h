@@ -68,13 +68,16 @@ static void drawing_stand(drawing *d)
 static shade_vec3 drawing_color(const drawing *d, int part)
 {
     const model *m = d->model;
+    const model_options *how = &d->options->how;
     const model_surface *s = m->surface_count ? &m->surface[m->part[part].surface] : NULL;
+    const surface_choice choice =
+        surface_choose(m, m->part[part].surface, &how->material, how->plain);
     if (s && s->section && s->set) return shade_rgb(0x3A424A); /* lines of the hatch */
     if (d->options->drawing.ids) return piece_color(d->pieces.of_part[part]);
-    if (d->options->how.plain) return d->options->how.material.diffuse;
+    if (how->plain) return choice.material.diffuse;
     if (s && s->section) return shade_rgb(0xE6EAEE);
-    if (s && s->set) return shade_lerp(s->material.diffuse, shade_v3(1, 1, 1), 0.2f);
-    return m->mesh.colors ? shade_v3(1, 1, 1) : shade_rgb(0xB9C4CF);
+    if (choice.own) return shade_lerp(choice.material.diffuse, shade_v3(1, 1, 1), 0.2f);
+    return choice.colored ? choice.material.diffuse : shade_rgb(0xB9C4CF);
 }
 
 /* Boxes around runs of triangles.  Where neighbours in the file are neighbours in space, as most

@@ -52,12 +52,14 @@ static inline int terminal_has_blocks(void)
            strstr(locale, "utf-8");
 }
 
-/* 1: questions are worth asking, and do no harm: consoles would show them as text. */
+/* 1: questions are worth asking, and do no harm: consoles would show them as text.  A terminal for
+   which pixels are asked by name is none of these. */
 static inline int terminal_can_answer(const view_options *o)
 {
     const char *term = getenv("TERM");
-    if (o->show != SHOW_ASKED && o->show < SHOW_KITTY) return 0;
-    return o->colors != VIEW_PLAIN || (o->colors_guessed && term && !strncmp(term, "xterm", 5));
+    if (o->show != SHOW_ASKED) return o->show >= SHOW_KITTY;
+    if (o->colors != VIEW_PLAIN) return 1;
+    return o->colors_guessed && term && (!strncmp(term, "xterm", 5) || !strncmp(term, "mlterm", 6));
 }
 
 /* ---- frames --------------------------------------------------------------------------------- */
@@ -155,11 +157,13 @@ static inline void display_resize(display *d, terminal_size size)
     d->changed = 1;
 }
 
-/* A terminal with a name of its own knows all colours, whatever TERM says. */
+/* A terminal with a name of its own, or one that shows pixels, knows all colours, whatever TERM
+   says. */
 static inline void display_color(display *d, const terminal_answers *said)
 {
     d->screen.colors = d->options->colors;
-    if (d->screen.colors != VIEW_PLAIN || !d->options->colors_guessed || !said->parts) return;
+    if (d->screen.colors != VIEW_PLAIN || !d->options->colors_guessed) return;
+    if (!said->parts && d->show == SHOW_CELLS) return;
     d->screen.colors = VIEW_TRUE;
     d->scene->said[0] = 0;
     scene_lighten(d->scene);
@@ -178,23 +182,33 @@ static inline int display_has_room(view_show show, terminal_size size, const ter
     return size.rows > 1;
 }
 
-/* Chooses what the terminal has answered that it shows best. */
+/* What the terminal has answered that it shows best: pixels, where their size is known */
+static inline view_show display_best(const terminal_answers *said, terminal_size size)
+{
+    if (said->kitty) return SHOW_KITTY;
+    if (said->iterm2 && pixels_known(SHOW_ITERM2)) return SHOW_ITERM2;
+    if (said->sixel && !said->inner && !terminal_is_inner() && size.cell_known &&
+        pixels_known(SHOW_SIXEL))
+        return SHOW_SIXEL;
+    return SHOW_CELLS;
+}
+
+/* 1: pixels were asked for by name, and there is no room for them. */
+static inline int display_refuses(const display *d)
+{
+    return d->options->show >= SHOW_KITTY && d->show == SHOW_CELLS;
+}
+
+/* Chooses how pictures are shown: as is asked, else as is best. */
 static inline void display_choose(display *d, const terminal_answers *said)
 {
     const view_show want = d->options->show;
     terminal_size size = terminal_measure(said);
-    display_color(d, said);
-    d->show = SHOW_CELLS;
-    if (want >= SHOW_KITTY)
-        d->show = want;
-    else if (want == SHOW_ASKED && said->kitty)
-        d->show = SHOW_KITTY;
-    else if (want == SHOW_ASKED && said->iterm2 && pixels_known(SHOW_ITERM2))
-        d->show = SHOW_ITERM2;
-    else if (want == SHOW_ASKED && said->sixel && said->parts && size.cell_known &&
-             pixels_known(SHOW_SIXEL))
-        d->show = SHOW_SIXEL;
+    d->show = want >= SHOW_KITTY ? want : SHOW_CELLS;
+    if (want == SHOW_ASKED) d->show = display_best(said, size);
     if (!display_has_room(d->show, size, said)) d->show = SHOW_CELLS;
+    display_color(d, said);
+    if (d->frames && display_refuses(d)) strcpy(d->scene->said, "no room for pixels");
     d->screen.form = CELL_HALVES;
     if (want == SHOW_SEXTANTS || (want == SHOW_ASKED && said->parts == 6))
         d->screen.form = CELL_SEXTANTS;
@@ -287,7 +301,7 @@ static inline void display_write(display *d)
 
 /* Terminals that know mode 2026 show all changes in between at once. */
 static const char display_begin[] = "\033[?2026h", display_end[] = "\033[?2026l";
-static const char display_ask[] = "\033[5n";
+static const char display_ask[] = TERMINAL_REPORT;
 
 /* Sends the cells that change.  Returns 1 where the terminal accepts no more. */
 static inline int display_send_cells(display *d)
@@ -472,7 +486,8 @@ static inline void display_signals(display *d, const sigset_t *mask)
     if (terminal_resized) {
         terminal_resized = 0;
         display_choose(d, &d->keys.said);
-        if (d->show == SHOW_SIXEL && d->frames) terminal_ask(); /* the size of a cell */
+        if ((d->show == SHOW_SIXEL || d->keys.said.area_width) && d->frames)
+            terminal_ask(); /* the size of a cell */
     }
 }
 
@@ -507,14 +522,17 @@ static inline int display_can_rest(const display *d)
    studio */
 #define DISPLAY_REST 0.25
 
-/* Runs until the user ends it (returns 0) or the terminal is gone (returns 1). */
-static inline int display_run(display *d, const sigset_t *mask)
+/* How a program in a terminal ends */
+typedef enum display_end { DISPLAY_DONE, DISPLAY_GONE, DISPLAY_REFUSED } display_exit;
+
+/* Runs until the user ends it, the terminal is gone, or what was asked for cannot be shown. */
+static inline display_exit display_run(display *d, const sigset_t *mask)
 {
     double step = 1.0 / d->options->rate, before = clock_now();
     for (;;) {
         double now = clock_now();
         display_signals(d, mask);
-        if (display_input(d)) return 0;
+        if (display_input(d)) return DISPLAY_DONE;
         if (d->scene->said[0] && now > d->said_until) {
             d->scene->said[0] = 0;
             d->changed = 1;
@@ -522,6 +540,8 @@ static inline int display_run(display *d, const sigset_t *mask)
         if (display_waits(d, now)) {
             before = now;
             terminal_wait(d->asked_at + DISPLAY_PATIENCE - now, mask);
+        } else if (!d->frames && display_refuses(d)) {
+            return DISPLAY_REFUSED;
         } else if (!(d->scene->turning || d->changed || d->options->frames)) {
             before = now;
             if (!display_can_rest(d)) {
@@ -530,7 +550,7 @@ static inline int display_run(display *d, const sigset_t *mask)
                 terminal_wait(DISPLAY_REST, mask);
             } else {
                 d->at_rest = 1;
-                if (display_frame(d, now)) return 1;
+                if (display_frame(d, now)) return DISPLAY_GONE;
             }
         } else if (now < d->next || display_behind(d, now)) {
             terminal_wait(now < d->next ? d->next - now : 0.5, mask);
@@ -538,8 +558,8 @@ static inline int display_run(display *d, const sigset_t *mask)
             double passed = d->options->frames ? step : now - before;
             if (d->scene->turning) scene_turn(d->scene, 0.6f * (float)passed, 0);
             d->at_rest = 0;
-            if (display_frame(d, now)) return 1;
-            if (d->frames == d->options->frames) return 0;
+            if (display_frame(d, now)) return DISPLAY_GONE;
+            if (d->frames == d->options->frames) return DISPLAY_DONE;
             before = now;
             d->next = fmax(d->next + step, now);
         }
@@ -560,7 +580,7 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     static display d;
     sigset_t mask;
     double begin = clock_now();
-    int gone;
+    display_exit end;
     d.scene = s;
     d.options = o;
     d.kept.words = o->words;
@@ -571,12 +591,13 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     terminal_enter();
     d.asked_at = clock_now();
     if (terminal_can_answer(o)) terminal_ask();
-    gone = display_run(&d, &mask);
+    end = display_run(&d, &mask);
     terminal_leave();
     keep_tell(&d.kept);
     free(d.kept.told.bytes);
     if (o->frames) display_tell_cost(&d, clock_now() - begin);
     display_free(&d);
-    return gone ? complain("the terminal takes no more") : 0;
+    if (end == DISPLAY_REFUSED) return complain("--show: the window is too large or too low for pixels");
+    return end == DISPLAY_GONE ? complain("the terminal takes no more") : 0;
 }
 #endif

@@ -157,6 +157,18 @@ static int pixels_sixel_take(char *bytes, int n, void *to)
     return n;
 }
 
+/* Replaces each colour by the nearest that sixels have, whose channels are whole percents.  Terminals
+   round p percent down, to 2.55 p (mlterm) or 2.56 p (xterm); both bytes are near, and libsixel finds
+   p again, for its own percents are rounded to the nearest. */
+static void pixels_percents(unsigned char *channel, int count)
+{
+    for (int k = 0; k < count; k++) {
+        const int p = (channel[k] * 100 + 50) / 255;
+        const int low = p * 255 / 100, high = p < 100 ? (p + 1) * 255 / 100 : 255;
+        channel[k] = (unsigned char)(channel[k] - low <= high - channel[k] ? low : high);
+    }
+}
+
 /* Colours chosen for this picture: fine, 256, with errors spread by Floyd and Steinberg; else 64
    without, which takes a quarter of the time */
 static inline void pixels_sixel(pixel_bytes *b, uint8_t *rgb, int width, int height, int fine)
@@ -169,6 +181,8 @@ static inline void pixels_sixel(pixel_bytes *b, uint8_t *rgb, int width, int hei
         SIXEL_SUCCEEDED(sixel_dither_initialize(dither, rgb, width, height,
                                                 SIXEL_PIXELFORMAT_RGB888, SIXEL_LARGE_AUTO,
                                                 SIXEL_REP_AUTO, SIXEL_QUALITY_LOW))) {
+        pixels_percents(sixel_dither_get_palette(dither),
+                        3 * sixel_dither_get_num_of_palette_colors(dither));
         sixel_dither_set_diffusion_type(dither, fine ? SIXEL_DIFFUSE_FS : SIXEL_DIFFUSE_NONE);
         sixel_encode(rgb, width, height, 3, dither, output);
     }

@@ -21,28 +21,50 @@
 typedef struct terminal_answers {
     int kitty, iterm2, sixel;      /* pictures that it takes */
     int parts;                     /* 6 or 4: it draws glyphs of so many parts; 0: nobody knows */
+    int inner;                     /* it is tmux or screen, which another terminal shows */
     int cell_width, cell_height;   /* pixels; 0: not said */
+    int area_width, area_height;   /* pixels of all cells, without a border; 0: not said */
+    struct winsize at;             /* the system's size when it said that */
     int sixel_width, sixel_height; /* pixels that sixels may have; 0: not said */
 } terminal_answers;
 
 /* A picture of one pixel in kitty's protocol, which is checked and not shown.  tmux and screen
    would take it for a title. */
 #define TERMINAL_TRY_KITTY "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
-/* In order: the terminal's name (XTVERSION); iTerm2's list of features; the size of a cell; the
-   largest sixels (XTSMGRAPHICS); the primary attributes, where 4 is sixel; and a report that every
-   terminal gives, so that it ends the answers. */
-#define TERMINAL_QUESTIONS "\033[>0q\033]1337;Capabilities\033\\\033[16t\033[?2;1;0S\033[c\033[5n"
+/* The primary attributes, where 4 is sixel.  Every terminal gives them (st gives no status report),
+   so that they end the answers and tell that a frame has been shown. */
+#define TERMINAL_REPORT "\033[c"
+/* In order: the terminal's name (XTVERSION); iTerm2's list of features; the size of a cell, and of
+   all cells; the largest sixels (XTSMGRAPHICS); the secondary attributes; the report. */
+#define TERMINAL_QUESTIONS \
+    "\033[>0q\033]1337;Capabilities\033\\\033[16t\033[14t\033[?2;1;0S\033[>c" TERMINAL_REPORT
 
-/* The parts of a cell that a terminal of this name draws itself, without a gap between cells.
-   VTE has drawn sextants since 0.62.  tmux and screen answer for themselves, not for the terminal
-   around them. */
+/* VTE has drawn sextants since 0.62. */
+static inline int answers_vte_parts(int version) { return version >= 6200 ? 6 : 4; }
+
+/* The parts of a cell that a terminal of this name draws itself, without a gap between cells */
 static inline int answers_parts(const char *name)
 {
     static const char *const six[] = { "kitty", "WezTerm", "ghostty", "foot", "contour" };
     for (size_t k = 0; k < sizeof six / sizeof *six; k++)
         if (!strncmp(name, six[k], strlen(six[k]))) return 6;
-    if (!strncmp(name, "VTE(", 4)) return atoi(name + 4) >= 6200 ? 6 : 4;
-    return strncmp(name, "tmux", 4) && strncmp(name, "screen", 6) ? 4 : 0;
+    return strncmp(name, "VTE(", 4) ? 4 : answers_vte_parts(atoi(name + 4));
+}
+
+/* tmux and screen answer for themselves, not for the terminal around them. */
+static inline void answers_name(terminal_answers *a, const char *name)
+{
+    a->inner = !strncmp(name, "tmux", 4) || !strncmp(name, "screen", 6);
+    a->parts = a->inner ? 0 : answers_parts(name);
+}
+
+/* The secondary attributes of VTE, which may have no other name: 65, its version, 1 */
+static inline void answers_attributes(terminal_answers *a, const char *text)
+{
+    int version, last;
+    if (a->parts || a->inner) return;
+    if (sscanf(text, "\033[>65;%d;%dc", &version, &last) == 2 && last == 1)
+        a->parts = answers_vte_parts(version);
 }
 
 /* 1: iTerm2's list holds FILE, inline pictures.  Its letter is F, as is that of focus reports, so
@@ -72,12 +94,17 @@ static inline void answers_take(terminal_answers *a, const unsigned char *answer
     if (!strncmp(text, "\033_Gi=31;OK", 10))
         a->kitty = 1;
     else if (!strncmp(text, "\033P>|", 4))
-        a->parts = answers_parts(text + 4);
+        answers_name(a, text + 4);
     else if (!strncmp(text, list, sizeof list - 1))
         a->iterm2 = answers_files(text + sizeof list - 1);
     else if (!strncmp(text, "\033[?", 3) && text[size - 1] == 'c')
         a->sixel = answers_sixel(text);
-    else if (sscanf(text, "\033[6;%d;%dt", &height, &width) == 2 && height > 0 && width > 0) {
+    else if (!strncmp(text, "\033[>", 3))
+        answers_attributes(a, text);
+    else if (sscanf(text, "\033[4;%d;%dt", &height, &width) == 2 && height > 0 && width > 0) {
+        a->area_height = height;
+        a->area_width = width;
+    } else if (sscanf(text, "\033[6;%d;%dt", &height, &width) == 2 && height > 0 && width > 0) {
         a->cell_height = height;
         a->cell_width = width;
     } else if (sscanf(text, "\033[?2;0;%d;%dS", &width, &height) == 2) {
@@ -93,7 +120,7 @@ static struct termios terminal_before;
 static volatile sig_atomic_t terminal_entered, terminal_resized, terminal_stopped,
     terminal_continued;
 static volatile sig_atomic_t terminal_asked; /* reports that have been asked for and not received */
-static volatile sig_atomic_t terminal_questioned; /* the first of these ends the answers */
+static volatile sig_atomic_t terminal_questioned; /* the last of so many ends the answers */
 static volatile sig_atomic_t terminal_pictured;   /* it keeps pictures of kitty's protocol */
 
 /* ---- keys and mouse -------------------------------------------------------------------------- */
@@ -147,9 +174,9 @@ static inline input terminal_sequence(const unsigned char *begin, const unsigned
         in.button = number[0];
         in.column = number[1];
         in.row = number[2];
-    } else if (*end == 'n') {
+    } else if (*end == 'c' && begin < end && *begin == '?') {
         if (terminal_asked > 0) terminal_asked--;
-        if (terminal_questioned) in.kind = INPUT_ANSWERS;
+        if (terminal_questioned && !--terminal_questioned) in.kind = INPUT_ANSWERS;
     }
     return in;
 }
@@ -212,7 +239,9 @@ static inline size_t terminal_parse(const unsigned char *p, size_t size, input *
 /* CAN ends a sequence that was cut off in the middle, ESC \ a picture; TERMINAL_FORGET deletes all
    pictures. */
 #define TERMINAL_FORGET "\030\033\\\033_Ga=d,q=2,d=A\033\\"
-#define TERMINAL_LEAVE "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[?1049l"
+/* Leaves; where there is no other screen (GNU screen), what follows stands below the picture. */
+#define TERMINAL_LEAVE \
+    "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[999H\r\n\033[?1049l"
 
 /* Returns 1 where the terminal accepts no more. */
 static inline int terminal_write(const char *bytes, size_t size)
@@ -293,8 +322,8 @@ static inline int terminal_is_inner(void)
 /* Asks what the terminal can show.  What arrives until INPUT_ANSWERS are the answers. */
 static inline void terminal_ask(void)
 {
-    terminal_questioned = 1;
     terminal_asked++;
+    terminal_questioned = terminal_asked;
     if (!terminal_is_inner()) terminal_write(TERMINAL_TRY_KITTY, sizeof TERMINAL_TRY_KITTY - 1);
     terminal_write(TERMINAL_QUESTIONS, sizeof TERMINAL_QUESTIONS - 1);
 }
@@ -384,20 +413,34 @@ typedef struct terminal_size {
     int cell_width, cell_height, cell_known; /* pixels; 10 x 20 where nobody knows */
 } terminal_size;
 
-/* The size of a cell is what the system knows, which follows changes of the font, or what the
-   terminal has answered. */
+/* The size of a cell in pixels, by the best that is known: the terminal's own size, unless the
+   system's has changed since; the system's, which may include a border; what the terminal has said
+   of a cell */
+static inline void terminal_measure_cell(terminal_size *s, const terminal_answers *said,
+                                         const struct winsize *now)
+{
+    const struct winsize *at = &said->at;
+    const int pixels = now->ws_col && now->ws_row && now->ws_xpixel >= now->ws_col &&
+                       now->ws_ypixel >= now->ws_row;
+    if (said->area_width && at->ws_col && at->ws_row && (!pixels || !memcmp(now, at, sizeof *at))) {
+        s->cell_width = said->area_width / at->ws_col;
+        s->cell_height = said->area_height / at->ws_row;
+    } else if (pixels) {
+        s->cell_width = now->ws_xpixel / now->ws_col;
+        s->cell_height = now->ws_ypixel / now->ws_row;
+    }
+}
+
 static inline terminal_size terminal_measure(const terminal_answers *said)
 {
     terminal_size s = { 80, 24, 1, said->cell_width, said->cell_height, 1 };
     struct winsize w;
+    memset(&w, 0, sizeof w);
     if (!ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) && w.ws_col && w.ws_row) {
         s.columns = w.ws_col < 1000 ? w.ws_col : 1000;
         s.rows = w.ws_row < 500 ? w.ws_row : 500;
-        if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row) {
-            s.cell_width = w.ws_xpixel / w.ws_col;
-            s.cell_height = w.ws_ypixel / w.ws_row;
-        }
     }
+    terminal_measure_cell(&s, said, &w);
     if (s.cell_width < 1 || s.cell_width > 100 || s.cell_height < 1 || s.cell_height > 200) {
         s.cell_width = 10;
         s.cell_height = 20;
@@ -419,8 +462,9 @@ static inline input terminal_next(terminal_keys *k)
         size_t used;
         ssize_t n;
         while (k->size && (used = terminal_parse(k->text, k->size, &in)) > 0) {
-            if (terminal_questioned && in.kind == INPUT_NONE) answers_take(&k->said, k->text, used);
-            if (in.kind == INPUT_ANSWERS) terminal_questioned = 0;
+            if (in.kind == INPUT_ANSWERS || (terminal_questioned && in.kind == INPUT_NONE))
+                answers_take(&k->said, k->text, used);
+            if (in.kind == INPUT_ANSWERS) ioctl(STDOUT_FILENO, TIOCGWINSZ, &k->said.at);
             k->size -= used;
             memmove(k->text, k->text + used, k->size);
             if (in.kind != INPUT_NONE) return in;

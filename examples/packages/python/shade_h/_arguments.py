@@ -49,9 +49,10 @@ def array(name: str, value: object, shape: tuple[int | None, ...]) -> Array:
 
 
 def floats(name: str, value: object, shape: tuple[int | None, ...], finite: bool = False) -> Floats:
-    """A contiguous array of float32; with finite, one without NaN and infinity."""
+    """A contiguous array of float32, the caller's own never; with finite, one without NaN and
+    infinity."""
     with np.errstate(over="ignore"):
-        got = np.ascontiguousarray(array(name, value, shape), dtype=np.float32)
+        got = np.array(array(name, value, shape), np.float32, order="C")
     if finite and not np.isfinite(got).all():
         raise Error(f"{name} must hold finite numbers that fit float32")
     return got
@@ -129,7 +130,7 @@ def faces(name: str, value: object, vertices: int) -> Indices:
         wrong = got.min() if got.min() < 0 else got.max()
         words = library.shade_result_string(7).decode()
         raise Error(f"{name}: {words} (index {wrong} of {vertices} vertices)")
-    return np.ascontiguousarray(got, dtype=np.uint32)
+    return np.array(got, np.uint32, order="C")
 
 
 def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Floats:
@@ -180,7 +181,7 @@ def color(name: str, value: object) -> tuple[float, float, float]:
 def rigid(name: str, value: object) -> Doubles:
     """A matrix of 4 x 4, a rotation and a translation, whose last row is 0, 0, 0, 1."""
     got = doubles(name, value, (4, 4), finite=True)
-    if not library.python_is_rigid(pointer(got)):
+    if library.python_not_rigid(pointer(got), 1) >= 0:
         raise Error(f"{name} {NOT_RIGID}")
     return got
 

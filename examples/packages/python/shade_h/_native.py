@@ -105,22 +105,21 @@ class View(Structure):
                 ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("bent", c_int)]
 
 
-#: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count,
-#: light_count, shadows, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
-#: view, projection; background, sky_low, sky_high, ambient; objects, lights, color, depth, ids,
+#: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count, pose_count;
+#: near_z, far_z, empty_depth, tolerance; unused; view, projection; objects, poses, color, depth, ids,
 #: normals
-SHOT = struct.Struct("@12i4f32f13f6P")
+SHOT = struct.Struct("@9i4fi16d16f6P")
 
 
 #: renderer_object
-SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
-                  ("flags", np.int32), ("id", np.int32), ("first", np.int32), ("count", np.int32),
-                  ("size", np.float32, 3), ("turn", np.float32, (3, 3)),
-                  ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32, 3),
-                  ("shininess", np.float32), ("emission", np.float32), ("glow", np.float32, 3),
-                  ("repeat", np.float32, 2), ("metal", np.float32), ("tint", np.float32),
-                  ("cutoff", np.float32), ("relief", np.int32), ("glow_map", np.int32),
-                  ("strength", np.float32), ("glow_factor", np.float32, 3)])
+SOLID = np.dtype([("place", np.float64, 3), ("turn", np.float64, (3, 3)), ("kind", np.int32),
+                  ("mesh", np.int32), ("texture", np.int32), ("flags", np.int32), ("id", np.int32),
+                  ("first", np.int32), ("count", np.int32), ("size", np.float32, 3),
+                  ("rgba", np.float32, 4), ("specular", np.float32, 3), ("shininess", np.float32),
+                  ("emission", np.float32), ("glow", np.float32, 3), ("repeat", np.float32, 2),
+                  ("metal", np.float32), ("tint", np.float32), ("cutoff", np.float32),
+                  ("relief", np.int32), ("glow_map", np.int32), ("strength", np.float32),
+                  ("glow_factor", np.float32, 3), ("unused", np.int32)])
 
 
 class Image(Structure):
@@ -200,14 +199,19 @@ def _open() -> Any:
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
-            ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
             ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
-            ("python_scene_remove", c_int, [c_void_p, c_int]),
-            ("python_scene_find", c_void_p, [c_void_p, c_int, c_void_p]),
-            ("python_scene_set", c_int, [c_void_p, c_void_p, c_int]),
-            ("python_is_rigid", c_int, [c_void_p]),
-            ("python_scene_pose", c_int, 4 * [c_void_p] + [c_int]),
+            ("python_scene_put", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_put_all", c_int, [c_void_p, c_void_p, c_int]),
+            ("python_scene_records", c_int, [c_void_p, c_int, c_void_p, c_int]),
+            ("python_scene_next", c_int, [c_void_p, c_int]),
+            ("python_scene_hold", c_int, [c_void_p]),
+            ("python_scene_done", None, [c_void_p]),
+            ("python_scene_light", None, 3 * [c_void_p] + [c_int, c_void_p, c_int]),
+            ("python_scene_behind", None, [c_void_p, c_int, c_int, c_void_p]),
+            ("python_not_rigid", c_int, [c_void_p, c_int]),
+            ("python_scene_pose", c_int, 3 * [c_void_p] + [c_int]),
             ("python_renderer_open", c_void_p, []),
             ("python_renderer_close", None, [c_void_p]),
             ("python_renderer_draw", c_int, [c_void_p, c_int, c_void_p, c_void_p, c_int, c_void_p]),

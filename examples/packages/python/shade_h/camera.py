@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Sequence, Union
+from typing import Any, Sequence, Union
 
 import numpy as np
 
@@ -38,6 +38,8 @@ class Camera:
     projection: Matrix
     _near: tuple[Matrix, Matrix] | None = field(default=None, repr=False)
     _free: bool = field(default=False, repr=False)    # its aspect is that of the picture
+    _size: tuple[int, int] | None = field(default=None, repr=False)    # of pictures, where it has one
+    _last: Any = field(default=None, init=False, repr=False)    # what seen() gave, and for which size
 
     def __post_init__(self) -> None:
         """Refuses matrices of another shape, with NaN, or whose view is no rigid motion."""
@@ -65,11 +67,25 @@ class Camera:
 
     def sized(self, width: int, height: int) -> Camera:
         """The camera for a picture of a size, which gives its aspect where none was said."""
+        if self._size not in (None, (width, height)):
+            made = "{} x {}".format(*self._size or ())
+            raise Error(f"camera was made for pictures of {made} pixels, not of {width} x {height}")
         if not self._free:
             return self
         projection = self.projection.copy()
         projection[0, 0] = projection[1, 1] * height / width
         return replace(self, projection=projection)
+
+    def seen(self, width: int, height: int, name: str) -> tuple[Any, ...]:
+        """View and projection by columns, near, far and whether it is parallel, for pictures of a
+        size; those of the last size are kept."""
+        last = self._last
+        if last is None or last[0] != (width, height):
+            camera = self.sized(width, height)
+            last = (width, height), (camera.view.T.ravel().tolist(), camera.projection.T.ravel().tolist(),
+                                     *_range_of(name, camera.projection))
+            object.__setattr__(self, "_last", last)
+        return last[1]    # type: ignore[no-any-return]
 
     @staticmethod
     def look_at(eye: Sequence[float], target: Sequence[float] = (0, 0, 0),
@@ -110,7 +126,7 @@ class Camera:
         projection[1, 1:3] = 2 * k[1, 1] / height, (2 * k[1, 2] + 1) / height - 1
         projection[2, 2:] = (far + near) / (near - far), 2 * far * near / (near - far)
         projection[3, 2] = -1
-        return Camera(view, projection)
+        return Camera(view, projection, None, False, (width, height))
 
     @staticmethod
     def opengl(projection: object, pose: object) -> Camera:
@@ -122,6 +138,25 @@ class Camera:
         if np.linalg.det(made) == 0:
             raise Error("projection must have an inverse")
         return Camera(np.linalg.inv(place), made)
+
+
+def _range_of(name: str, projection: Matrix) -> tuple[float, float, bool]:
+    """near, far and whether the projection is parallel, of a matrix of OpenGL."""
+    p = projection
+    parallel = bool(p[3, 3] != 0)
+    if parallel:
+        if not p[2, 2]:
+            raise Error(f"{name}: its projection has no depth")
+        near, far = (p[2, 3] + 1) / p[2, 2], (p[2, 3] - 1) / p[2, 2]
+        if p[3, 2] or not near < far:
+            raise Error(f"{name}: its projection must be that of OpenGL, with near before far")
+        return float(near), float(far), True
+    a, b = p[2, 2] / -p[3, 2], p[2, 3] / -p[3, 2]
+    near = b / (a - 1) if a != 1 else 0.0
+    far = b / (a + 1) if a < -1 else np.inf
+    if not 0 < near < far:
+        raise Error(f"{name}: its projection must be that of OpenGL, with 0 < near < far")
+    return float(near), float(min(far, 3e30)), False
 
 
 def _range(near: float, far: float) -> tuple[float, float]:

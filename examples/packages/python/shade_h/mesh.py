@@ -524,6 +524,11 @@ def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:
     return out
 
 
+def is_file(value: object) -> bool:
+    """Is it a path, or a file that is open?"""
+    return isinstance(value, (str, bytes, os.PathLike)) or callable(getattr(value, "read", None))
+
+
 def mesh(value: Like, **options: Any) -> Mesh:
     """Makes a Mesh of a path, of a pair (vertices, faces), of an object with .vertices and .faces
     (trimesh), or of one with .tessellate (cadquery, build123d); of points alone, (n, 3), small
@@ -532,7 +537,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
-    if isinstance(value, (str, bytes, os.PathLike)) or callable(getattr(value, "read", None)):
+    if is_file(value):
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:

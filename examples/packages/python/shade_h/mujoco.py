@@ -200,7 +200,7 @@ class Renderer:
         o["kind"] = _KINDS[g.type]
         if shape:
             o["mesh"] = self._shape(g.type, g.dataid >> 1 if g.type == _MESH else g.dataid)
-        o["texture"] = 1 + self._texture(int(g.texid)) if g.texid >= 0 else 0
+        o["texture"] = 1 + self._base._textures[self._texture(int(g.texid))][0] if g.texid >= 0 else 0
         o["size"] = (1, 1, 1) if shape else size
         if g.type == 0:
             o["size"][2] = 0
@@ -295,7 +295,8 @@ class Renderer:
         frame = Frame(None if self._depth or self._segmentation else to, to if self._depth else None,
                       to if self._segmentation else None, None)
         view, projection, near, far, parallel = self._camera
-        self._base._draw(frame, view, projection, near, far, parallel, solid, far, self._geoms)
+        self._base._draw(frame, view.T.ravel().tolist(), projection.T.ravel().tolist(), near, far, parallel,
+                         solid, far, self._geoms)
         if self._segmentation:
             to[...] = self._pairs[to[..., 0] + 1]
         return to

@@ -2,8 +2,12 @@
 objects and normals."""
 from __future__ import annotations
 
+import copy
 import ctypes
+import functools
 import os
+import threading
+import weakref
 from typing import Any, NamedTuple, Sequence
 
 import numpy as np
@@ -21,9 +25,42 @@ from .picture import Picture
 SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, "box": 3}
 _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cylinder": 5, "box": 6}
 _HIDDEN, _TWO_SIDED, _NO_SHADOW, _BLENDED, _HEIGHTS, _UNLIT = 1, 2, 4, 8, 16, 32
-_LAMPS = 8
+_LAMPS, MOST = 8, 2**31 - 1
 _PLAIN = np.zeros(1, SOLID)    # white, without a texture
 _PLAIN["rgba"], _PLAIN["shininess"], _PLAIN["turn"] = 1, 32, np.eye(3)
+
+
+_alive: weakref.WeakSet[Any] = weakref.WeakSet()    # Renderers, whose locks a fork must find free
+_held: list[Any] = []
+
+
+def _before_fork() -> None:
+    _held[:] = list(_alive)
+    for renderer in _held:
+        renderer._change.acquire()
+
+
+def _in_parent() -> None:
+    while _held:
+        _held.pop()._change.release()
+
+
+def _in_child() -> None:
+    while _held:
+        _held.pop()._change = threading.RLock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(before=_before_fork, after_in_parent=_in_parent, after_in_child=_in_child)
+
+
+def _changes(call: Any) -> Any:
+    """A change of a Renderer: one at a time, while any number of pictures are drawn."""
+    @functools.wraps(call)
+    def alone(self: Any, *given: Any, **options: Any) -> Any:
+        with self._change:
+            return call(self, *given, **options)
+    return alone
 
 
 class Frame(NamedTuple):
@@ -63,19 +100,90 @@ class Frame(NamedTuple):
         return self.picture().png()
 
 
+class _World:
+    """Tells a Renderer's shapes from those of others, in copies too."""
+
+
 class Shape:
     """A mesh of a renderer, of which any number of objects are instances."""
 
-    def __init__(self, number: int, records: Array) -> None:
+    def __init__(self, number: int, records: Array, world: _World) -> None:
         """Keeps its number and what its surfaces look like; only a Renderer makes shapes."""
-        self.number, self.records = number, records
+        self.number, self.records, self.world = number, records, world
         self.textures: list[int] = []    # those that came with it
-        self.source: tuple[Any, ...] = ()    # what update() makes it of
+        self.source: tuple[Any, ...] = ()    # what update() makes it of; (): it was removed
 
     @property
     def count(self) -> int:
         """Its triangles."""
         return int(self.records["count"].sum())
+
+
+class _Number(int):
+    """A number that belongs to one Renderer: pickled, and in arithmetic, a plain int."""
+
+    renderer: Renderer
+
+    def __new__(cls, number: int, renderer: Renderer) -> Any:
+        """Only a Renderer makes them."""
+        made = super().__new__(cls, number)
+        made.renderer = renderer
+        return made
+
+    def __reduce__(self) -> Any:
+        return int, (int(self),)
+
+    def __copy__(self) -> Any:
+        return self
+
+    def __deepcopy__(self, known: Any) -> Any:
+        return self
+
+
+class Texture(_Number):
+    """A texture of a Renderer, and its number."""
+
+
+class Solid(_Number):
+    """An object of a Renderer, and its number, which ids have: it can be changed by either."""
+
+    @property
+    def pose(self) -> Array:
+        """From the object to the world, 4 x 4.  Assigned, it moves: as a matrix or as a place."""
+        record = self.renderer._records_of(self)[0]
+        m = np.eye(4)
+        m[:3, :3], m[:3, 3] = record["turn"], record["place"]
+        return m
+
+    @pose.setter
+    def pose(self, value: Any) -> None:
+        m = self.pose
+        if np.shape(value) == (3,):
+            m[:3, 3] = arguments.doubles("pose", value, (3,), finite=True)
+        else:
+            m = value
+        self.renderer.pose(self, m)
+
+    @property
+    def color(self) -> Any:
+        """As add() and change() take it."""
+        return self.renderer._options("number", self).get("color", "white")
+
+    @color.setter
+    def color(self, value: Any) -> None:
+        self.renderer.change(self, color=value)
+
+    def change(self, **options: Any) -> None:
+        """As Renderer.change."""
+        self.renderer.change(self, **options)
+
+    def show(self, visible: bool = True) -> None:
+        """Hides it, or shows it again."""
+        self.renderer.show(self, visible)
+
+    def remove(self) -> None:
+        """Takes it away; its number is not given again."""
+        self.renderer.remove(self)
 
 
 class _Scene:
@@ -84,7 +192,6 @@ class _Scene:
     def __init__(self) -> None:
         self.handle = library.python_scene_open()
         self.free: list[int] = []
-        self.process = os.getpid()
         if not self.handle:
             raise MemoryError("memory is not enough for a scene")
 
@@ -104,39 +211,20 @@ class _Scene:
             library.python_renderer_close(self.free.pop())
 
     def records(self, number: int = -1) -> Array:
-        """The records of an object, or of all, as they stand in the library."""
-        count = ctypes.c_int()
-        at = library.python_scene_find(self.handle, number, ctypes.byref(count))
-        if not at or not count.value:
-            return np.zeros(0, SOLID)
-        memory: Any = (ctypes.c_char * (SOLID.itemsize * count.value)).from_address(at)
-        found: Array = np.frombuffer(memory, SOLID)
-        return found
+        """Copies of the records of an object, or of all."""
+        room = 1 if number >= 0 else 64
+        while True:
+            found = np.zeros(room, SOLID)
+            count = library.python_scene_records(self.handle, number, pointer(found), room)
+            if count <= room:
+                return found[:count]
+            room = count
 
     def __del__(self) -> None:
         """Frees it all."""
         self.rest()
         if getattr(self, "handle", None):
             library.python_scene_close(self.handle)
-
-
-def _range_of(projection: Array) -> tuple[float, float, bool]:
-    """near, far and whether the projection is parallel, of a matrix of OpenGL."""
-    p = projection
-    parallel = bool(p[3, 3] != 0)
-    if parallel:
-        if not p[2, 2]:
-            raise Error("camera: its projection has no depth")
-        near, far = (p[2, 3] + 1) / p[2, 2], (p[2, 3] - 1) / p[2, 2]
-        if p[3, 2] or not near < far:
-            raise Error("camera: its projection must be that of OpenGL, with near before far")
-        return float(near), float(far), True
-    a, b = p[2, 2] / -p[3, 2], p[2, 3] / -p[3, 2]
-    near = b / (a - 1) if a != 1 else 0.0
-    far = b / (a + 1) if a < -1 else np.inf
-    if not 0 < near < far:
-        raise Error("camera: its projection must be that of OpenGL, with 0 < near < far")
-    return float(near), float(min(far, 3e30)), False
 
 
 class Renderer:
@@ -148,8 +236,8 @@ class Renderer:
         frame = r.render(shade_h.Camera.look_at((3, -3, 2)))
 
     Objects can be moved, changed and removed, and so can shapes and textures: one Renderer serves any
-    number of scenes.  Threads may draw at the same time; what is changed is changed between
-    pictures.  A Renderer can be pickled, and lives on in a forked process.
+    number of scenes.  Threads may draw and change it at the same time: a picture shows it as it was
+    when it began.  A Renderer can be pickled, and lives on in a forked process.
     """
 
     def __init__(self, height: int, width: int, *, samples: int = 1, srgb: bool = True,
@@ -164,28 +252,32 @@ class Renderer:
                         f"{max(self.height, self.width) * self.samples}")
         self.srgb = arguments.flag("srgb", srgb)
         self.tolerance = arguments.number("tolerance", tolerance, 1e-3, 16)
-        self._scene = _Scene()
+        self._open()
+        self._world = _World()
         self._meshes: dict[int, tuple[Any, ...]] = {}      # what they were made of, by their numbers
-        self._textures: dict[int, tuple[Any, ...]] = {}
+        self._textures: dict[int, tuple[Any, ...]] = {}    # where the library has them, and as what
+        self._next_texture = 0
         self._shown: dict[int, tuple[str | Shape, dict[str, Any]]] = {}    # objects, as add() took them
         self._owned: set[int] = set()    # textures that came with shapes
-        self._lights: list[Light] = []
-        self._lamps: Any = None
-        self._shadows = 0
-        self._ambient: tuple[float, ...] = (0.0, 0.0, 0.0)
-        self._background: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
-        self._sky: tuple[int, int, Any, Any] = (0, -1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        self._lit: tuple[Any, ...] = ()
+        self._behind: tuple[Any, ...] = ()
+        self._set_behind()
         self.light([Light.directional((-0.5, 1, -1.2), (0.75, 0.75, 0.75))], (0.25, 0.25, 0.25))
+
+    def _open(self) -> None:
+        self._scene, self._change = _Scene(), threading.RLock()
+        _alive.add(self)
 
     # ---- what is drawn
 
+    @_changes
     def mesh(self, vertices: object, faces: object = None, *, normals: object = "auto",
              uv: object = None, colors: object = None) -> Shape:
         """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
         Mesh, as load() gives it, with the materials, colours, pictures, transparency and holes of its
         surfaces."""
         made = self._made_of(vertices, faces, normals, uv, colors)
-        return self._shape(made, (made is vertices, faces, normals, uv, colors), None)
+        return self._shape(made, (made is vertices, *map(_own, (faces, normals, uv, colors))), None)
 
     @staticmethod
     def _made_of(vertices: object, faces: object, normals: object, uv: object, colors: object) -> Mesh:
@@ -195,14 +287,13 @@ class Renderer:
         return Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
 
     def _shape(self, made: Mesh, source: tuple[Any, ...], number: int | None) -> Shape:
-        positions = np.ascontiguousarray(made.positions + made.origin.astype(np.float32))
-        if not np.isfinite(positions).all():
+        if not np.isfinite(made.positions).all():
             raise Error("vertices must hold finite numbers that fit float32")
         colors = made.colors
         if colors is not None and not self.srgb:
             colors = display(colors)
-        shape = self._keep_mesh(number, positions, made.normals, made.uv, colors,
-                                np.ascontiguousarray(made.indices, np.uint32))
+        shape = self._keep_mesh(number, made.positions, made.normals, made.uv, colors, made.indices,
+                                origin=made.origin)
         shape.source = source
         pieces = [piece for piece in made.pieces if piece.count]
         if source[0] and pieces:
@@ -224,7 +315,7 @@ class Renderer:
             key = picture.shape, picture.tobytes(), surface.wrap, surface.squares, colors
             if key not in known:
                 known[key] = self._make_texture(picture, surface.wrap, surface.squares, None, colors)
-            record[name] = 1 + known[key]
+            record[name] = 1 + self._textures[known[key]][0]
         def shown(rgb: Any) -> Any:
             return rgb if self.srgb else display(rgb)
 
@@ -242,24 +333,27 @@ class Renderer:
         record["flags"] |= (_HEIGHTS if piece.heights else 0) | (_UNLIT if surface.unlit else 0)
 
     def _keep_mesh(self, number: int | None, positions: Any, normals: Any, uv: Any, colors: Any,
-                   indices: Any, smooth: bool = False) -> Shape:
-        positions, normals, uv, colors = (
-            None if a is None else np.ascontiguousarray(a, np.float32)
-            for a in (positions, normals, uv, colors))
+                   indices: Any, smooth: bool = False, origin: Any = (0.0, 0.0, 0.0)) -> Shape:
+        """Gives the library a mesh whose positions count from an origin, and keeps copies."""
+        kept = [None if a is None else np.array(a, np.float32, order="C")
+                for a in (positions, normals, uv, colors)]
+        corners, origin = np.array(indices, np.uint32, order="C"), np.array(origin, np.float64)
         mesh = NativeMesh()
-        for name, array in (("positions", positions), ("normals", normals), ("texcoords", uv),
-                            ("colors", colors), ("indices", indices)):
+        for name, array in zip(("positions", "normals", "texcoords", "colors", "indices"),
+                               (*kept, corners)):
             setattr(mesh, name, pointer(array))
-        mesh.vertex_count, mesh.index_count = len(positions), indices.size
+        mesh.vertex_count, mesh.index_count = len(kept[0]), corners.size
         if number is None:
             number = _free(self._meshes)
-        if not library.python_scene_mesh(self._scene.handle, number, ctypes.byref(mesh), int(smooth)):
+        if not library.python_scene_mesh(self._scene.handle, number, ctypes.byref(mesh), int(smooth),
+                                         pointer(origin)):
             raise MemoryError("memory is not enough for the mesh")
-        self._meshes[number] = positions, normals, uv, colors, indices, smooth
+        self._meshes[number] = *kept, corners, smooth, origin
         records = _PLAIN.copy()
-        records["mesh"], records["count"] = number, indices.size // 3
-        return Shape(number, records)
+        records["mesh"], records["count"] = number, corners.size // 3
+        return Shape(number, records, self._world)
 
+    @_changes
     def height_field(self, heights: object, half: Sequence[float]) -> Shape:
         """Ground for add(): heights is (rows, columns), rows along y, over x from -half[0] to half[0]
         and y from -half[1] to half[1]."""
@@ -279,38 +373,44 @@ class Renderer:
         faces = np.stack([k, k + 1, k + columns + 1, k, k + columns + 1, k + columns], 1)
         shape = self._keep_mesh(number, np.stack([x, y, z], -1).reshape(-1, 3), None, None, None,
                                 np.ascontiguousarray(faces.reshape(-1, 3), np.uint32), smooth=True)
-        shape.source = (half,)
+        shape.source = (_own(half),)
         return shape
 
+    @_changes
     def update(self, shape: Shape, vertices: object, faces: object = None, *, normals: object = None,
                uv: object = None, colors: object = None) -> None:
         """Gives a shape other vertices, and what else is not None; the rest stays as mesh() was given
         it.  A shape of a Mesh takes another Mesh, ground takes heights.  Its objects show it."""
         self._known(shape)
+        if not library.python_scene_hold(self._scene.handle):
+            raise MemoryError("memory is not enough for the mesh")
+        try:
+            self._put_shape(shape, vertices, (faces, normals, uv, colors))
+        finally:
+            library.python_scene_done(self._scene.handle)
+
+    def _put_shape(self, shape: Shape, vertices: object, others: tuple[Any, ...]) -> None:
         if len(shape.source) == 1:
             made = self._ground(shape.number, vertices, shape.source[0])
         else:
-            given = [new if new is not None else old
-                     for new, old in zip((faces, normals, uv, colors), shape.source[1:])]
+            given = [old if new is None else _own(new) for new, old in zip(others, shape.source[1:])]
             if shape.source[0] and not isinstance(vertices, Mesh):
                 raise Error("vertices must be a Mesh: the shape was made of one")
             mesh = self._made_of(vertices, *given)
             made = self._shape(mesh, (mesh is vertices, *given), shape.number)
         gone, shape.records, shape.textures, shape.source = \
             shape.textures, made.records, made.textures, made.source
-        numbers = [n for n, (of, _) in self._shown.items() if of is shape]
-        whole = self._scene.records()
-        kept = [whole[~np.isin(whole["id"], numbers)]]
-        kept += [self._dressed(n, *self._shown[n]) for n in numbers]
-        self._set_records(np.concatenate(kept))
+        for number in [n for n, (of, _) in self._shown.items() if of is shape]:
+            self._put(number, self._dressed(number, *self._shown[number]))
         self._drop(gone)
 
+    @_changes
     def texture(self, picture: object, wrap: tuple[str, str] = ("repeat", "repeat"),
                 squares: bool = False) -> int:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
         -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
         Surface."""
-        return self._make_texture(picture, wrap, squares, None)
+        return Texture(self._make_texture(picture, wrap, squares, None), self)
 
     def _make_texture(self, picture: object, wrap: tuple[str, str], squares: bool,
                       number: int | None, colors: bool = True) -> int:
@@ -329,28 +429,37 @@ class Renderer:
         height, width = rgba.shape[:2]
         image = Image(pointer(rgba), width, height // faces, faces, self.srgb and colors, u, v,
                       squares)
-        if number is None:
-            number = _free(self._textures)
-        if not library.python_scene_texture(self._scene.handle, number, ctypes.byref(image)):
+        slot = _free([kept[0] for kept in self._textures.values()]) if number is None else \
+            self._textures[number][0]
+        if not library.python_scene_texture(self._scene.handle, slot, ctypes.byref(image)):
             raise MemoryError("memory is not enough for the texture")
-        self._textures[number] = rgba, faces, u, v, squares, colors
+        if number is None:
+            number = self._next_texture
+            self._next_texture += 1
+        self._textures[number] = slot, rgba, faces, u, v, squares, colors
         return number
 
+    @_changes
     def update_texture(self, number: int, picture: object,
                        wrap: tuple[str, str] = ("repeat", "repeat"), squares: bool = False) -> None:
         """Puts another picture in the place of a texture, as texture() takes it; objects and a sky that
         have the texture show it."""
         self._texture_number("number", number)
-        if (np.asarray(picture).ndim == 4) != (self._textures[number][1] == 6):
-            raise Error(f"picture: texture {number} is {'' if self._textures[number][1] == 6 else 'no '}"
+        if (np.asarray(picture).ndim == 4) != (self._textures[number][2] == 6):
+            raise Error(f"picture: texture {number} is {'' if self._textures[number][2] == 6 else 'no '}"
                         "cube, and the picture is not")
         self._make_texture(picture, wrap, squares, number)
 
     def _texture_number(self, name: str, number: object) -> int:
-        got = arguments.integer(name, number, 0, 2 ** 31 - 1)
+        got = arguments.integer(name, number, 0, MOST)
+        self._mine(name, "texture", number)
         if got not in self._textures:
             raise Error(f"{name}: there is no texture {got}")
         return got
+
+    def _mine(self, name: str, what: str, number: object) -> None:
+        if isinstance(number, _Number) and number.renderer is not self:
+            raise Error(f"{name}: {what} {int(number)} is of another Renderer")
 
     def checker(self, one: object = "#5a6e82", other: object = "#8fa3b5") -> int:
         """A texture of 2 x 2 squares, which repeats."""
@@ -368,12 +477,14 @@ class Renderer:
         arguments.linear(name, rgb[None])    # refuses what is out of range
         return [float(x) for x in rgb[:3] / (255 if rgb.dtype.kind in "iu" else 1)]
 
+    @_changes
     def add(self, shape: str | Shape, size: object = None, at: Sequence[float] = (0, 0, 0),
             pose: object = None, *, color: object = None, alpha: float | None = None,
             specular: object = None, shininess: float | None = None, emission: float | None = None,
             texture: int | None = None, repeat: Sequence[float] = (1, 1), two_sided: bool = False,
-            casts_shadow: bool = True) -> int:
-        """Adds an object and returns its number, which ids have.
+            casts_shadow: bool = True) -> Solid:
+        """Adds an object and returns it: a Solid, which is its number, that ids have, and has pose,
+        color, change(), show() and remove().
 
         shape is a Shape of mesh() or height_field(), of which size is the scale, or one of "plane"
         (half its sides; none: endless), "sphere" (radius), "ellipsoid" (radii), "capsule" and
@@ -392,10 +503,11 @@ class Renderer:
             ("color", color), ("alpha", alpha), ("specular", specular), ("shininess", shininess),
             ("emission", emission), ("texture", texture), ("repeat", repeat),
             ("two_sided", two_sided), ("casts_shadow", casts_shadow)) if value is not None}
+        options = {name: _own(value) for name, value in options.items()}
         records = self._records(shape, options)
         records["size"] = self._size(shape, size)
         if pose is None:
-            records["place"] = arguments.floats("at", at, (3,), True)
+            records["place"] = arguments.doubles("at", at, (3,), True)
         elif np.any(at):
             raise Error("at does not go with pose, which has a place")
         else:
@@ -405,27 +517,31 @@ class Renderer:
         if number < 0:
             raise MemoryError("memory is not enough for the object")
         self._shown[number] = shape, options
-        return int(number)
+        return Solid(number, self)
 
+    @_changes
     def change(self, number: int, *, size: object = None, **options: Any) -> None:
         """Changes what is given of an object: size, color, alpha, specular, shininess, emission,
         texture, repeat, two_sided and casts_shadow, as add() takes them.  What is None is as it would
         be without a word."""
-        self._object(number)
-        shape, old = self._shown[number]
+        old, shape = self._options("number", number), self._shown[number][0]
         for name in options:
             arguments.choice("option", name, ["color", "alpha", "specular", "shininess", "emission",
                                               "texture", "repeat", "two_sided", "casts_shadow"])
-        new = {name: value for name, value in {**old, **options}.items() if value is not None}
+        new = {name: _own(value) for name, value in {**old, **options}.items() if value is not None}
         records = self._dressed(number, shape, new)
         if size is not None:
             records["size"] = self._size(shape, size)
-        self._object(number)[:] = records
-        self._shown[number] = shape, new
+        self._put(number, records)
+        self._shown[int(number)] = shape, new
+
+    def _put(self, number: int, records: Array) -> None:
+        if library.python_scene_put(self._scene.handle, number, pointer(records), len(records)) == 0:
+            raise MemoryError("memory is not enough for the object")
 
     def _dressed(self, number: int, shape: str | Shape, options: dict[str, Any]) -> Array:
         """The records of an object with a shape and options as they are by now, where it is."""
-        records, old = self._records(shape, options), self._object(number)[0]
+        records, old = self._records(shape, options), self._records_of(number)[0]
         for name in ("id", "size", "turn", "place"):
             records[name] = old[name]
         records["flags"] |= old["flags"] & _HIDDEN
@@ -448,7 +564,8 @@ class Renderer:
             elif value is not None:
                 records[name] = arguments.number(name, value, 0, 1e6)
         if "texture" in options:
-            records["texture"] = 1 + self._texture_number("texture", options["texture"])
+            number = self._texture_number("texture", options["texture"])
+            records["texture"] = 1 + self._textures[number][0]
         records["repeat"] = arguments.floats("repeat", options.get("repeat", (1, 1)), (2,), True)
         if arguments.flag("two_sided", options.get("two_sided", False)):
             records["flags"] |= _TWO_SIDED
@@ -486,67 +603,82 @@ class Renderer:
         """The numbers of all objects, in order."""
         return sorted(self._shown)
 
-    def _object(self, number: object) -> Array:
-        got = arguments.integer("number", number, 0, 2 ** 31 - 1)
+    def _options(self, name: str, number: object) -> dict[str, Any]:
+        """What add() and change() were given of an object."""
+        got = arguments.integer(name, number, 0, MOST)
+        self._mine(name, "object", number)
         if got not in self._shown:
-            raise Error(f"number: there is no object {got}")
-        return self._scene.records(got)
+            raise Error(f"{name}: there is no object {got}")
+        return self._shown[got][1]
+
+    def _records_of(self, number: object) -> Array:
+        self._options("number", number)
+        return self._scene.records(int(number))    # type: ignore[call-overload]
 
     def _known(self, shape: object) -> None:
-        if not isinstance(shape, Shape) or shape.number not in self._meshes or not shape.source:
+        if not isinstance(shape, Shape) or shape.world is not self._world:
             raise Error("shape must be of this renderer")
+        if not shape.source:
+            raise Error("shape must be of this renderer: it was removed")
 
+    @_changes
     def pose(self, number: int, pose: object) -> None:
         """Moves an object: 4 x 4, a rotation and a translation."""
-        records, m = self._object(number), arguments.rigid(f"pose of object {number}", pose)
-        records["place"], records["turn"] = m[:3, 3], m[:3, :3]
+        self._options("number", number)
+        self._pose(arguments.rigid(f"pose of object {number}", pose)[None], [number])
 
+    @_changes
     def poses(self, poses: object, numbers: Sequence[int] | None = None) -> None:
         """Moves the objects of numbers, or all in the order of their numbers: (n, 4, 4), a row for each;
         nothing moves where one is refused."""
-        which = self.objects if numbers is None else list(numbers)
-        for number in () if numbers is None else which:
-            self._object(number)
-        self._pose("poses", arguments.doubles("poses", poses, (len(which), 4, 4)), None,
-                   None if numbers is None else np.asarray(which, np.int32))
+        which = None if numbers is None else list(numbers)
+        for i, number in enumerate(which or ()):
+            self._options(f"numbers[{i}]", number)
+        count = len(self._shown) if which is None else len(which)
+        self._pose(arguments.doubles("poses", poses, (count, 4, 4)), which)
 
-    def _pose(self, name: str, rows: Any, to: Any, numbers: Any = None) -> None:
-        rows = np.ascontiguousarray(rows, np.float64)
-        refused = library.python_scene_pose(self._scene.handle, pointer(to), pointer(numbers),
-                                            pointer(rows), len(rows))
+    def _pose(self, rows: Any, which: Any) -> None:
+        numbers = None if which is None else np.array(which, np.int32)
+        refused = library.python_scene_pose(self._scene.handle, pointer(numbers), pointer(rows), len(rows))
         if refused >= 0:
-            raise Error(f"{name}[{refused}] {arguments.NOT_RIGID}")
+            raise Error(f"poses[{refused}] {arguments.NOT_RIGID}")
+        if refused == -3:
+            raise MemoryError("memory is not enough for the poses")
 
+    @_changes
     def show(self, number: int, visible: bool = True) -> None:
         """Hides an object, or shows it again."""
-        flags = self._object(number)["flags"]
-        flags &= ~_HIDDEN
-        flags |= 0 if arguments.flag("visible", visible) else _HIDDEN
+        records = self._records_of(number)
+        records["flags"] &= ~_HIDDEN
+        records["flags"] |= 0 if arguments.flag("visible", visible) else _HIDDEN
+        self._put(number, records)
 
+    @_changes
     def remove(self, what: int | Shape) -> None:
-        """Takes away an object by its number, which the next one may have, or a shape that no object
+        """Takes away an object by its number, which none is given again, or a shape that no object
         shows, with the textures that came with it.  Its memory is given back."""
         if not isinstance(what, Shape):
-            self._object(what)
-            library.python_scene_remove(self._scene.handle, what)
+            self._options("number", what)
+            self._put(what, _PLAIN[:0])
             del self._shown[what]
             return
         self._known(what)
         shown = [n for n, (shape, _) in self._shown.items() if shape is what]
         if shown:
             raise Error(f"what: object {shown[0]} shows the shape; remove that before")
-        library.python_scene_mesh(self._scene.handle, what.number, None, 0)
+        library.python_scene_mesh(self._scene.handle, what.number, None, 0, None)
         del self._meshes[what.number]
         what.source = ()
         self._drop(what.textures)
 
+    @_changes
     def remove_texture(self, number: int) -> None:
         """Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with
         it."""
-        self._texture_number("number", number)
+        number = self._texture_number("number", number)
         whole = self._scene.records()
-        shown = whole["id"][whole["texture"] == 1 + number]
-        if len(shown) or number in self._owned or self._sky[:2] == (2, number):
+        shown = whole["id"][whole["texture"] == 1 + self._textures[number][0]]
+        if len(shown) or number in self._owned or self._behind[:2] == (2, number):
             who = f"object {shown[0]}" if len(shown) else \
                 "a shape" if number in self._owned else "the sky"
             raise Error(f"number: {who} has texture {number}")
@@ -554,31 +686,36 @@ class Renderer:
 
     def _drop(self, textures: list[int]) -> None:
         for number in textures:
-            library.python_scene_texture(self._scene.handle, number, None)
+            library.python_scene_texture(self._scene.handle, self._textures[number][0], None)
             del self._textures[number]
         self._owned.difference_update(textures)
 
+    @_changes
     def clear(self) -> None:
         """Takes away all objects, shapes and textures, and gives back all memory; lamps and a
         background of one colour stay."""
-        handle = self._scene.handle
-        library.python_scene_set(handle, None, 0)
-        for number in self._meshes:
-            library.python_scene_mesh(handle, number, None, 0)
-        for number in self._textures:
-            library.python_scene_texture(handle, number, None)
-        self._shown, self._meshes, self._textures, self._owned = {}, {}, {}, set()
-        if self._sky[0] == 2:
-            self._sky = (0, -1, (0.0,) * 3, (0.0,) * 3)
+        if not library.python_scene_hold(self._scene.handle):
+            raise MemoryError("memory is not enough")
+        try:
+            self._set_records(_PLAIN[:0])
+            for number in self._meshes:
+                library.python_scene_mesh(self._scene.handle, number, None, 0, None)
+            self._drop(list(self._textures))
+            if self._behind[0] == 2:
+                self._set_behind(background=self._behind[4])
+        finally:
+            library.python_scene_done(self._scene.handle)
+        self._shown, self._meshes, self._world = {}, {}, _World()
         self._scene.rest()
 
     def _set_records(self, records: Array) -> None:
-        if not library.python_scene_set(self._scene.handle, pointer(np.ascontiguousarray(records)),
+        if not library.python_scene_put_all(self._scene.handle, pointer(np.ascontiguousarray(records)),
                                         len(records)):
             raise MemoryError("memory is not enough for the objects")
 
     # ---- what it is lit by
 
+    @_changes
     def light(self, lights: Sequence[Light], ambient: Sequence[float] = (0, 0, 0),
               shadow: int | Sequence[int] | None = None) -> None:
         """Up to 8 lamps, the ambient light, and the number or numbers of the lamps, directional or
@@ -596,25 +733,37 @@ class Renderer:
                             "cast shadows")
             shadows |= 1 << number
         made = (NativeLight * max(1, len(lamps)))(*(lamp.native() for lamp in lamps))
-        ambient_light = arguments.doubles("ambient", ambient, (3,), finite=True).tolist()
-        self._lights, self._lamps, self._shadows = lamps, made, shadows
-        self._ambient = tuple(ambient_light)
+        places = np.array([lamp.position for lamp in lamps] or [(0.0,) * 4], np.float64)
+        around = arguments.floats("ambient", ambient, (3,), finite=True)
+        library.python_scene_light(self._scene.handle, made, pointer(places), len(lamps),
+                                   pointer(around), shadows)
+        self._lit = tuple(lamps), around.tolist(), [k for k in range(_LAMPS) if shadows >> k & 1]
 
+    def _set_behind(self, sky: int = 0, texture: int = -1, low: Any = (0.0,) * 3,
+                    high: Any = (0.0,) * 3, background: Any = (1.0,) * 4) -> None:
+        """What is behind all objects, at once: of a texture its number."""
+        colors = np.array([*background, *low, *high], np.float32)
+        slot = self._textures[texture][0] if sky == 2 else -1
+        library.python_scene_behind(self._scene.handle, sky, slot, pointer(colors))
+        self._behind = sky, texture, low, high, background
+
+    @_changes
     def background(self, color: object) -> None:
         """One colour behind all objects."""
-        self._background = (*self._color("color", color), 1.0)
-        self._sky = (0, -1, (0.0,) * 3, (0.0,) * 3)
+        self._set_behind(background=(*self._color("color", color), 1.0))
 
+    @_changes
     def sky(self, low: object = "#dfe8f0", high: object = "#4a7ab0") -> None:
         """A sky from the colour straight below to that straight above, +z."""
-        self._sky = (1, -1, tuple(self._color("low", low)), tuple(self._color("high", high)))
+        self._set_behind(1, -1, self._color("low", low), self._color("high", high), self._behind[4])
 
+    @_changes
     def sky_texture(self, texture: int) -> None:
         """A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL."""
         number = self._texture_number("texture", texture)
-        if self._textures[number][1] != 6:
+        if self._textures[number][2] != 6:
             raise Error(f"texture {number} is no cube")
-        self._sky = (2, number, (0.0,) * 3, (0.0,) * 3)
+        self._set_behind(2, number, background=self._behind[4])
 
     # ---- pictures
 
@@ -636,16 +785,16 @@ class Renderer:
         out is a Frame whose arrays are filled; those that are None are left out.  color may have 4
         channels.  depth is empty_depth where there is nothing.  With solid=True alpha is ignored.
         """
-        near, far, parallel, camera = self._seen("camera", camera)
+        seen = self._seen("camera", camera)
         frame = self.frame(normals=normals) if out is None else self._checked(out)
-        return self._draw(frame, camera.view, camera.projection, near, far, parallel, solid,
-                          empty_depth)
+        return self._draw(frame, *seen, solid, empty_depth)
 
-    def _seen(self, name: str, camera: object) -> tuple[float, float, bool, Camera]:
+    def _seen(self, name: str, camera: object) -> tuple[Any, ...]:
+        """View, projection, near, far and whether it is parallel, of a camera for pictures of this
+        size."""
         if not isinstance(camera, Camera):
             raise Error(f"{name} must be a shade_h.Camera, not {arguments.shown(camera)}")
-        camera = camera.sized(self.width, self.height)
-        return (*_range_of(camera.projection), camera)
+        return camera.seen(self.width, self.height, name)
 
     def render_batch(self, cameras: Sequence[Camera] | Camera, poses: object = None,
                      out: Frame | None = None, *, normals: bool = False, solid: bool = False,
@@ -664,18 +813,16 @@ class Renderer:
         if moved is not None and len(moved) != len(seen):
             raise Error(f"poses must have a row for each of {len(seen)} cameras, not {len(moved)}")
         shots = [self._seen(f"cameras[{i}]", camera) for i, camera in enumerate(seen)]
+        if moved is not None:
+            bad = library.python_not_rigid(pointer(moved), moved.shape[0] * moved.shape[1])
+            if bad >= 0:
+                raise Error(f"poses[{bad // moved.shape[1]}][{bad % moved.shape[1]}] {arguments.NOT_RIGID}")
         frame = self.frame(normals=normals, pictures=len(seen)) if out is None else \
             self._checked(out, (len(seen),))
-        whole, records = self._scene.records(), None
-        if moved is not None:
-            records = np.tile(whole, (len(moved), 1))
-            for i, rows in enumerate(moved):
-                self._pose(f"poses[{i}]", rows, records[i])
         packed = b"".join(
-            self._shot(Frame(*(None if array is None else array[i] for array in frame)), camera.view,
-                       camera.projection, near, far, parallel, solid, empty_depth,
-                       None if records is None else records[i])
-            for i, (near, far, parallel, camera) in enumerate(shots))
+            self._shot(Frame(*(None if array is None else array[i] for array in frame)), *shot, solid,
+                       empty_depth, poses=None if moved is None else moved[i])
+            for i, shot in enumerate(shots))
         count = arguments.integer("threads", threads, 0, 256) or os.cpu_count() or 1
         scratch = [self._scene.take() for _ in range(max(1, min(count, len(seen), 256)))]
 
@@ -687,25 +834,24 @@ class Renderer:
             del kept[:]
             return drawn
 
-        kept = [frame, records, self._lamps]
-        check(interruptible(draw), "camera")
+        kept = [frame, moved]
+        check(interruptible(draw), "camera" if moved is None else "poses or cameras")
         return frame
 
-    def _shot(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
-              parallel: bool, solid: bool, empty_depth: float, objects: Array | None) -> bytes:
-        """A picture as the library is asked for it; objects None: those of the scene."""
-        sky, sky_texture, low, high = self._sky
+    def _shot(self, frame: Frame, view: Any, projection: Any, near: float, far: float, parallel: bool,
+              solid: bool, empty_depth: float, objects: Array | None = None,
+              poses: Array | None = None) -> bytes:
+        """A picture as the library is asked for it; objects None: those of the scene.  View and
+        projection are numbers by columns."""
         return SHOT.pack(
             self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
             self.srgb, arguments.flag("solid", solid), parallel, 0 if objects is None else len(objects),
-            len(self._lights), self._shadows, sky, sky_texture, near, far,
-            ctypes.c_float(empty_depth).value, self.tolerance,
-            *view.T.ravel().tolist(), *projection.T.ravel().tolist(), *self._background, *low, *high,
-            *self._ambient, pointer(objects) or 0, ctypes.addressof(self._lamps),
+            0 if poses is None else len(poses), near, far, _float("empty_depth", empty_depth),
+            self.tolerance, 0, *view, *projection, pointer(objects) or 0, pointer(poses) or 0,
             *(pointer(array) or 0 for array in frame))
 
-    def _draw(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
-              parallel: bool, solid: bool, empty_depth: float, objects: Array | None = None) -> Frame:
+    def _draw(self, frame: Frame, view: Any, projection: Any, near: float, far: float, parallel: bool,
+              solid: bool, empty_depth: float, objects: Array | None = None) -> Frame:
         shot = self._shot(frame, view, projection, near, far, parallel, solid, empty_depth, objects)
         scratch = ctypes.c_void_p(self._scene.take())
         try:
@@ -731,23 +877,41 @@ class Renderer:
 
     # ---- other processes
 
+    @_changes
     def __getstate__(self) -> dict[str, Any]:
         """All but what the library holds."""
-        state = {k: v for k, v in self.__dict__.items() if k not in ("_scene", "_lamps")}
-        return {**state, "records": self._scene.records().copy()}
+        state = {k: v for k, v in self.__dict__.items() if k not in ("_scene", "_change")}
+        next_object = library.python_scene_next(self._scene.handle, 0)
+        return {**state, "records": self._scene.records(), "next_object": next_object}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Gives the meshes, textures and objects to the library again."""
-        records = state.pop("records")
+        records, next_object = state.pop("records"), state.pop("next_object")
         self.__dict__.update(state)
-        self._scene = _Scene()
+        self._open()
         for number, mesh in list(self._meshes.items()):
             self._keep_mesh(number, *mesh)
         for number, texture in list(self._textures.items()):
-            self._keep_texture(number, *texture)
+            self._keep_texture(number, *texture[1:])
         self._set_records(records)
-        self.light(self._lights, self._ambient,
-                   [k for k in range(_LAMPS) if self._shadows >> k & 1])
+        library.python_scene_next(self._scene.handle, next_object)
+        self.light(*self._lit)
+        self._set_behind(*self._behind)
+
+
+def _own(value: Any) -> Any:
+    """A copy of what the caller may change afterwards."""
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    return copy.deepcopy(value) if isinstance(value, (list, bytearray)) else value
+
+
+def _float(name: str, value: object) -> float:
+    """Any number, infinity and NaN too, as a float has it."""
+    try:
+        return ctypes.c_float(value).value    # type: ignore[arg-type]
+    except TypeError:
+        raise Error(f"{name} must be a number, not {arguments.shown(value)}") from None
 
 
 def _free(taken: Any) -> int:

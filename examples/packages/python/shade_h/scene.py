@@ -15,7 +15,7 @@ from ._native import interruptible, library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
 from .camera import UPRIGHT, Camera, Viewpoint, at, direction, fitted, studio
 from .light import PRESETS, Flag, Light, Lighting, Material, Model, preset
-from .mesh import Like, Mesh, mesh as as_mesh, origin_of
+from .mesh import Like, Mesh, is_file, mesh as as_mesh, origin_of
 from .picture import Picture, png_path
 
 Color = Union[str, Sequence[float], Array]
@@ -104,11 +104,12 @@ class Scene:
         """Adds a mesh and returns its number.
 
         pose is 4 x 4 and takes the mesh to the world.  material is a Material or the name of
-        a preset; without one a colour of the mesh, or clay, is a little glossy.  edges draws its
+        a preset, which takes the place of all surfaces of a file; without one a colour of the mesh,
+        or clay, is a little glossy.  edges draws its
         silhouettes, creases and boundaries.  two_sided=False leaves faces out that are seen from
         behind, which is faster.  options are those of shade_h.Mesh.
         """
-        made = as_mesh(mesh, **options)
+        made = _made(mesh, material, options)
         place = arguments.affine("pose", IDENTITY if pose is None else pose)
         if isinstance(material, str):
             material = preset(arguments.choice("material", material, PRESETS))
@@ -531,11 +532,18 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
                         ortho=ortho, light="studio" if soft else "scene")
 
 
+def _made(source: Any, material: object, options: dict[str, Any]) -> Mesh:
+    """A mesh.  A material that is asked for takes the place of what a file says of its surfaces."""
+    if material is not None and is_file(source) and options.get("color") is None:
+        options = {**options, "color": "white"}
+    return as_mesh(source, **options)
+
+
 def _add_all(scene: Scene, sources: Any, section: object, view: Viewpoint, up: str | None,
              **options: Any) -> None:
     """Adds meshes, all cut by one plane, which is seen from a side, where a section is asked for."""
     material, edges = options.pop("material", None), options.pop("edges", False)
-    made = [as_mesh(one, **options) for one in sources]
+    made = [_made(one, material, options) for one in sources]
     if section is not None:
         from .section import cut, plane_of
         boxes = np.array([mesh.box() for mesh in made])

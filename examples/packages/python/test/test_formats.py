@@ -772,3 +772,19 @@ def test_the_picture_of_trimesh_is_multiplied_by_its_factor():
     del material.baseColorFactor
     middle = shade.render(mesh, up="y", **FLAT).rgba[24, 32].astype(int)
     assert middle[1] > 100
+
+
+def test_what_is_asked_for_takes_the_place_of_the_colours_of_a_file(tmp_path):
+    """A colour and a material alike, of MTL, vertices and textures."""
+    square = "v -1 0 -1{c}\nv 1 0 -1{c}\nv 1 0 1{c}\nv -1 0 1{c}\n"
+    (tmp_path / "red.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    for name, text in (("bare", square.format(c="")), ("scan", square.format(c=" 1 0 0")),
+                       ("kd", "mtllib red.mtl\nusemtl red\n" + square.format(c=""))):
+        (tmp_path / f"{name}.obj").write_text(text + "f 1 2 3 4\n")
+    for asked in ({"color": "#8090A0"}, {"material": "gold"}):
+        bare, scan, kd = (shade.render(tmp_path / f"{name}.obj", up="z", **FLAT, **asked).rgba
+                          for name in ("bare", "scan", "kd"))
+        assert (scan == bare).all() and (kd == bare).all(), asked
+    bare, scan, kd = (shade.render(tmp_path / f"{name}.obj", up="z", **FLAT).rgba.astype(int)
+                      for name in ("bare", "scan", "kd"))
+    assert np.abs(scan - kd).max() <= 20 and np.abs(scan - bare).max() > 60

@@ -341,7 +341,7 @@ def test_what_is_in_use_stays_and_what_is_gone_is_refused():
                  lambda: made.remove(one), lambda: made.pose(one, np.eye(4))):
         with pytest.raises(shade.Error, match="shape must be of this renderer|there is no object 0"):
             call()
-    assert made.add("box", (1, 1, 1)) == one    # the least free number
+    assert made.add("box", (1, 1, 1)) == one + 2    # no number is given twice
     made.clear()
     made.render(EYE)
     with pytest.raises(shade.Error, match="there is no object"):

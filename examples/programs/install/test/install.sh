@@ -17,6 +17,7 @@ files='-rwxr-xr-x ./bin/shade-batch
 -rwxr-xr-x ./bin/shade-thumbnail
 -rwxr-xr-x ./bin/shade-view
 -rw-r--r-- ./include/shade.h
+-rw-r--r-- ./share/applications/shade-view.desktop
 -rw-r--r-- ./share/bash-completion/completions/shade-batch
 -rw-r--r-- ./share/bash-completion/completions/shade-compare
 -rw-r--r-- ./share/bash-completion/completions/shade-sheets
@@ -30,14 +31,14 @@ files='-rwxr-xr-x ./bin/shade-batch
 -rw-r--r-- ./share/man/man1/shade-thumbnail.1
 -rw-r--r-- ./share/man/man1/shade-view.1
 -rw-r--r-- ./share/mime/packages/shade.xml
--rw-r--r-- ./share/pkgconfig/shade.pc
--rw-r--r-- ./share/thumbnailers/shade.thumbnailer'
+-rw-r--r-- ./share/pkgconfig/shade.pc'
 
 # ---- into a prefix ------------------------------------------------------------------------------
 P=$T/prefix
 strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P") >"$T/said"; }
 check "make install" strict_umask
-check "tells what file managers need" grep -qx "for thumbnails in file managers: update-mime-database $P/share/mime" "$T/said"
+check "no thumbnailer where GNOME cannot see it, and why" grep -qx "no thumbnails in file managers: \
+GNOME shows thumbnailers /usr alone; install with PREFIX=/usr or /usr/local" "$T/said"
 check "these files, readable by all" same "$(modes "$P")" "$files"
 check "in directories open to all" same "$(find "$P" -type d ! -perm -755)" ""
 check "the header is this one" cmp shade.h "$P/include/shade.h"
@@ -70,8 +71,9 @@ command -v man >/dev/null 2>&1 || echo "install: no man: warnings about pages le
 if command -v update-mime-database >/dev/null 2>&1; then
     cp -r "$P/share/mime" "$T/mime"
     check "the types are understood" update-mime-database "$T/mime"
-    for type in application/vnd.ply:ply application/vnd.fbx:fbx model/vnd.collada+xml:dae; do
-        check "$type" grep -q ":${type%:*}:[*].${type#*:}$" "$T/mime/globs2"
+    for type in application/vnd.ply:ply application/vnd.fbx:fbx model/vnd.collada+xml:dae \
+        model/x-geomview-off:off application/x-amf:amf model/obj:obj model/stl:stl image/x-3ds:3ds; do
+        check "$type" grep -qx "60:${type%:*}:[*].${type#*:}" "$T/mime/globs2"
     done
 else echo "install: no shared-mime-info: types left out"
 fi
@@ -223,6 +225,29 @@ padding=$(((4 - size % 4) % 4))
     printf '\0A'; word 66; printf '\020A'; word 44; printf '\3\0'; corners
     printf '\040A'; word 16; printf '\1\0\0\0\1\0\2\0\7\0'
 } >"$input.3ds"
+printf 'OFF\n3 1 0\n-1 -1 0\n1 -1 0\n0 1 0\n3 0 1 2\n' >"$input.off"
+{
+    printf '<?xml version="1.0"?><amf unit="millimeter"><object id="0"><mesh><vertices>'
+    for corner in "-1 -1" "1 -1" "0 1"; do
+        printf '<vertex><coordinates><x>%s</x><y>%s</y><z>0</z></coordinates></vertex>' $corner
+    done
+    printf '</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>'
+    printf '</mesh></object></amf>'
+} >"$input.amf"
+{
+    printf '  0\nSECTION\n  2\nENTITIES\n  0\n3DFACE\n  8\n0\n'
+    printf ' 10\n-1\n 20\n-1\n 30\n0\n 11\n1\n 21\n-1\n 31\n0\n 12\n0\n 22\n1\n 32\n0\n'
+    printf ' 13\n0\n 23\n1\n 33\n0\n  0\nENDSEC\n  0\nEOF\n'
+} >"$input.dxf"
+# of LWO: pieces in big endian
+{
+    p='?\200\0\0' m='\277\200\0\0' z='\0\0\0\0'
+    printf 'FORM\0\0\0\204LWO2TAGS\0\0\0\2s\0LAYR\0\0\0\022\0\0\0\0'
+    printf "$z$z$z\\0\\0PNTS\\0\\0\\0\\044"
+    printf "$m$m$z$p$m$z$z$p$z"
+    printf 'POLS\0\0\0\014FACE\0\3\0\0\0\1\0\2PTAG\0\0\0\010SURF\0\0\0\0'
+    printf 'SURF\0\0\0\004s\0\0\0'
+} >"$input.lwo"
 threemf() {
     python3 - "$input.3mf" <<'END'
 import sys, zipfile
@@ -247,19 +272,26 @@ END
 }
 sample() {                      # the file of a MIME type
     case $1 in
-    model/obj) echo "$input.obj" ;;
-    model/stl) echo "$input.stl" ;;
+    model/obj | *wavefront-obj) echo "$input.obj" ;;
+    model/stl | */sla | model/x.stl-*) echo "$input.stl" ;;
     model/gltf+json) echo "$input.gltf" ;;
     model/gltf-binary) echo "$input.glb" ;;
-    model/3mf) echo "$input.3mf" ;;
-    image/x-3ds) echo "$input.3ds" ;;
-    application/vnd.ply) echo "$input.ply" ;;
+    model/3mf | */vnd.ms-3mfdocument) echo "$input.3mf" ;;
+    image/x-3ds | application/vnd.3ds) echo "$input.3ds" ;;
+    application/vnd.ply | model/x-ply) echo "$input.ply" ;;
     application/vnd.fbx) echo "$input.fbx" ;;
-    model/vnd.collada+xml) echo "$input.dae" ;;
+    model/vnd.collada+xml | application/vnd.dae) echo "$input.dae" ;;
+    */x-geomview-off | */vnd.off) echo "$input.off" ;;
+    */x-amf) echo "$input.amf" ;;
+    */vnd.dxf) echo "$input.dxf" ;;
+    */x-lwo) echo "$input.lwo" ;;
     *) return 1 ;;
     esac
 }
-entry() { sed -n "s/^$1=//p" "$P/share/thumbnailers/shade.thumbnailer"; }
+sh examples/programs/install/desktop.sh "$P" thumbnailer >"$T/shade.thumbnailer"
+# of a build with all libraries
+sh -c 'grep() { :; }; set -- "$1" thumbnailer; . examples/programs/install/desktop.sh' sh "$P" >"$T/all.thumbnailer"
+entry() { sed -n "s/^$1=//p" "$T/shade.thumbnailer"; }
 # Exec with %i, %o and %s put in, word by word; the output is there already, empty
 thumbnail() {                   # input, output, size
     : >"$2"
@@ -293,28 +325,51 @@ if there parallel; then
     check "shade-sheets" "$P/bin/shade-sheets" "$T/parts" "$T/sheets" --size 200x150
     check "draws what it reads" test -s "$T/sheets/a.obj.png"
 else left_out "sheets: no parallel"; fi
-check "a group and its three keys" same "$(sed 's/=.*//' "$P/share/thumbnailers/shade.thumbnailer" |
+check "a group and its three keys" same "$(sed 's/=.*//' "$T/shade.thumbnailer" |
     tr '\n' ' ')" "[Thumbnailer Entry] TryExec Exec MimeType "
 check "TryExec is a program" test -x "$(entry TryExec)"
-check "it has bounds" sh -c "grep -q '^Exec=.* --max-seconds [0-9]* --max-memory [0-9]* ' '$P/share/thumbnailers/shade.thumbnailer'"
+check "it has bounds" sh -c "grep -q '^Exec=.* --max-seconds [0-9]* --max-memory [0-9]* ' '$T/shade.thumbnailer'"
 check "Exec is the same" same "$(entry Exec | cut -d ' ' -f 1)" "$(entry TryExec)"
 check "types, each with a semicolon" same "$(entry MimeType | tr -d 'a-z0-9+./-' | tr -s ';')" ";"
 for type in $(entry MimeType | tr ';' ' '); do
     file=$(sample "$type")
-    if [ "$type" = model/3mf ] && ! threemf; then
+    if [ "${file##*.}" = 3mf ] && ! threemf; then
         echo "install: no python3: 3MF left out"
         continue
     fi
     check "a file of type $type" test -f "$file"
     check "a thumbnail of $type" thumbnail "$file" "$T/models/out put.png" 64
     check "that is a picture" picture "$T/models/out put.png"
-    if [ -f /usr/share/mime/globs2 ] && [ "${type#application/vnd.}" = "$type" ] &&
-        [ "$type" != model/vnd.collada+xml ]; then
-        check "$type is the type of .${file##*.}" grep -q ":$type:\*\.${file##*.}$" \
-            /usr/share/mime/globs2
-    fi
 done
-[ -f /usr/share/mime/globs2 ] || echo "install: no shared-mime-info: names of types left out"
+# what a desktop calls each file, with the types of the system, of MeshLab's kind, and ours
+if there gio && there update-mime-database && [ -f /usr/share/mime/packages/freedesktop.org.xml ]; then
+    packages="$T/desktop/mime/packages"
+    mkdir -p "$packages"
+    cp /usr/share/mime/packages/freedesktop.org.xml "$packages"
+    cp "$P/share/mime/packages/shade.xml" "$packages"
+    {
+        echo '<mime-info xmlns="http://www.freedesktop.org/standards/shared-mime-info">'
+        for claim in application/sla:stl model/x-wavefront-obj:obj model/x-ply:ply; do
+            echo "<mime-type type=\"${claim%:*}\"><glob pattern=\"*.${claim#*:}\"/></mime-type>"
+        done
+        echo '</mime-info>'
+    } >"$packages/other.xml"
+    check "types beside those of others" env XDG_DATA_DIRS="$T/desktop" \
+        update-mime-database "$T/desktop/mime"
+    type_of() {                 # file
+        XDG_DATA_HOME="$T/none" XDG_DATA_DIRS="$T/desktop" gio info -a standard::content-type "$1" |
+            sed -n 's/.*content-type: //p'
+    }
+    printf '####\n#\n# OBJ File Generated by Meshlab\n#\n####\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' \
+        >"$T/models/signed.obj"
+    check "an OBJ that begins with ##" same "$(type_of "$T/models/signed.obj")" model/obj
+    for file in "$T/models/"*; do
+        [ -s "$file" ] && [ "${file##*.}" != png ] || continue
+        found=$(type_of "$file")
+        check "${file##*/}, $found, has a thumbnail" grep -q "^MimeType=.*$found;" "$T/all.thumbnailer"
+    done
+else left_out "types of files on a desktop: no gio or shared-mime-info"
+fi
 
 # ---- what the programs' help shows as examples ---------------------------------------------------
 mkdir -p "$T/shown/parts"
@@ -338,11 +393,16 @@ else left_out "the examples of the programs: no stb, ffmpeg or parallel"; fi
 # ---- for a package, and away --------------------------------------------------------------------
 S="$T/stage of a package"
 check "make install with DESTDIR" $MAKE -s install DESTDIR="$S" PREFIX=/usr
-check "the same files below it" same "$(modes "$S/usr")" "$files"
+check "the same files below it, and the thumbnailer" same "$(modes "$S/usr")" "$files
+-rw-r--r-- ./share/thumbnailers/shade.thumbnailer"
 check "which do not know of it" sh -c "! grep -r 'stage of' '$S'"
 check "pkg-config file of the prefix" grep -qx 'prefix=/usr' "$S/usr/share/pkgconfig/shade.pc"
 check "thumbnailer of the prefix" grep -q '^Exec=/usr/bin/shade-thumbnail ' \
     "$S/usr/share/thumbnailers/shade.thumbnailer"
+check "it belongs below /usr/local too" sh -c "$MAKE -n uninstall PREFIX=/usr/local | grep -q shade.thumbnailer"
+if there desktop-file-validate; then
+    check "the entry of shade-view" desktop-file-validate "$S/usr/share/applications/shade-view.desktop"
+else left_out "the entry of shade-view: no desktop-file-utils"; fi
 : >"$P/include/other.h"
 : >"$P/bin/thumbnail"
 for again in "" " again"; do

@@ -62,6 +62,34 @@ bad_model() { check "$1" refused "$3" "$THUMBNAIL" "$T/$2" "$T/none.ppm"; }
 # what needs no lamps
 flat="--model emissive --background black --no-shadow"
 
+# A square with colours of its own is lit as one whose material has that colour, and a colour or a
+# material that is asked for takes the place of both.
+own_colors() {
+    square="v -1 0 -1 C\nv 1 0 -1 C\nv 1 0 1 C\nv -1 0 1 C\n"
+    printf 'newmtl skin\nKd 0.8 0.6 0.5\n' >"$T/skin.mtl"
+    printf "mtllib skin.mtl\n$(echo "$square" | sed 's/ C//g')usemtl skin\nf 1 2 3 4\n" >"$T/skin.obj"
+    printf "$(echo "$square" | sed 's/ C/ 0.8 0.6 0.5/g')f 1 2 3 4\n" >"$T/scan.obj"
+    printf "$(echo "$square" | sed 's/ C//g')f 1 2 3 4\n" >"$T/bare.obj"
+    printf 'OFF\n4 1 0\n-1 0 -1\n1 0 -1\n1 0 1\n-1 0 1\n4 0 1 2 3 204 153 128\n' >"$T/face.off"
+    for k in scan.obj face.off; do
+        for light in "" --quick; do
+            same "colours and no material $light" skin.obj $k 3 "--model lambert --up z $light"
+        done
+        for how in "--color 8090A0" "--material gold" "--color 8090A0 --quick" "--color 8090A0 --shading vertex"; do
+            same "asked for, not the file's" bare.obj $k 0 "--up z $how"
+        done
+        for file in bare.obj $k; do
+            check "views of $file" sh -c "'$THUMBNAIL' - '$T/$file.ppm' --up z --views front \
+                --size 200x150 --color 8090A0 <'$T/$file'"
+        done
+        check "show what was asked for" cmp "$T/bare.obj.ppm" "$T/$k.ppm"
+    done
+    same "asked for, not the material" bare.obj skin.obj 0 "--up z --color 8090A0"
+    check "clay before" draw bare.obj a.ppm --up z
+    check "in colour" draw scan.obj b.ppm --up z
+    check "clay is another picture" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 8
+}
+
 formats() {
     for k in torus.ply torus.little.ply torus.big.ply torus.stl torus.binary.stl; do
         same "the same mesh" torus.obj $k 0 "--up y"
@@ -77,11 +105,11 @@ formats() {
     check "glass before" draw glass.obj a.ppm $flat --rotate 0
     check "glass is mixed, d is believed" pixel 0.5 0.5 0.2390 0 0.0797
     same "glass, whatever comes first in the file" glass.obj glass2.obj 0 "$flat"
-    check "colors of vertices" draw colors.ply a.ppm --color white --model lambert
+    check "colors of vertices" draw colors.ply a.ppm --model lambert
     check "PLY's colors are a display's" sh -c "'$T/look' pixel '$T/a.ppm' .5 .6 200 100 50 60"
     check "matte" draw matte.obj a.ppm --rotate 0
     check "a lit face has about its color" "$T/look" pixel "$T/a.ppm" .5 .6 170 62 21 45
-    same "one color in place of the file's" matte.obj matte.obj 0 "--color #c08040"
+    own_colors
     for k in x y z -x -y -z; do check "up $k" draw torus.obj a.ppm --up $k $flat; done
     same "three shadings draw" flat.obj flat.obj 0 "--shading vertex"
     check "faces" draw torus.obj a.ppm --shading face

@@ -392,7 +392,8 @@ static void test_dither(uint32_t rgb)
 
 static terminal_answers answered(const char *text)
 {
-    terminal_answers a = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    terminal_answers a;
+    memset(&a, 0, sizeof a);
     answers_take(&a, (const unsigned char *)text, strlen(text));
     return a;
 }
@@ -426,6 +427,32 @@ static void test_answers(void)
     check(a.sixel_width == 1000 && a.sixel_height == 800, "sixels", a.sixel_width, 1000);
     a = answered("\033[6;0;-3t");
     check(!a.cell_width && !a.cell_height, "a cell without area", a.cell_width, 0);
+    a = answered("\033[4;456;800t");
+    check(a.area_width == 800 && a.area_height == 456, "all cells", a.area_width, 800);
+    check(answered("\033[>65;7006;1c").parts == 6, "VTE without a name", 0, 6);
+    check(answered("\033[>65;6003;1c").parts == 4, "an old VTE without a name", 0, 4);
+    check(!answered("\033[>1;10;0c").parts, "attributes of others", 1, 0);
+    check(answered("\033P>|tmux 3.3a\033\\").inner, "tmux is inside of another", 0, 1);
+}
+
+/* The terminal's own size counts while the system's is as it was, or has no pixels. */
+static void test_cells(void)
+{
+    const struct winsize bordered = { 24, 80, 840, 520 }, mute = { 24, 80, 0, 0 };
+    const struct winsize larger = { 24, 80, 960, 720 }, wider = { 24, 100, 0, 0 };
+    const struct {
+        struct winsize at, now;
+        int width, height;
+    } row[] = { { bordered, bordered, 10, 19 }, { mute, mute, 10, 19 }, { mute, wider, 10, 19 },
+                { bordered, larger, 12, 30 } };
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        terminal_answers said = answered("\033[4;456;800t");
+        terminal_size s = { 80, 24, 1, 0, 0, 1 };
+        said.at = row[k].at;
+        terminal_measure_cell(&s, &said, &row[k].now);
+        check(s.cell_width == row[k].width, "width of a cell", s.cell_width, row[k].width);
+        check(s.cell_height == row[k].height, "height of a cell", s.cell_height, row[k].height);
+    }
 }
 
 /* Strings are answers while answers are awaited, and keys with Alt else. */
@@ -440,8 +467,15 @@ static void test_strings(void)
     check(terminal_parse(p, sizeof name - 1, &in) == sizeof name - 2, "bytes of a string", 0, 1);
     check(in.kind == INPUT_NONE, "a string is no key", in.kind, INPUT_NONE);
     terminal_asked = 1;
-    check(terminal_parse((const unsigned char *)"\033[0n", 4, &in) == 4 && in.kind == INPUT_ANSWERS,
+    check(terminal_parse((const unsigned char *)"\033[>0;1;2c", 9, &in) == 9 && in.kind == INPUT_NONE,
+          "secondary attributes end nothing", in.kind, INPUT_NONE);
+    check(terminal_parse((const unsigned char *)"\033[?6c", 5, &in) == 5 && in.kind == INPUT_ANSWERS,
           "the end of the answers", in.kind, INPUT_ANSWERS);
+    terminal_asked = terminal_questioned = 2; /* a frame's report is on its way before it */
+    check(terminal_parse((const unsigned char *)"\033[?6c", 5, &in) == 5 && in.kind == INPUT_NONE,
+          "the report of a frame", in.kind, INPUT_NONE);
+    check(terminal_parse((const unsigned char *)"\033[?6c", 5, &in) == 5 && in.kind == INPUT_ANSWERS,
+          "that of the questions", in.kind, INPUT_ANSWERS);
     terminal_questioned = 0;
     check(terminal_parse(p, sizeof name - 1, &in) == 1, "Alt and P", 0, 1);
     terminal_questioned = 1;
@@ -486,9 +520,9 @@ static void test_keys(void)
     test_key("\033[<0;1;1m", (input){ INPUT_NONE, 0, 0, 0, 0 });
     test_key("\033[200~", (input){ INPUT_NONE, 0, 0, 0, 0 });
     terminal_asked = 1;
-    test_key("\033[0n", (input){ INPUT_NONE, 0, 0, 0, 0 });
+    test_key("\033[?6c", (input){ INPUT_NONE, 0, 0, 0, 0 });
     check(terminal_asked == 0, "reports owed", terminal_asked, 0);
-    test_key("\033[0n", (input){ INPUT_NONE, 0, 0, 0, 0 });
+    test_key("\033[?6c", (input){ INPUT_NONE, 0, 0, 0, 0 });
     check(terminal_asked == 0, "reports owed after one too many", terminal_asked, 0);
 }
 
@@ -798,6 +832,7 @@ int main(int argc, char **argv)
     for (int k = 0; k < 20000; k++) test_dither(random_below(1 << 24));
     for (uint32_t grey = 8; grey < 248; grey++) test_dither(0x10101 * grey);
     test_answers();
+    test_cells();
     test_strings();
     test_teapot(80, 24);
     test_teapot(200, 60);

@@ -28,24 +28,20 @@ passed = failed = 0
 ASKED = {
     'kitty': rb'\x1b_Gi=31', 'name': rb'\x1b\[>0q', 'features': rb'\x1b\]1337;Capabilities\x1b\\',
     'cell': rb'\x1b\[16t', 'largest': rb'\x1b\[\?2;1;0S', 'attributes': rb'\x1b\[c',
-    'report': rb'\x1b\[5n',
+    'area': rb'\x1b\[14t', 'secondary': rb'\x1b\[>c',
 }
 TERMINALS = {
     'kitty': {'kitty': b'\x1b_Gi=31;OK\x1b\\', 'name': b'\x1bP>|kitty(0.26.5)\x1b\\',
-              'attributes': b'\x1b[?62;c', 'report': b'\x1b[0n'},
+              'attributes': b'\x1b[?62;c'},
     'iterm2': {'name': b'\x1bP>|iTerm2 3.5.9\x1b\\', 'attributes': b'\x1b[?62;4c',
-               'features': b'\x1b]1337;Capabilities=T3LrMSc7UUw9Ts3BFGsSyHNoSxF\x07',
-               'report': b'\x1b[0n'},
-    'sixel': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?63;1;2;4;6;9;15;22c',
-              'report': b'\x1b[0n'},
+               'features': b'\x1b]1337;Capabilities=T3LrMSc7UUw9Ts3BFGsSyHNoSxF\x07'},
+    'sixel': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?63;1;2;4;6;9;15;22c'},
     'sixel-small': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?63;1;2;4;22c',
-                    'largest': b'\x1b[?2;0;640;400S', 'report': b'\x1b[0n'},
-    'sextants': {'name': b'\x1bP>|foot(1.13.1)\x1b\\', 'attributes': b'\x1b[?62;22c',
-                 'report': b'\x1b[0n'},
-    'quadrants': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?62;22c',
-                  'report': b'\x1b[0n'},
-    'tmux': {'name': b'\x1bP>|tmux 3.5a\x1b\\', 'attributes': b'\x1b[?1;2;4c', 'report': b'\x1b[0n'},
-    'plain': {'attributes': b'\x1b[?1;2c', 'report': b'\x1b[0n'},
+                    'largest': b'\x1b[?2;0;640;400S'},
+    'sextants': {'name': b'\x1bP>|foot(1.13.1)\x1b\\', 'attributes': b'\x1b[?62;22c'},
+    'quadrants': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?62;22c'},
+    'tmux': {'name': b'\x1bP>|tmux 3.5a\x1b\\', 'attributes': b'\x1b[?1;2;4c'},
+    'plain': {'attributes': b'\x1b[?1;2c'},
     'silent': {},
 }
 
@@ -102,7 +98,7 @@ class Terminal:
             self.pump(0.05)
         return False
 
-    def rest(self, pattern=rb'\x1b\[5n|\x1b\[\?2026l'):
+    def rest(self, pattern=rb'\x1b\[c|\x1b\[\?2026l'):
         """Waits for a second frame, that of a model at rest, and until nothing has come for 0.5 s."""
         self.until(lambda out: len(re.findall(pattern, out)) > 1)
         last, since = -1, time.monotonic()
@@ -182,9 +178,9 @@ def png(data):
     return width, height, bytes(rgb)
 
 
-def sixel(data):
+def sixel(data, percent=lambda p: p * 255 // 100):
     """Width, height and RGB of sixels, by the VT330 manual: # chooses or defines a colour, ! repeats,
-    $ returns to the row's begin, - goes to the next six rows"""
+    $ returns to the row's begin, - goes to the next six rows.  Percents are cut off, as mlterm does."""
     colors, pixels, x, y, width, color = {}, {}, 0, 0, 0, 0
     for m in re.finditer(rb'"[\d;]*|#([\d;]+)|!(\d+)([?-~])|([?-~])|(\$)|(-)', data):
         if m[1]:
@@ -192,7 +188,7 @@ def sixel(data):
             color = n[0]
             if len(n) == 5:
                 assert n[1] == 2
-                colors[color] = tuple(round(v * 255 / 100) for v in n[2:])
+                colors[color] = tuple(map(percent, n[2:]))
         elif m[3] or m[4]:
             bits, count = (m[3] or m[4])[0] - 63, int(m[2] or 1)
             for k in range(6):
@@ -286,7 +282,7 @@ def cells(kind, form, *options, **how):
     t.close()
     out = out[out.rindex(b'\x1b[2J') - 3:]
     out = out[:out.index(b'\x1b[?1006l')] if b'\x1b[?1006l' in out else out
-    out = re.sub(rb'\x1b\[\?2026[hl]|\x1b\[5n', b'', out)
+    out = re.sub(rb'\x1b\[\?2026[hl]|\x1b\[c', b'', out)
     return subprocess.run([CHECK, 'pane', form, str(COLUMNS), str(ROWS), ''], input=out,
                           stdout=subprocess.DEVNULL).returncode == 0, out
 
@@ -319,7 +315,7 @@ t = Terminal('kitty', '--still', piece=1)
 check('answers byte by byte', t.until(KITTY.search))
 check('it ends, none is left', t.close())
 t = Terminal('kitty', '--still', late=0.1, piece=8, gap=0.03)
-t.until(lambda out: b'\x1b[5n' in out)
+t.until(lambda out: b'\x1b[c' in out)
 check('answers that come while it ends are not left to the shell', t.close())
 t = Terminal('kitty', late=3.5)
 t.until(lambda out: b'\xe2\x96' in out)

@@ -20,6 +20,7 @@ import numpy as np
 from .. import _arguments as arguments
 from .._native import SOLID, Array, Error
 from ..light import Light as _Lamp
+from ..mesh import _box, origin_of
 from ..renderer import _KINDS, _NO_SHADOW, Frame, Renderer as _Renderer
 
 _BALL = _KINDS["sphere"]
@@ -260,7 +261,7 @@ class Primitive(_Bounded):
                  material: Any = None, mode: Any = None, targets: Any = None,
                  poses: Any = None) -> None:
         """Refuses arrays of a wrong shape by their names."""
-        self.positions = arguments.floats("positions", positions, (None, 3), finite=True)
+        self.positions = arguments.doubles("positions", positions, (None, 3), finite=True).copy()
         self.mode = GLTF.TRIANGLES if mode is None else arguments.integer("mode", mode, 0, 6)
         if self.mode not in (GLTF.POINTS, GLTF.TRIANGLES):
             raise Error(f"mode must be GLTF.POINTS or GLTF.TRIANGLES, not {self.mode}")
@@ -873,8 +874,8 @@ class OffscreenRenderer:
         depth = np.empty((h, w), np.float32)
         camera = main[0][0].camera
         far = 3e30 if camera.zfar is None else camera.zfar
-        base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]), p, max(camera.znear, 1e-6), far,
-                   bool(p[3, 3]), seg, 0.0, objects)
+        base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]).T.ravel().tolist(),
+                   p.T.ravel().tolist(), max(camera.znear, 1e-6), far, bool(p[3, 3]), seg, 0.0, objects)
         if flags & RenderFlags.DEPTH_ONLY:
             return depth
         if ids is None:
@@ -893,14 +894,16 @@ class OffscreenRenderer:
             m, uv = primitive.material, primitive.texcoord_0
             pictures = {"texture": m.baseColorTexture, "relief": m.normalTexture,
                         "glow_map": m.emissiveTexture}
-            numbers = {name: 1 + base._make_texture(picture, ("repeat", "repeat"), False, None,
-                                                    name != "relief")
+            numbers = {name: 1 + base._textures[base._make_texture(picture, ("repeat", "repeat"), False, None,
+                                                                   name != "relief")][0]
                        for name, picture in pictures.items() if picture is not None and uv is not None}
             if uv is not None:
                 uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
-            shape = base._keep_mesh(None, primitive.positions, primitive.normals, uv,
+            at = primitive.positions
+            origin = origin_of(*_box(at)) if len(at) else np.zeros(3)
+            shape = base._keep_mesh(None, at - origin, primitive.normals, uv,
                                     None if primitive.color_0 is None else primitive.color_0[:, :3],
-                                    primitive.indices)
+                                    primitive.indices, origin=origin)
             known = self._shapes[id(primitive)] = (primitive, shape.number, numbers)
         m = primitive.material
         places = [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]
@@ -968,8 +971,8 @@ class OffscreenRenderer:
         flat = bool(flags & RenderFlags.FLAT)
         base.light([] if flat else made, (0, 0, 0) if flat else scene.ambient_light.tolist(),
                    [] if flat else shadow)
-        base._background = (*base._color("bg_color", scene.bg_color[:3]),
-                            float(scene.bg_color[3]) if len(scene.bg_color) > 3 else 1.0)
+        alpha = float(scene.bg_color[3]) if len(scene.bg_color) > 3 else 1.0
+        base._set_behind(background=(*base._color("bg_color", scene.bg_color[:3]), alpha))
 
     def delete(self) -> None:
         """Gives the memory back."""
