@@ -15,7 +15,7 @@
 # make playground    the equation and four courses as web pages, build/playground/index.html
 # make course        pages and slides of the courses alone, and their slides with answers as PDF
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
-# make assignments   tries the grader of the assignments: solutions, wrong answers, cheats
+# make assignments   tries the grader of the assignments: solutions, wrong answers, what holds programs
 # make dist          the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install       header, programs, man pages, completions for bash, thumbnailer and types
 #                    below PREFIX in DESTDIR; make uninstall removes them;

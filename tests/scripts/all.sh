@@ -38,6 +38,7 @@ build build/golden pictures
 # G15
 step pictures build/golden out/*.ppm
 step shown sh examples/pictures/gallery.sh --check
+step png sh tests/scripts/png.sh
 # nothing here runs the programs: they are read for errors, unless they are there
 "$make" -s CFLAGS=-fsyntax-only programs >"$T/programs" 2>&1 || { cat "$T/programs"; failed=1; }
 grep 'left out' "$T/programs"

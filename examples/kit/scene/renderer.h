@@ -22,6 +22,7 @@
 #include <string.h>
 #include "shade.h"
 #include "../../shared/bands.h"
+#include "../core/refuse.h"
 #include "relief.h"
 
 typedef enum renderer_kind {
@@ -866,25 +867,6 @@ static inline int renderer_records(const renderer_scene *s, int number, renderer
     return count;
 }
 
-/* 1: the rows of a 4 x 4 matrix are a rotation and a translation, within 1/1000 of unit length and
-   of right angles. */
-static inline int renderer_is_rigid(const double *m)
-{
-    double turned = 0;
-    for (int i = 0; i < 3; i++) {
-        const double *a = m + 4 * i, *b = m + 4 * ((i + 1) % 3), *c = m + 4 * ((i + 2) % 3);
-        for (int j = 0; j < 3; j++) {
-            const double *other = m + 4 * j;
-            const double off = a[0] * other[0] + a[1] * other[1] + a[2] * other[2] - (i == j);
-            if (!(off < 1e-3 && off > -1e-3)) return 0;
-        }
-        if (!(a[3] < 3e38 && a[3] > -3e38)) return 0;
-        if (!(m[12 + i] < 1e-3 && m[12 + i] > -1e-3)) return 0;
-        turned += a[0] * (b[1] * c[2] - b[2] * c[1]) / 3;
-    }
-    return turned > 0 && m[15] < 1 + 1e-3 && m[15] > 1 - 1e-3;
-}
-
 /* m: 16 numbers, row by row */
 static inline void renderer_move(renderer_object *o, const double *m)
 {
@@ -908,7 +890,7 @@ static inline int renderer_move_all(renderer_object *o, int count, const double 
 static inline int renderer_not_rigid(const double *rows, int count)
 {
     for (int i = 0; i < count; i++)
-        if (!renderer_is_rigid(rows + 16 * (size_t)i)) return i;
+        if (!core_is_rigid(rows + 16 * (size_t)i)) return i;
     return -1;
 }
 

@@ -4,7 +4,7 @@
     python3 grade.py 01_lambert --start my.c
     python3 grade.py 01_lambert my.c --picture out.png
 
-The exit status is 0 for full points.  It needs Python 3.8 or newer, for C a C compiler and nm.
+The exit status is 0 for full points.  It needs Python 3.8 or newer, for C a C compiler.
 """
 import argparse
 import json
@@ -21,6 +21,7 @@ sys.dont_write_bytecode = True
 try:
     from judge.points import CALLS, Judge, Task, flat
     from judge.process import Refused, Student
+    from judge.room import KINDS
 except ImportError as error:
     sys.exit(f"{error}: the grader needs Linux or macOS; on Windows use WSL.")
 HERE = Path(__file__).resolve().parent
@@ -28,6 +29,7 @@ SIDE = 160  # of a picture
 NOTHING = {  # what a starter returns, by the type in C or by the words of a task's page
     "float": "0", "int": "0", "shade_vec2": "shade_v2(0, 0)", "shade_vec3": "shade_v3(0, 0, 0)",
     "shade_mat3": "shade_mat3_identity()",
+    "a list of corners, each a list of four floats": "[]",
     "a float": "0.0", "a bool": "False", "[u, v]": "[0.0, 0.0]",
     "a list of three floats": "[0.0, 0.0, 0.0]",
     "three lists of three floats, column after column": "[model[0:3], model[4:7], model[8:11]]",
@@ -43,9 +45,9 @@ def starter(task, is_c):
         return f'"""{task}: write what the page of the task asks for."""\n' + "".join(
             f"\n\n{head}  # returns {what}\n    return {NOTHING[what]}\n" for head, what in heads)
     text = f"/* {task}: write what the page of the task asks for. */\n"
-    text += '#include "shade.h"\n#include <math.h>\n'
+    text += '#include "vectors.h"\n#include <math.h>\n'
     for kind, name, given in re.findall(r"(\w+) (\w+)\((.*?)\);", block, re.S):
-        names = re.findall(r"(\w+)(?:\[3\])?(?:,|$)", given)
+        names = re.findall(r"(\w+)(?:\[\d+\])?(?:,|$)", given)
         unused = "".join(f"    (void){one};\n" for one in names)
         text += f"\n{kind} {name}({given})\n{{\n{unused}    return {NOTHING[kind]};\n}}\n"
     return text
@@ -102,7 +104,10 @@ def arguments():
     add = parser.add_argument
     add("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
     add("--start", metavar="FILE", help="writes a .c or a .py to begin with, where there is none")
-    add("--seed", default="1", help="of the inputs; teachers keep theirs to themselves")
+    add("--seed-file", metavar="FILE", help="has the seed of the inputs, - for standard input; "
+        "teachers keep theirs to themselves")
+    add("--room", choices=KINDS, default="auto", help="what holds the program: auto takes bubblewrap "
+        "where it works")
     add("--json", metavar="RESULTS", help="writes results as Gradescope reads them")
     add("--picture", metavar="PNG", help="draws your answers, and beside them the right ones")
     add("--mistake", metavar="NAME", help="judges a known mistake in place of a file")
@@ -125,6 +130,19 @@ def start(task, path):
     return 0
 
 
+def seed_of(path):
+    """Returns the seed that a file has.  Others may not read it: the program belongs to one of them."""
+    if path == "-":
+        return sys.stdin.readline().strip()
+    try:
+        with open(path, encoding="utf-8") as file:
+            if os.fstat(file.fileno()).st_mode & 0o077:
+                sys.exit(f"{path} can be read by others: chmod 600 {path}")
+            return file.readline().strip()
+    except OSError as error:
+        return sys.exit(f"{path} cannot be read: {error.strerror}.")
+
+
 def mistaken(task, name):
     """Returns what is asked in place of a student who makes a known mistake."""
     for mistake in task.mistakes:
@@ -139,6 +157,7 @@ def main():
     if options.start:
         return start(options.task, Path(options.start))
     task, student, output = Task(options.task), None, ""
+    seed = seed_of(options.seed_file) if options.seed_file else "1"
     scores = [(0, "The grader did not finish.")] * len(task.cases)
     if options.json:
         write_json(options.json, task, scores, output)
@@ -146,9 +165,13 @@ def main():
         if options.mistake:
             ask = mistaken(task, options.mistake)
         else:
-            student = Student(task.name, options.answer, task.sent, task.outputs, options.seconds)
+            student = Student(task.name, options.answer, task.sent, task.outputs, options.seconds,
+                              options.room)
+            if options.seed_file and not student.room.holds():
+                raise Refused("Without bubblewrap, and not as root, a program can read the seed: "
+                              "nothing is judged with a seed of your own.")
             ask = student.ask
-        scores = [(r.score, r.says) for r in Judge(task, options.seed).judge(ask)]
+        scores = [(r.score, r.says) for r in Judge(task, seed).judge(ask)]
         if student:
             output = student.notes()
         if options.picture:

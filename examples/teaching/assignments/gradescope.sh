@@ -1,8 +1,8 @@
 #!/bin/sh
 # gradescope.sh - packs the grader of a task for Gradescope: "Configure Autograder" takes the zip.
 #     sh examples/teaching/assignments/gradescope.sh 01 4711 lambert.zip
-# The second argument is the seed of the class, which makes its inputs.  Students hand in one file, a .c
-# or a .py.
+# The second argument is the seed of the class, which makes its inputs: a long number that is nobody's
+# birthday.  Students hand in one file, a .c or a .py.
 [ $# -eq 3 ] || { echo "usage: gradescope.sh TASK SEED OUT.zip" >&2; exit 2; }
 task=$1 seed=$2
 case $3 in /*) zip=$3 ;; *) zip=$PWD/$3 ;; esac
@@ -17,16 +17,18 @@ T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM
 
 mkdir -p "$T/$A"
-cp shade.h LICENSE "$T"
-cp -R $A/grade.py $A/judge "$T/$A"
-printf '#!/bin/sh\napt-get update && apt-get install -y gcc libc6-dev binutils python3\n' >"$T/setup.sh"
+cp LICENSE "$T"
+cp -R $A/grade.py $A/vectors.h $A/judge "$T/$A"
+echo "$seed" >"$T/seed"
+printf '#!/bin/sh\napt-get update && apt-get install -y gcc libc6-dev python3 bubblewrap\n' >"$T/setup.sh"
 cat >"$T/run_autograder" <<END
 #!/bin/sh
 # run_autograder - judges the one file of /autograder/submission.  The grader's folders are closed to
-# the user nobody, whose process runs the student's code.
+# the user nobody, who runs the compiler and the student's code.
 root=\${AUTOGRADER:-/autograder}
 mkdir -p "\$root/results" && chmod 700 "\$root/source" "\$root/results" && cd "\$root/source" || exit 1
-python3 $A/grade.py $task "\$root/submission" --seed $seed --json "\$root/results/results.json"
+chmod 600 seed && python3 $A/grade.py $task "\$root/submission" --seed-file seed \\
+    --json "\$root/results/results.json"
 [ -s "\$root/results/results.json" ]
 END
 chmod +x "$T/setup.sh" "$T/run_autograder"

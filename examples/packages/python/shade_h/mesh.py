@@ -25,11 +25,10 @@ COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
 def origin_of(low: Doubles, high: Doubles) -> Doubles:
     """From where coordinates in a box are counted, so that floats keep their digits: zero, or for a
     box far away a round number near it, of which doubles subtract without rounding."""
-    middle, extent = (low + high) / 2, float((high - low).max())
-    if not np.isfinite(middle).all() or np.abs(middle).max() <= 16 * extent:
-        return np.zeros(3)
-    step = 10.0 ** np.ceil(np.log10(extent)) if extent > 0 else 1.0
-    return np.asarray(np.round(middle / step) * step)
+    out = np.empty(3)
+    box = np.array([low, high], float)
+    library.python_origin_of(pointer(box[0]), pointer(box[1]), pointer(out))
+    return out
 
 
 def _box(points: Doubles) -> tuple[Doubles, Doubles]:

@@ -709,6 +709,7 @@ both() {
     line_reports
     color_reports
     habit_reports
+    writer_reports
     value_reports
     bad_output
     bad_options
@@ -725,6 +726,7 @@ build=full THUMBNAIL=$T/full
 [ -x "$THUMBNAIL" ] || finish
 both
 [ "$STB" ] && map_reports
+[ "$STB" ] && picture_reports
 [ "$STB" ] && . examples/programs/thumbnail/test/pictures.sh
 [ "$ASSIMP" ] && . examples/programs/thumbnail/test/formats.sh
 finish

@@ -38,8 +38,12 @@ def outside(draw):
 
 
 def wide(draw):
-    """Cones of more than 90 degrees on each side, up to no cone at all."""
+    """Cones of more than 90 degrees on each side, up to no cone at all; one exponent in four is 0,
+    where half of the points lie behind the lamp and in the cone."""
     cos_cutoff = draw.between(-0.9, -0.1) if draw.random() < 0.7 else -1
+    if draw.random() < 0.25:
+        low = cos_cutoff + 0.01 if draw.random() < 0.5 else -1
+        return beam(draw, draw.between(low, -0.01 if low > -1 else 0.99), cos_cutoff, 0)
     return beam(draw, draw.between(-1, 0.99), cos_cutoff, draw.randint(1, 6))
 
 
@@ -60,7 +64,7 @@ CASES = [
          "are."),
     Case(2, "wide cones", wide,
          "A cone may reach behind the lamp, where L.S is negative: take 0 for the base of the "
-         "power there."),
+         "power there. 0 to the power 0 is 1."),
     Case(2, "on the rim, which is lit", rim,
          "On the rim L.S equals cos_cutoff, to the bit for these inputs, and the rim is lit."),
 ]
@@ -97,6 +101,9 @@ MISTAKES = [
     ("unclamped", POWER, "pow(cosine, e)",
      "Behind the lamp L.S is negative, and a wide cone reaches there: take 0 for the base of the "
      "power."),
+    ("dark_behind", POWER, "(pow(cosine, e) if cosine > 0 else 0)",
+     "Behind the lamp, where L.S is negative, a wide cone with e = 0 is lit too: 0 to the power 0 is "
+     "1."),
     ("absolute", "cosine = dot(L, S)", "cosine = abs(dot(L, S))",
      "The absolute value gives a second cone behind the lamp: use L.S with its sign."),
     ("cosine_of_cutoff", "cosine >= cos_cutoff", "cosine >= math.cos(cos_cutoff)",

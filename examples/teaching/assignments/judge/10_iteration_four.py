@@ -49,19 +49,23 @@ def iteration_four(lighting, material, eye, P, N):
 FUNCTIONS = [iteration_four]
 
 
-def fill(draw, lamps, side, lit=True):
+def fill(draw, lamps, side, lit=True, hidden=False):
     """Returns a scene in which each term of each lamp can be seen: all lamps in front of the
     surface or behind it, and the point in their cones or, not lit, outside of the first one.  In one
-    of ten scenes with lamps behind they are at the horizon, where N.L is 0 to the bit."""
+    of ten scenes with lamps behind they are at the horizon, where N.L is 0 to the bit.  Hidden: the
+    eye is behind the surface, N.V < 0, and the highlight of the first lamp is there all the same.
+    Some lamps with e = 0 light what is behind them, in a cone wider than 90 degrees."""
     N, P, n = draw.direction(), draw.some(-0.6, 0.6, 3), draw.spread(1, 80 if side > 0 else 4)
     to = [draw.at(N, side * draw.between(0.1, 1)) for _ in range(LAMPS)]
     if side < 0 and draw.random() < 0.1:
         N, *to = draw.axes()
     while True:
+        if hidden:
+            n, to[0] = draw.spread(1, 3), draw.at(N, draw.between(0.1, 0.4))
         H = draw.at(N, draw.lobe(n, 0.2))
         V = sub(scale(2 * dot(H, to[0]), H), to[0])
         V = V if side > 0 else draw.at(N, draw.between(0.6, 1))
-        if dot(N, V) > 0.05:
+        if dot(N, V) < -0.05 if hidden else dot(N, V) > 0.05:
             break
     inputs = add(P, scale(draw.between(1.5, 4), V)) + P + N
     inputs += draw.some(0.05, 0.9, 12) + [n] + draw.some(0.05, 0.5, 3) + [lamps]
@@ -69,7 +73,10 @@ def fill(draw, lamps, side, lit=True):
         e = 0 if draw.random() < 0.1 else draw.spread(0.5, 40)
         here = lit or k and draw.random() < 0.5
         cosine = draw.lobe(e, 0.2) if here else draw.between(0.3, 0.9)
-        cutoff = draw.between(-0.5, cosine - 0.01) if here else draw.between(cosine + 0.01, 1)
+        if here and not e and draw.random() < 0.6:
+            cosine = draw.between(-0.8, -0.1)
+        cutoff = draw.between(min(-0.5, cosine - 0.15), cosine - 0.01) if here else draw.between(
+            cosine + 0.01, 1)
         inputs += add(P, scale(draw.between(0.6, 2.5), L))
         inputs += scale(-draw.spread(0.3, 4), draw.at(L, cosine)) + [cutoff, e]
         inputs += draw.some(0.05, 0.4, 3) + draw.some(0.3, 2, 6)
@@ -84,7 +91,8 @@ CASES = [
          "Look at one term after the other: L and V are unit vectors from P, S is -spot_direction "
          "made unit, the highlight has the lamp's specular colour, and cone and distance dim k_d "
          "and k_s alone."),
-    Case(5, "several lamps", lambda draw: fill(draw, draw.randint(2, 3), 1),
+    Case(5, "several lamps", lambda draw: fill(draw, draw.randint(2, 3), 1,
+                                               hidden=draw.random() < 0.25),
          "If one lamp is right and several are not, look at the sum: each lamp has its own L, H, "
          "r, cone and B."),
     Case(4, "lamps behind the surface", lambda draw: fill(draw, draw.randint(1, 3), -1),
@@ -107,6 +115,13 @@ MISTAKES = [
      "0 there, for both terms."),
     ("absolute", "scale(B * dot(N, L),", "scale(abs(dot(N, L)),",
      "The absolute value of N.L lights the back of the surface: B is 0 where N.L is not above 0."),
+    ("gated_by_viewer", "if dot(N, L) > 0 else", "if dot(N, L) > 0 and dot(N, V) > 0 else",
+     "Where N.V is negative the terms are 0 here. B asks for N.L alone; what the eye cannot see is not "
+     "drawn anyway."),
+    ("dark_behind", "pow(max(0, dot(L, S)), lamp.spot_exponent)",
+     "(pow(dot(L, S), lamp.spot_exponent) if dot(L, S) > 0 else 0)",
+     "Behind a lamp, where L.S is negative, a wide cone with an exponent of 0 is lit too: 0 to the "
+     "power 0 is 1."),
     ("dimmed_ambient", AMBIENT, "light = add(light, scale(spot * fall, mul(material.ambient, "
                                 "lamp.ambient)))",
      "The ambient light of a lamp, I_La, is dimmed by its cone and its distance: in iteration four "

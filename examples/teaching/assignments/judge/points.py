@@ -264,7 +264,8 @@ class Judge:
             return f"Each of your answers is {factor:.4g} times the right one. "
         if all(near(g, [x + more for x in w], times=LOOSE) for g, w in pairs):
             return f"Each of your answers is the right one and {more:.4g}. "
-        if all(x == int(x) for g, _ in pairs for x in g):
+        if all(x == int(x) for g, _ in pairs for x in g) and any(
+                x not in (0, 1) for g, _ in pairs for x in g):
             return "Your answers are whole numbers: an int or a // cuts them. "
         if size == 1 and min(g[0] for g, _ in pairs) >= 0 < min(w[0] for _, w in pairs):
             g, w = min(pairs, key=lambda pair: abs(pair[1][0] - 0.5))

@@ -1,43 +1,33 @@
-"""A student's code in a process of its own: built, bounded, given numbers and read numbers from.
+"""A student's code in a process of its own: built, started, given numbers and read numbers from.
 
 The judge's process keeps inputs, right answers and results.  A student's process has two pipes of
-numbers and a file for what it prints.  It can open no file and start no process, it may use 256 MB
-and a few seconds, and where the judge is root, as it is at Gradescope, its user is nobody.
+numbers and a file for what it prints, in a room that bounds what it may do (room.py).  A C program
+is linked from the student's file, student.c and the vectors of vectors.h: the answers are not in it.
 """
 import os
 import re
 import select
 import shlex
+import shutil
 import signal
 import struct
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 from . import student
+from .room import MEGABYTES, NoRoom, PRINTED, Room
 
 HERE = Path(__file__).resolve().parent
-ROOT = next(folder for folder in HERE.parents if (folder / "shade.h").is_file())
 PATIENCE = 10  # a busy machine takes this many times the seconds of the processor that are allowed
-BUILD = 2048, 30, 16 << 20  # megabytes, seconds and bytes of a file, for a compiler
 TOO_MUCH = "Your file is too much for the compiler: large arrays with values, or macros in macros?"
 WARNINGS = 3  # of a compiler, that are shown
 PROTOTYPES = HERE / "prototypes.h"
-AT_ONCE = 50  # inputs in the pipe at a time: both pipes hold them, so neither side waits for ever
-
-HEADERS = "assert float inttypes limits math stdbool stddef stdint stdio stdlib string".split()
-# What a C file may call, beside its own functions, and the inline functions that are the task
-CALLS = re.compile(r"""_*(?:(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:10|2|1p)?|pow|sqrt|cbrt
-    |hypot|f?abs|fmod|remainder|floor|ceil|l?l?r(?:ound|int)|trunc|nearbyint|fm(?:in|ax|a)
-    |fdim|copysign|nan|ldexp|frexp|modf|scalbl?n|isnan|isinf|finite|fpclassify|signbit)[fl]?
-    |mem(?:cpy|set|move|cmp)|f?printf|f?puts|f?putc|putchar|fwrite|perror|fflush|std(?:out|err)p?
-    |malloc|calloc|realloc|free|abort|exit|assert_fail|assert_rtn|stack_chk_\w+
-    |GLOBAL_OFFSET_TABLE_|shade_mat[34]_(?!inverse_transpose)\w+)(?:_chk)?$""",
-                   re.VERBOSE)
-OURS = "main read write dup dup2 setrlimit setvbuf".split()  # what student.c has or calls
-POISON = "shade_reflect shade_mirror shade_halfway shade_mat3_inverse_transpose"
+AT_ONCE = 50  # inputs in the pipe at a time, most: both pipes hold them, so neither side waits for ever
+PIPE = 1 << 15  # bytes that any pipe holds
+MADE = {}  # what compilers made of files of the grader
+OPENED = 16  # files that a program opens where it is not linked statically: its libraries
 ENDS = {
     signal.SIGSEGV: "crashed: an index beyond an array, a pointer to nothing, a recursion without "
                     "end, or more than 256 MB of memory",
@@ -52,107 +42,104 @@ ENDS = {
 }
 
 
+
+
 class Refused(Exception):
     """What was handed in cannot be judged; the sentence says why."""
 
 
-def c_tokens(source):
-    """Returns C without comments and strings.  A quote without its second one ends with the line, as
-    compilers have it."""
-    parts = r"/\*(?:.*?\*/|.*)|//[^\n]*|\"(?:\\.|[^\"\\\n])*(?:\"|$)|'(?:\\.|[^'\\\n])*(?:'|$)"
-    kept = '"shade.h"'
-    return re.sub(parts, lambda m: kept if m.group() == kept else " ", source, flags=re.S | re.M)
-
-
-def check_c(source):
-    """Refuses a C file that could reach past the function that it is to write."""
-    source = re.sub(r"\\\s*\n", "", source)  # joins split lines
-    if re.search(r'\b(?:u8|[uUL])?R"', source):
-        raise Refused('Your file uses R", a string of C++, which no answer needs.')
-    text = c_tokens(source)
-    for directive in re.findall(r"^\s*(?:#|%:|\?\?=)\s*(.*)", text, re.M):
-        if not re.match(r"(define|undef|ifn?(def)?|elif|else|endif|error|include)\b|$", directive):
-            raise Refused(f"Your file has a line #{directive.strip()}, which no answer needs.")
-        allowed = r'include\s*("shade\.h"|<shade\.h>|<(%s)\.h>)\s*$' % "|".join(HEADERS)
-        if directive.startswith("include") and not re.match(allowed, directive):
-            raise Refused(f"Your file has a line #{directive.strip()}. Include shade.h and headers "
-                          f"like math.h alone.")
-    words = r"asm|__asm\w*|__attribute\w*|_Pragma|__pragma|(?:shade|SHADE)_{2}\w+"
-    for word in re.findall(rf"##|%:%:|\[\[|\b(?:{words})\b", text):
-        raise Refused(f"Your file uses {word}, which no answer needs.")
-
-
-def run_tool(*command):
-    """Runs a compiler or the like within bounds; returns its exit status and what it says."""
-    try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, check=False, timeout=120,
-                              env={**os.environ, "LC_ALL": "C"},
-                              preexec_fn=lambda: student.bound(*BUILD))
-    except FileNotFoundError as error:
-        raise Refused(f"There is no {command[0]}: a C compiler and nm are needed.") from error
-    except subprocess.TimeoutExpired as error:
-        raise Refused(TOO_MUCH) from error
-    said = done.stdout.decode(errors="replace")
-    beyond = r"signal|Killed|too large|memory|limit exceeded|Stack dump"
-    if done.returncode and re.search(beyond, said):
-        raise Refused(TOO_MUCH)
-    return done.returncode, said
-
-
-def not_compiled(said):
+def not_compiled(said, prototypes):
     """Returns what to say where a compiler stops, from what it says."""
-    if poisoned := re.search(r"poisoned \W?(\w+)", said):
-        return f"Your file uses {poisoned.group(1)}: what it does is yours to write."
     other = re.search(r"conflicting types for \W?(\w+)(?:(?!error:).)*prototypes\.h", said, re.S)
     if other:
-        page = re.search(rf"^[\w ]+\b{other.group(1)}\(.*?\);", PROTOTYPES.read_text(), re.M | re.S)
+        page = re.search(rf"^[\w ]+\b{other.group(1)}\(.*?\);", prototypes, re.M | re.S)
         return (f"Your function {other.group(1)} has other types than the page says: expected "
                 f"{' '.join(page.group()[:-1].split())}.")
     errors = re.search(r"^[^\n]*error:.*?(?=^[^\n]*warning:|\Z)", said, re.M | re.S)
     return f"Your file does not compile:\n{(errors.group() if errors else said)[:2000]}"
 
 
-def build_c(task, path, folder):
-    """Compiles a student's C file in a folder; returns the command that runs it, and warnings."""
-    source = path.read_text(encoding="utf-8", errors="replace")
-    check_c(source)
-    cc = [*shlex.split(os.environ.get("CC", "cc")), "-std=gnu99", "-O0", f"-DTASK={int(task[:2])}"]
-    made, library, copy = folder / "answer.o", [], folder / path.name
-    copy.write_text(source, encoding="utf-8")
-    (folder / "shade.h").write_text("/* Stands before the file already. */\n", encoding="utf-8")
-    poison = folder / "poison.h"
-    poison.write_text(f"#undef TASK\n#pragma GCC poison {POISON}\n", encoding="utf-8")
-    before = [f"-I{folder}", *(f"-include{h}" for h in (ROOT / "shade.h", PROTOTYPES, poison))]
-    status, said = run_tool(*cc, "-Wall", "-Wextra", *before, "-c", str(copy), "-o", str(made))
-    said = said.replace(f"{folder}/", "").replace(f"{HERE}/", "")
-    if status:
-        raise Refused(not_compiled(said))
-    warnings = re.findall(rf"^{re.escape(path.name)}:\d+:\d+: warning: .*", said, re.M)
-    symbols = re.findall(r"(\w) (\S+)$", run_tool("nm", str(made))[1], re.M)
-    called = [name for kind, name in symbols if kind == "U"]
-    for kind, name in symbols:
-        if kind != "U" and name.lstrip("_") in OURS:
-            raise Refused(f"Your file has a function {name.lstrip('_')}, which the grader has too.")
-    for name in called:
-        if not CALLS.match(name):
-            name = name.lstrip("_")
-            if "shade_" in name and not re.search(rf"\b{name}\(", (ROOT / "shade.h").read_text()):
-                raise Refused(f"shade.h has no function {name}: is the name right?")
-            if name in ("max", "MAX", "min", "MIN"):
-                raise Refused(f"C has no {name}: use f{name.lower()}f of math.h.")
-            why = "what it does is yours to write" if "shade_" in name else "no answer needs it"
-            raise Refused(f"Your file calls {name}: {why}.")
-    if any("shade_" in name for name in called):
-        library = ["-DSHADE_IMPLEMENTATION", "-DSHADE_NO_DISPATCH"]
-    status, said = run_tool(*cc, "-w", *library, f"-I{ROOT}", str(HERE / "student.c"), str(made),
-                            "-lm", "-o", str(folder / "answer"))
-    if status:
-        missing = re.search(r"(?:undefined reference to|\"_)\W*(\w+)", said)
-        raise Refused(f"Your file has no function {missing.group(1)}." if missing else
-                      f"Your file cannot be linked:\n{said[:2000]}")
-    folder.chmod(0o711)
-    return [str(folder / "answer")], warnings
+def not_linked(said, prototypes):
+    """Returns what to say where a linker stops, from what it says."""
+    twice = re.search(r"multiple definition of \W?(\w+)|duplicate symbol '?_?(\w+)", said)
+    if twice:
+        return f"Your file has a function {twice.group(1) or twice.group(2)}, which the grader has too."
+    missing = re.search(r"undefined reference to \W?(\w+)|\"_(\w+)\"", said)
+    if not missing:
+        return f"Your file cannot be linked:\n{said[:2000]}"
+    name = missing.group(1) or missing.group(2)
+    if re.search(rf"\b{name}\(", prototypes):
+        return f"Your file has no function {name}."
+    if name in ("max", "MAX", "min", "MIN"):
+        return f"C has no {name}: use f{name.lower()}f of math.h."
+    if name.startswith("shade_"):
+        return (f"Your file calls {name}, which is not in vectors.h. If it is in shade.h, what it does "
+                f"is yours to write; if not, is the name right?")
+    return f"Your file calls {name}, which neither your file nor a header of C has."
+
+
+class Compiler:
+    """The C compiler of the machine, in a room."""
+
+    def __init__(self, room):
+        self.room, self.words = room, shlex.split(os.environ.get("CC", "cc"))
+        found = shutil.which(self.words[0])
+        if not found:
+            raise Refused(f"There is no {self.words[0]}: a C compiler is needed.")
+        self.home = Path(found).absolute().parent.parent
+        room.put("vectors.h", (HERE.parent / "vectors.h").read_text(encoding="utf-8"))
+        room.put("shade.h", '#include "vectors.h"\n')
+        self.static = ["-static"]
+        if self.ours("hold.c", "hold", *self.static):
+            self.static = []  # there are no libraries for it, as on macOS
+            said = self.ours("hold.c", "hold")
+            if said:
+                raise Refused(f"{self.words[0]} does not compile the grader's hold.c:\n{said[:2000]}")
+
+    def ours(self, source, name, *arguments):
+        """Compiles a file of the grader, once for all students of this process; returns what the
+        compiler says, or nothing."""
+        made, key = self.room.folder / name, (source, tuple(self.words), arguments)
+        if key not in MADE:
+            self.room.put(source, (HERE / source).read_text(encoding="utf-8"))
+            status, said = self.run("-O1", "-w", "-I.", source, "-o", name, *arguments)
+            if status:
+                return said or "it ends without a word."
+            MADE[key] = made.read_bytes()
+        made.write_bytes(MADE[key])
+        made.chmod(0o755)
+        return ""
+
+    def run(self, *arguments):
+        """Runs the compiler; returns its exit status and what it says."""
+        status, said = self.room.run([*self.words, "-std=gnu99", *arguments], self.home)
+        beyond = (r"internal compiler error|\(program \w+\)|Killed|[Ff]ile too large|File size limit|"
+                  r"out of memory|memory exhausted|Stack dump|cannot allocate")
+        if status is None or status < 0 or status and re.search(beyond, said):
+            raise Refused(TOO_MUCH)
+        return status, said
+
+    def build(self, path, number, prototypes):
+        """Builds a student's file; returns warnings of it."""
+        name = f"in/{path.name}"
+        (self.room.folder / "in").mkdir(exist_ok=True)
+        self.room.put(name, path.read_text(encoding="utf-8", errors="replace"))
+        self.room.put("prototypes.h", prototypes)
+        self.room.put("before.h", f"#define TASK {number}\n#include \"vectors.h\"\n"
+                                  f"#include \"prototypes.h\"\n#undef TASK\n")
+        status, said = self.run("-O0", "-Wall", "-Wextra", "-Wno-error=implicit-function-declaration",
+                                "-I.", "-include", "before.h", "-c", f"./{name}", "-o", "answer.o")
+        said = said.replace("./in/", "").replace(f"{self.room.folder}/", "")
+        if status:
+            raise Refused(not_compiled(said, prototypes))
+        warnings = re.findall(rf"^{re.escape(path.name)}:\d+:\d+: warning: .*", said, re.M)
+        said = self.ours("student.c", "student.o", f"-DTASK={number}", "-c")
+        if said:
+            raise Refused(f"{self.words[0]} does not compile the grader's student.c:\n{said[:2000]}")
+        status, said = self.run("student.o", "answer.o", "-lm", "-o", "answer", *self.static)
+        if status:
+            raise Refused(not_linked(said, prototypes))
+        return warnings
 
 
 def one_file(path):
@@ -165,7 +152,7 @@ def one_file(path):
         raise Refused(f"There is no file {found[0].name}.")
     if not found[0].is_file() or found[0].suffix not in (".c", ".py"):
         raise Refused(f"{found[0].name} is no .c and no .py file.")
-    if found[0].is_symlink():  # to what, compilers would tell
+    if found[0].is_symlink():
         raise Refused(f"{found[0].name} is a link: hand in the file itself.")
     if found[0].stat().st_size > 1 << 16:
         raise Refused("Your file is longer than 64 kB.")
@@ -175,16 +162,32 @@ def one_file(path):
 class Student:
     """What a student handed in, ready to be given inputs."""
 
-    def __init__(self, task, path, inputs, outputs, seconds):
+    def __init__(self, task, path, inputs, outputs, seconds, room="auto"):
         self.inputs, self.outputs, self.seconds = inputs, outputs, seconds
         self.warnings, self.printed, self.late = [], "", False
-        self.folder, self.bound, path = tempfile.TemporaryDirectory(), None, one_file(Path(path))
+        path = one_file(Path(path))
+        try:
+            self.room = Room(room)
+            self.prepare(task, path)
+        except NoRoom as no:
+            raise Refused(str(no)) from no
+        self.room.close()
+
+    def prepare(self, task, path):
+        """Builds the program, or brings the files of a Python program to the room."""
+        self.system, self.home = path.suffix == ".py", None
         if path.suffix == ".py":
-            self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task,
-                            str(path), str(outputs), str(inputs), str(seconds)]
-        else:
-            self.command, self.warnings = build_c(task, path, Path(self.folder.name))
-            self.bound = lambda: student.limit(seconds)
+            python, self.home = self.room.python()
+            self.room.put("student.py", (HERE / "student.py").read_text(encoding="utf-8"))
+            self.room.put(path.name if path.name != "student.py" else "answer.py",
+                          path.read_text(encoding="utf-8", errors="replace"))
+            name = path.name if path.name != "student.py" else "answer.py"
+            self.command = [*python, "student.py", task, name, str(self.outputs), str(self.inputs)]
+            return
+        compiler = Compiler(self.room)
+        self.warnings = compiler.build(path, int(task[:2]), PROTOTYPES.read_text(encoding="utf-8"))
+        self.command = ["./hold", "0" if compiler.static else str(OPENED), "./answer"]
+        self.system = not compiler.static
 
     def notes(self):
         """Returns what costs no points: warnings of the compiler, and what the file prints."""
@@ -202,7 +205,7 @@ class Student:
         while len(got) < size:
             if not select.select([pipe], [], [], max(0, until - time.monotonic()))[0]:
                 break
-            more = os.read(pipe.fileno(), size - len(got))
+            more = os.read(pipe, size - len(got))
             if not more:
                 break
             got += more
@@ -215,27 +218,32 @@ class Student:
         if self.late:
             return [], ""
         answers, frame = [], struct.Struct(f"{1 + self.outputs}d")
+        some = max(1, min(AT_ONCE, PIPE // max(frame.size, 4 * self.inputs)))
+        pipe, theirs = os.pipe()
         with tempfile.TemporaryFile() as printed:
-            child = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                     stderr=printed, cwd="/", env={}, bufsize=0,
-                                     start_new_session=True, preexec_fn=self.bound)
+            child = self.room.start([*self.command, str(theirs)], (MEGABYTES, self.seconds, PRINTED),
+                                    system=self.system, home=self.home, stdin=subprocess.PIPE,
+                                    stdout=printed, stderr=printed, bufsize=0, pass_fds=[theirs])
+            os.close(theirs)
             until = time.monotonic() + PATIENCE * self.seconds
             try:
-                for at in range(0, len(inputs), AT_ONCE):
-                    some = inputs[at:at + AT_ONCE]
-                    child.stdin.write(b"".join(struct.pack(f"{self.inputs}f", *v) for v in some))
-                    got = self.read(child.stdout, frame.size * len(some), until)
+                for at in range(0, len(inputs), some):
+                    sent = inputs[at:at + some]
+                    child.stdin.write(b"".join(struct.pack(f"{self.inputs}f", *v) for v in sent))
+                    got = self.read(pipe, frame.size * len(sent), until)
                     for k in range(len(got) // frame.size):
                         good, *numbers = frame.unpack_from(got, k * frame.size)
                         answers.append(numbers if good == 1 else None)
-                    if len(got) < frame.size * len(some):
+                    if len(got) < frame.size * len(sent):
                         break
                 child.stdin.close()
             except BrokenPipeError:
                 pass
-            ended = self.end(child, until if len(answers) < len(inputs) else 0)
+            ended = self.room.end(child, until if len(answers) < len(inputs) else 0)
+            child.stdin.close()
+            os.close(pipe)
             printed.seek(0)
-            said = printed.read().decode(errors="replace")
+            said = printed.read(2 * PRINTED).decode(errors="replace")
         raised = re.findall(r"\0(.*?)\0", said, re.S)
         said = re.sub(r"\0.*?\0", "", said, flags=re.S)
         if len(answers) == len(inputs):
@@ -245,21 +253,6 @@ class Student:
             raise Refused(said.strip() or "The program ended before its first answer.")
         self.late = ended in (None, -signal.SIGXCPU)
         return answers, self.why(ended)
-
-    def end(self, child, until):
-        """Waits until a process ends, a second longer than its time at most; returns its status."""
-        try:
-            status = child.wait(max(1, until - time.monotonic()))
-        except subprocess.TimeoutExpired:
-            status = None
-        try:
-            os.killpg(child.pid, signal.SIGKILL)
-        except (ProcessLookupError, PermissionError):
-            pass
-        child.wait()
-        for pipe in (child.stdin, child.stdout):
-            pipe.close()
-        return status
 
     def why(self, ended):
         """Returns what the end of a process says, in a sentence without its subject."""

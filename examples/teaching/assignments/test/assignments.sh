@@ -1,6 +1,7 @@
 #!/bin/sh
-# assignments.sh - the grader of examples/teaching/assignments: graders.py tries right answers, wrong
-# ones and cheats; here are its pages, the steps of a student, and the zip for Gradescope.
+# assignments.sh - the grader of examples/teaching/assignments: graders.py tries right answers and wrong
+# ones, guards.py programs that try what they may not do; here are its pages, the steps of a student,
+# and the zip for Gradescope.
 cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
 A=examples/teaching/assignments
@@ -28,7 +29,21 @@ python3 $A/grade.py 02_mirror --mistake as_printed >"$T/said"
 check "README shows what a mistake is told" same "$(shown $A/README.md 1)" "$(head -n 5 "$T/said")"
 check "README tells how many mistakes are known" grep -qF "one of the $(for task in $A/[0-9]*; do
     python3 $A/grade.py "${task##*/}" --mistake list 2>&1 | tr ',' '\n'; done | wc -l | tr -d ' ') that" $A/README.md
-check "README says where vectors are" grep -q '`>>math`' $A/README.md
+# The vectors of vectors.h beside those of shade.h, with the same numbers
+for header in vectors.h shade.h; do
+    check "$header: vectors and matrices compile" ${CC:-cc} -std=c99 -O1 -Wall -Wextra -Werror -I$A -I. \
+        "-DHEADER=\"$header\"" examples/teaching/assignments/test/vectors.c -lm -o "$T/vectors-$header"
+    "$T/vectors-$header" >"$T/$header.numbers"
+done
+check "vectors.h has the numbers of shade.h" python3 -c "
+import sys
+a, b = ([line.split() for line in open(f)] for f in sys.argv[1:])
+assert len(a) == len(b) > 60 and [x[0] for x in a] == [x[0] for x in b]
+for x, y in zip(a, b):
+    assert all(abs(float(p) - float(q)) <= 2e-6 * max(1, abs(float(q))) for p, q in zip(x[1:], y[1:])), (x, y)
+" "$T/vectors.h.numbers" "$T/shade.h.numbers"
+functions() { grep -o '\bshade_[a-z0-9_]*(' "$1" | sort -u; }
+check "each of its functions is tried" same "$(functions $A/vectors.h)" "$(functions examples/teaching/assignments/test/vectors.c)"
 for place in $(sed -n 's/.*`>>\([a-z]*\)`.*/\1/p' $A/README.md $A/*/README.md); do
     check "shade.h has the place >>$place" grep -q "^/\*-* >>$place\$" shade.h
 done
@@ -76,7 +91,7 @@ python3 $A/grade.py 3 --start "$T/starter.c"
 python3 $A/grade.py 3 --start "$T/starter.py"
 check "what is there is no place for a starter" sh -c \
     "python3 $A/grade.py 3 --start '$T/starter.c' 2>&1 | grep -qx '$T/starter.c is not written: File exists.'"
-check "without nm or a compiler C is refused in words" sh -c \
+check "without a compiler C is refused in words" sh -c \
     "CC=no_such_cc python3 $A/grade.py 3 '$T/starter.c' | grep -q 'There is no no_such_cc'"
 for number in 01 1 10; do
     check "grade.py takes $number for the name of a task" python3 $A/grade.py $number examples/teaching/assignments/test/by_hand.c
@@ -119,12 +134,44 @@ if there zip; then
         "$none 'does not compile' in x['output'] and 'error' in x['output'] for x in t)"
     check "Python that cannot be read says so" hands_in LICENSE my.py "$none 'cannot be read' in x['output'] for x in t)"
     check "nothing handed in says so" hands_in "" "" "$none 'there are 0' in x['output'] for x in t)"
-    printf 'def phong(N, L, V, n):\n    import os\n    os._exit(0)\n' >"$T/cheat.py"
-    check "a cheat leaves results" hands_in "$T/cheat.py" my.py "$none 'imports os' in x['output'] for x in t)"
+    printf 'import os\ndef halfway(L, V):\n    os._exit(0)\n' >"$T/cheat.py"
+    check "a program that ends itself leaves results" hands_in "$T/cheat.py" my.py "$none 'ended the program' in
+        x['output'] or 'case' in x['output'] for x in t)"
+    check "the seed stands in one file, and not in a command" same "$(grep -rl 4711 "$T/gs/source")" "$T/gs/source/seed"
     for wrong in "03_highlight x" "04_nothing 5" "judge 5" "student 5"; do
         check "gradescope.sh refuses $wrong" sh -c "! sh $A/gradescope.sh $wrong '$T/no.zip' 2>/dev/null"
     done
 else left_out "gradescope.sh: no zip"; fi
+
+# What holds a program: as root and as a user, with bubblewrap and without
+guards() { python3 "$T/guarded/guards.py" "$T/guarded/assignments" "$1"; }
+as_user() {
+    setpriv --reuid 65534 --regid 65534 --clear-groups env -i PATH=/usr/bin:/bin ${CC:+CC="$CC"} \
+        python3 "$T/guarded/guards.py" "$T/guarded/assignments" "$1"
+}
+mkdir "$T/guarded" && cp -R $A "$T/guarded/assignments" && cp examples/teaching/assignments/test/guards.py examples/teaching/assignments/test/by_hand.c "$T/guarded"
+chmod -R a+rX "$T/guarded"
+[ "$(id -u)" -eq 0 ] && who="guards as_user" || { who=guards; left_out "guards as root: this is a user"; }
+for run in $who; do
+    for room in plain bubblewrap; do
+        if [ $room = bubblewrap ] && ! bwrap --ro-bind / / --unshare-all true 2>/dev/null; then
+            left_out "guards in bubblewrap: it is not here, or may not be used"; continue
+        fi
+        $run $room >"$T/said" 2>&1
+        check "what holds a program: $run, $room" test $? -eq 0
+        grep -v passed "$T/said"
+    done
+done
+echo 4711 >"$T/seed"
+chmod 644 "$T/seed"
+check "a seed that others may read is refused" sh -c \
+    "python3 $A/grade.py 1 examples/teaching/assignments/test/by_hand.c --room plain --seed-file '$T/seed' 2>&1 | grep -q 'can be read by others'"
+if [ "$(id -u)" -eq 0 ]; then
+    check "without root and bubblewrap no seed is taken" sh -c "echo 4711 | setpriv --reuid 65534 --regid 65534 \
+        --clear-groups env -i PATH=/usr/bin:/bin python3 '$T/guarded/assignments/grade.py' 1 \
+        '$T/guarded/assignments/../by_hand.c' --room plain --seed-file - | grep -q 'nothing is judged with a seed'"
+    check "as root one is" sh -c "echo 4711 | python3 $A/grade.py 1 examples/teaching/assignments/test/by_hand.c --room plain --seed-file -"
+fi
 
 python3 examples/teaching/assignments/test/graders.py >"$T/said" 2>&1
 check "graders.py" test $? -eq 0

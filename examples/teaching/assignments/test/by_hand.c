@@ -113,3 +113,62 @@ shade_vec3 iteration_four(const shade_lighting *lighting, const shade_material *
     }
     return sum;
 }
+
+shade_vec3 color_at(const float x[3], const float y[3], const shade_vec3 color[3], float px, float py)
+{
+    float area[3], whole = 0;
+    shade_vec3 sum = shade_v3(0, 0, 0);
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        area[k] = (x[a] - px) * (y[b] - py) - (x[b] - px) * (y[a] - py);
+        whole += area[k];
+    }
+    for (int k = 0; k < 3; k++) sum = shade_madd(sum, area[k] / whole, color[k]);
+    return sum;
+}
+
+float level(float du_dx, float dv_dx, float du_dy, float dv_dy, float size)
+{
+    const float along_x = size * hypotf(du_dx, dv_dx), along_y = size * hypotf(du_dy, dv_dy);
+    return fminf(fmaxf(0, log2f(fmaxf(along_x, along_y))), log2f(size));
+}
+
+static int wrapped(float x)
+{
+    return (int)(x - 4 * floorf(x / 4));
+}
+float bilinear(const float texel[16], float u, float v)
+{
+    const float x = 4 * u - 0.5f, y = 4 * v - 0.5f, s = x - floorf(x), t = y - floorf(y);
+    const float *row = texel + 4 * wrapped(floorf(y)), *below = texel + 4 * wrapped(floorf(y) + 1);
+    const int i = wrapped(floorf(x)), j = wrapped(floorf(x) + 1);
+    return (1 - t) * ((1 - s) * row[i] + s * row[j]) + t * ((1 - s) * below[i] + s * below[j]);
+}
+
+int clip_near(const shade_vec4 corner[3], shade_vec4 kept[4])
+{
+    int count = 0;
+    for (int k = 0; k < 3; k++) {
+        const shade_vec4 a = corner[(k + 2) % 3], b = corner[k];
+        const float da = a.z + a.w, db = b.z + b.w;
+        if ((da >= 0) != (db >= 0)) kept[count++] = shade_lerp4(a, b, da / (da - db));
+        if (db >= 0) kept[count++] = b;
+    }
+    return count;
+}
+
+shade_vec3 bumped(shade_vec3 N, shade_vec3 T, shade_vec3 texel)
+{
+    const shade_vec3 n = shade_sub(shade_scale(texel, 2), shade_v3(1, 1, 1));
+    const shade_vec3 t = shade_normalize(shade_madd(T, -shade_dot(N, T), N));
+    const shade_vec3 b = shade_cross(N, t);
+    return shade_normalize(shade_madd(shade_madd(shade_scale(t, n.x), n.y, b), n.z, N));
+}
+
+int lit(const float depth[16], shade_mat4 lamp, shade_vec3 P, float bias)
+{
+    const shade_vec4 at = shade_mat4_transform(lamp, shade_v4(P.x, P.y, P.z, 1));
+    const float u = (at.x / at.w + 1) / 2, v = (1 - at.y / at.w) / 2;
+    if (at.w <= 0 || !(u >= 0 && u < 1 && v >= 0 && v < 1)) return 1;
+    return (at.z / at.w + 1) / 2 <= depth[4 * (int)(4 * v) + (int)(4 * u)] + bias;
+}

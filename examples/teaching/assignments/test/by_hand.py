@@ -85,3 +85,48 @@ def iteration_four(lighting, material, eye, P, N):
                 out[k] += arrives * (material.diffuse[k] * lamp.diffuse[k] * dot(N, L) +
                                      material.specular[k] * lamp.specular[k] * lobe)
     return out
+
+
+def color_at(x, y, color, px, py):
+    area = [(x[a] - px) * (y[b] - py) - (x[b] - px) * (y[a] - py) for a, b in ((1, 2), (2, 0), (0, 1))]
+    return [sum(a * c[k] for a, c in zip(area, color)) / sum(area) for k in range(3)]
+
+
+def level(du_dx, dv_dx, du_dy, dv_dy, size):
+    crossed = size * max(math.hypot(du_dx, dv_dx), math.hypot(du_dy, dv_dy))
+    return 0 if crossed <= 1 else min(math.log2(crossed), math.log2(size))
+
+
+def bilinear(texel, u, v):
+    x, y = 4 * u - 0.5, 4 * v - 0.5
+    out = 0
+    for j in (math.floor(y), math.floor(y) + 1):
+        for i in (math.floor(x), math.floor(x) + 1):
+            out += (1 - abs(x - i)) * (1 - abs(y - j)) * texel[4 * (j % 4) + i % 4]
+    return out
+
+
+def clip_near(corners):
+    kept = []
+    for a, b in zip([corners[2], corners[0], corners[1]], corners):
+        da, db = a[2] + a[3], b[2] + b[3]
+        if (da >= 0) != (db >= 0):
+            kept.append([p + da / (da - db) * (q - p) for p, q in zip(a, b)])
+        if db >= 0:
+            kept.append(b)
+    return kept
+
+
+def bumped(N, T, texel):
+    n = [2 * c - 1 for c in texel]
+    T = unit([t - dot(N, T) * m for t, m in zip(T, N)])
+    return unit([n[0] * t + n[1] * b + n[2] * m for t, b, m in zip(T, cross(N, T), N)])
+
+
+def lit(depth, lamp, P, bias):
+    x, y, z, w = (lamp[k] * P[0] + lamp[4 + k] * P[1] + lamp[8 + k] * P[2] + lamp[12 + k]
+                  for k in range(4))
+    if w <= 0 or abs(x) > w or abs(y) > w:
+        return True
+    column, row = int(2 * (x / w + 1)), int(2 * (1 - y / w))
+    return z / w / 2 + 0.5 <= depth[4 * min(3, row) + min(3, column)] + bias

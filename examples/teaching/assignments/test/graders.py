@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of the judge of examples/teaching/assignments: right answers, wrong ones, cheats.
+"""Tests of the judge of examples/teaching/assignments: right answers, wrong ones, none.
 
     python3 examples/teaching/assignments/test/graders.py [WORDS]     only checks that have the words in their name
 """
@@ -64,18 +64,19 @@ def full(task):
     return sum(case.points for case in task.cases)
 
 
-class Trusted(Student):
-    """A C program that no rule has looked at: what bounds it is its process alone."""
+class Library(Student):
+    """A program of the test, which may have shade.h in it."""
 
-    def __init__(self, task, name, text, *flags):
-        self.inputs, self.outputs, self.seconds, self.late = task.sent, task.outputs, 3, False
-        self.printed = ""
-        self.bound, program = (lambda: student.limit(3)), FOLDER / name
-        path = handed_in(f"{name}.c", text)
+    def prepare(self, task, path):
+        """Links a file with the library, and brings the program to the room."""
+        program = FOLDER / f"library_{task}"
         subprocess.run([*os.environ.get("CC", "cc").split(), "-std=gnu99", "-O1", "-w", f"-I{ROOT}",
-                        f"-DTASK={int(task.name[:2])}", str(ASSIGNMENTS / "judge/student.c"),
-                        str(path), *flags, "-lm", "-o", str(program)], check=True)
-        self.command = [str(program)]
+                        f"-I{ASSIGNMENTS}", f"-DTASK={int(task[:2])}", "-include", str(ROOT / "shade.h"),
+                        str(ASSIGNMENTS / "judge/student.c"), str(path), str(ROOT / "build/shade.o"),
+                        "-lm", "-o", str(program)], check=True)
+        (self.room.folder / "answer").write_bytes(program.read_bytes())
+        (self.room.folder / "answer").chmod(0o755)
+        self.system, self.home, self.command = True, None, ["./answer"]
 
 
 # ---- right answers ------------------------------------------------------------------------------
@@ -83,9 +84,10 @@ class Trusted(Student):
 def right_answers(task):
     """The judge's right answers beside shade.h's, and solutions by hand in both languages."""
     # Depth and texture coordinates are what the library does inside of a draw.
-    file = "by_hand.c" if task.name in ("08_depth", "09_texture") else "solutions.c"
-    text = (HERE / file).read_text()
-    library = Trusted(task, f"library_{task.name}", text, str(ROOT / "build/shade.o"))
+    # Of the tasks from 11 on it has no function of its own.
+    within = task.name in ("08_depth", "09_texture") or task.name > "11"
+    file = "by_hand.c" if within else "solutions.c"
+    library = Library(task.name, HERE / file, task.sent, task.outputs, 20)
     for seed in (1, 2, 3):
         results = Judge(task, seed).judge(library.ask)
         says = "\n".join(r.says for r in results if r.says)
@@ -178,31 +180,14 @@ def known_mistakes(task):
         check(f"{task.name}: {mistake[0]} is named in Python", good, says)
 
 
-# ---- cheats -------------------------------------------------------------------------------------
+# ---- what gets no points, and what does ---------------------------------------------------------
 
 LAMBERT = "float lambert(shade_vec3 N, shade_vec3 L)"
-# What a process may not do whatever its code is; each gives a 1 where it could.
-BREAKS = {
-    "opens a file": 'open("/etc/passwd", O_RDONLY) >= 0',
-    "opens a file in place of one it closed": '(close(0), open("/etc/passwd", O_RDONLY)) >= 0',
-    "writes a file": f'open("{FOLDER}/results.json", O_WRONLY | O_CREAT, 0666) >= 0',
-    "reads the judge's memory": """({ char p[64]; sprintf(p, "/proc/%d/mem", getppid());
-                                     open(p, O_RDONLY) >= 0; })""",
-    "starts a process": "({ int p = fork(); if (!p) _exit(0); p > 0; })",
-    "opens a socket": "socket(AF_UNIX, SOCK_STREAM, 0) >= 0",
-    "raises its bounds": "({ struct rlimit r = { 9, 9 }; setrlimit(RLIMIT_NOFILE, &r) == 0; })",
-    "takes 300 MB": "malloc(300 << 20) != NULL",
-}
-BREAKS_AS_ROOT = {
-    "signals the judge": "kill(getppid(), 0) == 0",
-    "becomes root again": "setuid(0) == 0",
-    "traces the judge": "ptrace(PTRACE_ATTACH, getppid(), 0, 0) == 0",
-}
 
 
-def cheats():
-    """Cheats get no points and a sentence."""
-    for language, name, says, code in table("cheats.txt"):
+def refused():
+    """What is no answer gets no points and a sentence."""
+    for language, name, says, code in table("refused.txt"):
         if wanted(name):
             text = re.sub(r"\\(.)", lambda m: {"n": "\n"}.get(m.group(1), m.group(1)), code)
             head = '#include "shade.h"\n' if language == "c" else ""
@@ -326,27 +311,6 @@ def links():
         (folder / name).unlink()
 
 
-def broken_out():
-    """A program that no rule has looked at is held by its process."""
-    lambert = TASKS["01_lambert"]
-    headers = "fcntl signal stdio stdlib unistd sys/ptrace sys/resource sys/socket".split()
-    head = "".join(f"#include <{h}.h>\n" for h in headers) + '#include "shade.h"\n' + LAMBERT
-    breaks = {**BREAKS, **(BREAKS_AS_ROOT if os.geteuid() == 0 else {})}
-    for name, text in breaks.items():
-        one = Trusted(lambert, "breaks", f"{head} {{ return ({text}) ? 1 : -1; }}")
-        answers, _ = one.ask(lambert.inputs(lambert.cases[0], 1)[:1])
-        check(f"a process that {name} is stopped", answers == [[-1]] or not answers, answers)
-    flood = Trusted(lambert, "flood", head + """ {
-        static char big[1 << 16];
-        for (int k = 0; k < 99999; k++) write(k % 9, big, sizeof big);
-        return 1; }""")
-    results = Judge(lambert, 1).judge(flood.ask)
-    score = sum(r.score for r in results)
-    check("answers of its own making get no points", score < full(lambert) / 2, score)
-    if os.geteuid():
-        print("left out  what only a judge who is root can keep: signals, users, traces")
-
-
 def main():
     """Runs all checks."""
     for task in TASKS.values():
@@ -359,19 +323,17 @@ def main():
             check(f"{name} loses points and gets its sentence", good, says)
     if not WORDS:
         named = [row for row in some if not row[1].startswith("hint ")]
-        check("at least 81 wrong answers", len(some) >= 81, len(some))
+        check("at least 200 wrong answers", len(some) >= 200, len(some))
         check("nine of ten are named", len(named) >= 0.9 * len(some), (len(named), len(some)))
         tried = {f"{task.name} {name}" for task, names, _ in some for name in names.split("+")}
         missed = [f"{t.name} {m[0]}" for t in TASKS.values() for m in t.mistakes
-                  if f"{t.name} {m[0]}" not in tried]
-        check("wrong.txt has each known mistake", not missed, missed)
+                  if f"{t.name} {m[0]}" not in tried and t.name < "11"]
+        check("wrong.txt has each known mistake of the tasks 01 to 10", not missed, missed)
         print(f"{len(some)} wrong answers, {len(named)} of them named")
-    cheats()
+    refused()
     for checks in (allowed, once, bases, loops, names, links):
         if wanted(checks.__name__):
             checks()
-    if wanted("process"):
-        broken_out()
     subprocess.run(["rm", "-rf", str(FOLDER)], check=True)
     print(f"{COUNTS['passed']} passed, {COUNTS['failed']} failed")
     return COUNTS["failed"] > 0
