@@ -56,36 +56,36 @@
        >>config     134  options               >>types      268  materials, targets, states
        >>light      453  the equation, colour  >>draw       562  shaders, meshes, pixels
        >>tools      721  explain, lines, rays  >>plumbing   934  compilers, flags and bits
-       >>math      1096  vectors and matrices
+       >>math      1100  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1464  processors            >>base      1699  bits, masks, rows of vectors
-       >>matrix    1896  cameras, inverses     >>power     2184  x^n
-       >>pixels    2250  formats, sRGB
+       >>machine   1468  processors            >>base      1715  bits, masks, rows of vectors
+       >>matrix    1912  cameras, inverses     >>power     2200  x^n
+       >>pixels    2266  formats, sRGB
      Inside: light
-       >>lamps     2561  attenuation, cones    >>terms     2813  one term at one point
-       >>surface   2888  material and lights   >>lit       3005  the whole sum, at many points
+       >>lamps     2577  attenuation, cones    >>terms     2829  one term at one point
+       >>surface   2904  material and lights   >>lit       3021  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3395  fields by owner       >>vertices  3608  shading, projection
-       >>triangles 3810  culling, edge setup   >>clip      4164  near, far, guard band
-       >>tiles     4351  edges and depth test  >>cover     4713  triangles, tile by tile
-       >>fragments 4981  interpolation, lod    >>texture   5256  texels, filters
-       >>store     5706  blending, packing
+       >>state     3411  fields by owner       >>vertices  3624  shading, projection
+       >>triangles 3826  culling, edge setup   >>clip      4180  near, far, guard band
+       >>tiles     4367  edges and depth test  >>cover     4729  triangles, tile by tile
+       >>fragments 4997  interpolation, lod    >>texture   5272  texels, filters
+       >>store     5746  blending, packing
      Inside: calls of the renderer
-       >>check     5957  refusals              >>seen      6217  view volume, chunks
-       >>drive     6337  shade_draw            >>mesh      6527  shade_draw_mesh
+       >>check     6013  refusals              >>seen      6273  view volume, chunks
+       >>drive     6393  shade_draw            >>mesh      6583  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6931  shade_draw_lines      >>camera    7123  eye and line of sight
-       >>shape     7217  normals, edges        >>chunks    7604  sorting and boxes
-       >>rays      7767  shade_pick            >>image     7958  smaller pictures, mipmaps
-       >>files     8271  PPM and PNG           >>presets   8590  classic materials
+       >>lines     6987  shade_draw_lines      >>camera    7179  eye and line of sight
+       >>shape     7273  normals, edges        >>chunks    7820  sorting and boxes
+       >>rays      7983  shade_pick            >>image     8174  smaller pictures, mipmaps
+       >>files     8487  PPM and PNG           >>presets   8806  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8673  shaders, run again    >>survey    8942  experiments on a draw
-       >>numbers   9361  what makes no sense   >>unseen    9845  why nothing is in view
-       >>hidden   10127  why nothing is stored >>black    10308  why all is black
-       >>wrong    10690  what else is wrong    >>verdict  11070  the calls
+       >>replay    8889  shaders, run again    >>survey    9158  experiments on a draw
+       >>numbers   9577  what makes no sense   >>unseen   10061  why nothing is in view
+       >>hidden   10343  why nothing is stored >>black    10524  why all is black
+       >>wrong    10906  what else is wrong    >>verdict  11286  the calls
      Sources
-       >>refs     11377                        >>history  11410
-       >>license  11416
+       >>refs     11593                        >>history  11626
+       >>license  11632
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1034,16 +1034,20 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #if defined(__clang__)
 #define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
 #define SHADE__UNROLL_4
+#define SHADE__UNROLL_16
 #elif defined(__GNUC__) && __GNUC__ >= 8
 #define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
 #ifdef __OPTIMIZE_SIZE__
 #define SHADE__UNROLL_4
+#define SHADE__UNROLL_16
 #else
 #define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
+#define SHADE__UNROLL_16 _Pragma("GCC unroll 16")
 #endif
 #else
 #define SHADE__NO_UNROLL
 #define SHADE__UNROLL_4
+#define SHADE__UNROLL_16
 #endif
 #ifdef __TINYC__
 #define SHADE__COUNTER ptrdiff_t
@@ -1568,15 +1572,15 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 4
 #endif
 
-/* On x86-64 gcc and clang compile each hot loop three times from one always-inlined body: for any
-   processor, for AVX2 and for AVX-512.  A call runs the best build that the processor supports.
-   All builds give the same bits, because none uses FMA.  For example,
+/* On x86-64 gcc and clang compile each hot loop up to four times from one always-inlined body: for
+   any processor, for SSE4.1, for AVX2 and for AVX-512.  A call runs the best build that the
+   processor supports.  All builds give the same bits, because none uses FMA.  For example,
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   becomes four functions.  Three are builds, made by SHADE__BUILD: shade__push_any,
-   shade__push_avx512 and
+   becomes five functions.  Four are builds, made by SHADE__BUILD: shade__push_any,
+   shade__push_sse41, shade__push_avx512 and
 
      __attribute__((target("avx2"))) static SHADE__HOT void
      shade__push_avx2(shade__draw *d, const shade__run *run, int runs)
@@ -1585,19 +1589,20 @@ typedef uint32_t shade__word;
          shade__push_body(d, run, runs);
      }
 
-   The body may use shade__width, the number of floats in a vector.  The fourth function is the one
+   The body may use shade__width, the number of floats in a vector.  The fifth function is the one
    to call, made by SHADE__CALL_BEST:
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
          const int best = SHADE__LEVEL;
-         if (best == 2) shade__push_avx512(d, run, runs);
-         else if (best == 1) shade__push_avx2(d, run, runs);
+         if (best == 3) shade__push_avx512(d, run, runs);
+         else if (best == 2) shade__push_avx2(d, run, runs);
+         else if (best == 1) shade__push_sse41(d, run, runs);
          else shade__push_any(d, run, runs);
      }
 
    Elsewhere shade__push calls shade__push_any, the only build.  Tests define SHADE__LEVEL as an int
-   expression, 0, 1 or 2, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
+   expression, 0 to 3, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
 #ifndef SHADE__TILE_TESTED
 #define SHADE__TILE_TESTED() ((void)0)
 #endif
@@ -1622,7 +1627,8 @@ typedef uint32_t shade__word;
 #else
 #define SHADE__LEVEL \
     (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
-     __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
+     __builtin_cpu_supports("avx512dq") ? 3 : __builtin_cpu_supports("avx2") ? 2 : \
+     __builtin_cpu_supports("sse4.1") ? 1 : 0)
 #endif
 #endif
 #ifdef SHADE__ASK_PROCESSOR
@@ -1634,13 +1640,15 @@ SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
     return ebx;
 }
 
-/* The build for a processor, 0, 1 or 2 as in SHADE__LEVEL.  features is EBX of leaf 7, saved is
-   XCR0, the registers that the operating system saves.  AVX-512 needs the features AVX2, F, DQ, BW
-   and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit vectors.     [Intel25] */
-SHADE__INLINE int shade__build_for(uint32_t features, uint32_t saved)
+/* The build for a processor, 0 to 3 as in SHADE__LEVEL.  basic is ECX of leaf 1, features is EBX of
+   leaf 7, and saved is XCR0, the registers that the operating system saves.  AVX-512 needs the
+   features AVX2, F, DQ, BW and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit
+   vectors; SSE4.1 is bit 19 of basic.                                                [Intel25] */
+SHADE__INLINE int shade__build_for(uint32_t basic, uint32_t features, uint32_t saved)
 {
-    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 2;
-    return (features & 0x20) && !(~saved & 6);
+    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 3;
+    if ((features & 0x20) && !(~saved & 6)) return 2;
+    return basic >> 19 & 1;
 }
 
 /* 1 + the build, or 0 before the first call: the only variable of the library.  In a virtual
@@ -1651,11 +1659,11 @@ static int shade__known_build;
    so leaf 7. */
 static SHADE__COLD int shade__ask_processor(void)
 {
-    uint32_t ecx, edx, saved = 0, features = shade__cpuid(7, &ecx);
+    uint32_t basic, edx, saved = 0, features = shade__cpuid(7, &basic);
     int best;
-    shade__cpuid(1, &ecx);
-    if (ecx >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
-    best = shade__build_for(features, saved);
+    shade__cpuid(1, &basic);
+    if (basic >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
+    best = shade__build_for(basic, features, saved);
     __atomic_store_n(&shade__known_build, best + 1, __ATOMIC_RELAXED);
     return best;
 }
@@ -1673,26 +1681,34 @@ SHADE__INLINE int shade__best_build(void)
 #define SHADE__AVX512 \
     __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
-#define SHADE__CALL_BEST(name, for_avx512, parameters, arguments, body) \
+#define SHADE__CALL_BEST(name, for_sse41, for_avx512, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
     SHADE__BUILD(name##_avx2, __attribute__((target("avx2"))), 8, parameters, body) \
     static void name parameters \
     { \
         const int best = SHADE__LEVEL; \
-        if (best == 2) for_avx512 arguments; \
-        else if (best == 1) name##_avx2 arguments; \
+        if (best == 3) for_avx512 arguments; \
+        else if (best == 2) name##_avx2 arguments; \
+        else if (best == 1) for_sse41 arguments; \
         else name##_any arguments; \
     }
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
+    SHADE__BUILD(name##_sse41, __attribute__((target("sse4.1"))), SHADE__ANY_WIDTH, parameters, \
+                 body) \
     SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
-    SHADE__CALL_BEST(name, name##_avx512, parameters, arguments, body)
-/* For loops that AVX-512 makes no faster: the AVX2 build serves in place of a third. */
+    SHADE__CALL_BEST(name, name##_sse41, name##_avx512, parameters, arguments, body)
+/* For loops that SSE4.1 makes no faster: the build for any processor serves in its place. */
+#define SHADE__DISPATCH_AVX(name, parameters, arguments, body) \
+    SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
+    SHADE__CALL_BEST(name, name##_any, name##_avx512, parameters, arguments, body)
+/* For loops that AVX-512 makes no faster either: the AVX2 build serves in its place. */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments, body) \
-    SHADE__CALL_BEST(name, name##_avx2, parameters, arguments, body)
+    SHADE__CALL_BEST(name, name##_any, name##_avx2, parameters, arguments, body)
 #else
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
     static void name parameters { name##_any arguments; }
+#define SHADE__DISPATCH_AVX SHADE__DISPATCH
 #define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
 
@@ -2768,10 +2784,10 @@ SHADE__INLINE int shade__points(int n, int width)
     return shade__max(n & -(int)SHADE__POINT, SHADE__POINT);
 }
 
-SHADE__DISPATCH(shade__arrive,
-                (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
-                (lamp, point, n, a),
-                shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
+SHADE__DISPATCH_AVX(shade__arrive,
+                    (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
+                    (lamp, point, n, a),
+                    shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
 
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount)
@@ -3336,10 +3352,10 @@ SHADE__INLINE void shade__lit_rows_body(const shade__surface *s, const shade_row
     shade__viewer(point, s->eye, n, &r.to_eye);
     for (int k = 0; k < s->lamps; k++) shade__add_lamp(k, n, &r, rgb);
 }
-SHADE__DISPATCH(shade__lit_rows,
-                (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
-                (s, rows, n, rgb),
-                shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
+SHADE__DISPATCH_AVX(shade__lit_rows,
+                    (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
+                    (s, rows, n, rgb),
+                    shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
 
 static void shade__lit_packet(const shade__surface *s, const shade_rows *rows, float *rgb)
 {
@@ -4959,8 +4975,8 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     runs->next = i;
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
-SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
-                (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
+SHADE__DISPATCH_AVX(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
+                    (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
 /* Draws all triangles of the setup.  The three functions are called one after the other to save
    stack; the last one can draw any triangle. */
@@ -5469,19 +5485,44 @@ SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, const uint32_
                              shade__texel(below[0], l, k), shade__texel(below[1], l, k), x, y);
 }
 
-/* Blends all channels of packed texels. */
-SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits texel, shade__out red,
-                                       shade__out green, shade__out blue, shade__out alpha)
+/* Blends the colours of a block of packed texels. */
+SHADE__INLINE void shade__blend_colors(const shade__layout *l, shade__in_bits above,
+                                       shade__in_bits below, shade__in x, shade__in y,
+                                       shade__out rgb)
 {
-    const uint32_t *second = texel + 2 * SHADE_LANES;
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const uint32_t *a = above + 2 * i, *b = below + 2 * i;
+        rgb[i] = shade__bilinear(l, 0, a, b, x[i], y[i]);
+        rgb[i + SHADE_LANES] = shade__bilinear(l, 1, a, b, x[i], y[i]);
+        rgb[i + 2 * SHADE_LANES] = shade__bilinear(l, 2, a, b, x[i], y[i]);
+    }
+}
+
+/* Blends their alpha, which is 1 where all texels are opaque: bilinear textures gain 2 to 7 %. */
+SHADE__INLINE void shade__blend_alpha(const shade__layout *l, shade__in_bits above,
+                                      shade__in_bits below, shade__in x, shade__in y,
+                                      shade__out alpha)
+{
+    const uint32_t full = (uint32_t)l->full[3] << shade__shift(l, 3);
+    uint32_t opaque = full;
+    SHADE__FOR(i, 2 * SHADE__BLOCK) { opaque &= above[i] & below[i]; }
+    if (opaque == full) {
+        SHADE__FOR(i, SHADE__BLOCK) { alpha[i] = 1; }
+        return;
+    }
+    SHADE__FOR(i, SHADE__BLOCK) {
+        alpha[i] = shade__bilinear(l, 3, above + 2 * i, below + 2 * i, x[i], y[i]);
+    }
+}
+
+/* Blends all channels of packed texels. */
+SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits texel, shade__out out)
+{
     const shade__layout l = *r->layout;
-    SHADE__EACH_BLOCK(i, r->blocks) {
-        const uint32_t *above = texel + 2 * i, *below = second + 2 * i;
-        const float x = r->x.f[i], y = r->y.f[i];
-        red[i] = shade__bilinear(&l, 0, above, below, x, y);
-        green[i] = shade__bilinear(&l, 1, above, below, x, y);
-        blue[i] = shade__bilinear(&l, 2, above, below, x, y);
-        alpha[i] = shade__bilinear(&l, 3, above, below, x, y);
+    for (int b = 0; b < r->blocks * SHADE__BLOCK; b += SHADE__BLOCK) {
+        const uint32_t *above = texel + 2 * b, *below = above + 2 * SHADE_LANES;
+        shade__blend_colors(&l, above, below, r->x.f + b, r->y.f + b, out + b);
+        shade__blend_alpha(&l, above, below, r->x.f + b, r->y.f + b, out + b + 3 * SHADE_LANES);
     }
 }
 
@@ -5599,8 +5640,7 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
     }
     shade__fetch(r, 1, 0, texel + 2 * SHADE_LANES);
     if (!encoded) {
-        shade__blend_packed(r, texel, to, to + SHADE_LANES, to + 2 * SHADE_LANES,
-                            to + 3 * SHADE_LANES);
+        shade__blend_packed(r, texel, to);
         return;
     }
     for (int i = 0; i < blocks * SHADE__BLOCK; i += SHADE__BLOCK)
@@ -5741,6 +5781,21 @@ SHADE__INLINE void shade__pack_channels(const shade__layout *layout, shade__in r
     }
 }
 
+/* Packs linear colours into bytes.  For BGRA8 red and blue change places instead of their shifts,
+   which so are constants: a flat fill in cache gains 3 to 6 %. */
+SHADE__INLINE void shade__pack_linear(const shade__layout *layout, shade__in rgba,
+                                      shade__out_bits packed, int blocks)
+{
+    const shade__layout *l = &shade__layouts[SHADE_FORMAT_RGBA8];
+    const int low = layout->shift[0] / 8 * SHADE_LANES, high = 2 * SHADE_LANES - low;
+    SHADE__EACH_BLOCK(i, blocks) {
+        packed[i] = shade__pack_channel(rgba[i + low], l, 0, 0.5f) |
+                    shade__pack_channel(rgba[i + SHADE_LANES], l, 1, 0.5f) |
+                    shade__pack_channel(rgba[i + high], l, 2, 0.5f) |
+                    shade__pack_channel(rgba[i + 3 * SHADE_LANES], l, 3, 0.5f);
+    }
+}
+
 /* Packs colours as sRGB, and alpha, into bytes. */
 SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba,
                                      shade__out_bits packed, int blocks)
@@ -5779,8 +5834,9 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const fl
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (l->bytes == 16) return;
 
-    if (encoded && l->bytes == 4) {
-        shade__pack_bytes(l, rgba, packed, blocks);
+    if (l->bytes == 4) {
+        if (encoded) shade__pack_bytes(l, rgba, packed, blocks);
+        else shade__pack_linear(l, rgba, packed, blocks);
         return;
     }
     if (encoded)
@@ -7217,24 +7273,35 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
 /*------------------------------------------------------------------------------------------ >>shape
    The shape of a mesh: normals of vertices and corners, edges, its box, and the view that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
-     way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
-             sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
+     way     mesh_normals: sum_normals: load_faces; find_faces: find_edge, find_wedge,
+             find_angle; add_face.
+             mesh_corner_normals: sort_corners, triangle_normal, corner_angle.
+             mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
              box_visible: frustum_of and in_view of >>seen.
              mat4_fit: camera_of, frame_of, step_back
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
+
+#define SHADE__TAN 0.4142135623730951    /* of pi/8 */
+
+/* atan(s) for |s| <= tan(pi/8) */
+SHADE__INLINE double shade__arc(double s)
+{
+    double a = 0;
+    SHADE__UNROLL_16 for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
+    return a * s;
+}
 
 /* atan2(y, x) for y >= 0, within 1e-9.  atan q = pi/4 + atan((q - 1) / (q + 1)) keeps the argument
    of the series below tan(pi/8). */
 static double shade__angle(double y, double x)
 {
     const double quarter = 0.78539816339744830962;
-    double ax = x < 0 ? -x : x, t, s, a = 0;
+    double ax = x < 0 ? -x : x, t, s, a;
     if (!(ax + y > 0)) return 0;
     t = (y - ax) / (y + ax);
-    s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
-    for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
-    a = a * s + (t < -0.4142135623730951 ? 0 : t > 0.4142135623730951 ? 2 * quarter : quarter);
+    s = t < -SHADE__TAN ? y / ax : t > SHADE__TAN ? -ax / y : t;
+    a = shade__arc(s) + (t < -SHADE__TAN ? 0 : t > SHADE__TAN ? 2 * quarter : quarter);
     return x < 0 ? 4 * quarter - a : a;
 }
 
@@ -7322,6 +7389,160 @@ static shade_result shade__check_range(const shade_mesh *m, const shade_chunk *c
     return shade__check_indices(shade__indices_of(m), 3 * c->first, 3 * c->count, m->vertex_count);
 }
 
+/* Faces in lanes.  Edge k goes from corner k to the next, and wedge k lies between it and the edge
+   that comes to the corner.  Rows of vectors are x, y, z. */
+typedef struct shade__wedge {
+    float normal[3][SHADE__BLOCK];    /* unit */
+    float sine[SHADE__BLOCK], cosine[SHADE__BLOCK];
+    float angle[SHADE__BLOCK];        /* in radians */
+} shade__wedge;
+
+typedef struct shade__faces {
+    float corner[3][3][SHADE__BLOCK];
+    float edge[3][3][SHADE__BLOCK];    /* unit; zero where the lane is odd */
+    shade__wedge wedge[3];
+    uint32_t odd[SHADE__BLOCK];        /* all ones: too short, long or slim for these loops */
+} shade__faces;
+
+/* The square root, rounded to the nearest float as sqrtf does it.  One step of Newton for 1/sqrt(x)
+   and one for the root leave less than 2^-52; no root of a float is nearer than 2^-51 to the middle
+   between two floats.   pre: x is normal */
+SHADE__INLINE float shade__sqrt_normal(float x)
+{
+    const double d = (double)x;
+    double y = (double)shade__rsqrt_normal(x), root;
+    y *= 1.5 - 0.5 * d * y * y;
+    root = d * y;
+    return (float)(root + 0.5 * y * (d - root * root));
+}
+
+/* The length of a vector with this sum of squares.  Outside of least .. 1e38, and for NaN, it is 1,
+   and the lane is odd. */
+SHADE__INLINE float shade__length_of(float squares, float least, uint32_t *odd)
+{
+    *odd = shade__mask(squares < least) | shade__mask(!shade__within(squares, 1e38f));
+    return shade__sqrt_normal(shade__select(squares, 1, *odd));
+}
+
+/* The edge from p to q, by the roundings of shade_normalize. */
+SHADE__INLINE void shade__find_edge(float (*SHADE_RESTRICT p)[SHADE__BLOCK],
+                                    float (*SHADE_RESTRICT q)[SHADE__BLOCK],
+                                    float (*SHADE_RESTRICT edge)[SHADE__BLOCK],
+                                    shade__out_bits odd)
+{
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const float x = q[0][i] - p[0][i], y = q[1][i] - p[1][i], z = q[2][i] - p[2][i];
+        uint32_t bad;
+        const float scale = 1 / shade__length_of(x * x + y * y + z * z, 1e-36f, &bad);
+        edge[0][i] = shade__keep(x * scale, ~bad);
+        edge[1][i] = shade__keep(y * scale, ~bad);
+        edge[2][i] = shade__keep(z * scale, ~bad);
+        odd[i] |= bad;
+    }
+}
+
+/* The wedge at a corner: its normal by the roundings of shade_face_normal, sine and cosine by those
+   of shade__corner_angle, up to the signs of zeros. */
+SHADE__INLINE void shade__find_wedge(float (*SHADE_RESTRICT to)[SHADE__BLOCK],
+                                     float (*SHADE_RESTRICT from)[SHADE__BLOCK], float least,
+                                     shade__wedge *SHADE_RESTRICT w, shade__out_bits odd)
+{
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const float x = to[1][i] * from[2][i] - to[2][i] * from[1][i];
+        const float y = to[2][i] * from[0][i] - to[0][i] * from[2][i];
+        const float z = to[0][i] * from[1][i] - to[1][i] * from[0][i];
+        uint32_t bad;
+        const float length = shade__length_of(x * x + y * y + z * z, least, &bad);
+        const float scale = 1 / length;
+        w->normal[0][i] = x * scale;
+        w->normal[1][i] = y * scale;
+        w->normal[2][i] = z * scale;
+        w->sine[i] = length;
+        w->cosine[i] = -(to[0][i] * from[0][i] + to[1][i] * from[1][i] + to[2][i] * from[2][i]);
+        odd[i] |= bad;
+    }
+}
+
+/* b where x has its sign set, else a.  SSE2 compares no integers of 64 bits. */
+SHADE__INLINE double shade__by_sign(double a, double b, double x)
+{
+    const uint64_t mask = 0u - (shade__double_bits(x) >> 63), bits = shade__double_bits(a);
+    return shade__bits_double(bits ^ ((bits ^ shade__double_bits(b)) & mask));
+}
+
+/* shade__angle, by the same roundings. */
+SHADE__INLINE void shade__find_angle(shade__wedge *SHADE_RESTRICT w)
+{
+    const double quarter = 0.78539816339744830962;
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const double x = (double)w->cosine[i], y = (double)w->sine[i], ax = shade__abs(x);
+        const double t = (y - ax) / (y + ax);
+        const double low = t + SHADE__TAN, high = SHADE__TAN - t;    /* < 0: t is low, high */
+        const double over = shade__by_sign(shade__by_sign(y - ax, y, low), -ax, high);
+        const double under = shade__by_sign(shade__by_sign(y + ax, ax, low), y, high);
+        const double from = shade__by_sign(shade__by_sign(quarter, 0, low), 2 * quarter, high);
+        const double a = shade__arc(over / under) + from;
+        w->angle[i] = (float)shade__by_sign(a, 4 * quarter - a, x);
+    }
+}
+
+/* Finds all of the faces from their corners.  A face whose sine at corner 0 is above 1e-5 has area,
+   because the roundings of edges turn them by less than 1e-6. */
+SHADE__INLINE void shade__find_faces_body(shade__faces *f)
+{
+    SHADE__FOR(i, SHADE__BLOCK) { f->odd[i] = 0; }
+    for (int k = 0; k < 3; k++)
+        shade__find_edge(f->corner[k], f->corner[k < 2 ? k + 1 : 0], f->edge[k], f->odd);
+    shade__find_wedge(f->edge[2], f->edge[0], 1e-10f, &f->wedge[0], f->odd);
+    shade__find_wedge(f->edge[0], f->edge[1], 1e-36f, &f->wedge[1], f->odd);
+    shade__find_wedge(f->edge[1], f->edge[2], 1e-36f, &f->wedge[2], f->odd);
+    for (int k = 0; k < 3; k++) shade__find_angle(&f->wedge[k]);
+}
+SHADE__DISPATCH_AVX2(shade__find_faces, (shade__faces *f), (f), shade__find_faces_body(f))
+
+/* Loads n faces from t on.  The other lanes repeat the first. */
+static void shade__load_faces(const shade_mesh *m, uint32_t t, int n, shade__faces *f)
+{
+    for (int i = 0; i < SHADE__BLOCK; i++) {
+        const uint32_t first = 3 * (t + (uint32_t)(i < n ? i : 0));
+        for (uint32_t k = 0; k < 3; k++) {
+            const shade_vec3 p = shade__corner(m, first + k);
+            f->corner[k][0][i] = p.x;
+            f->corner[k][1][i] = p.y;
+            f->corner[k][2][i] = p.z;
+        }
+    }
+}
+
+/* Adds face t, which is lane i, to the sums of its vertices. */
+static void shade__add_face(const shade_mesh *m, uint32_t t, const shade__faces *f, int i,
+                            shade_vec3 *normals)
+{
+    const shade__wedge *w = f->wedge;
+    shade_vec3 n = shade_v3(w->normal[0][i], w->normal[1][i], w->normal[2][i]);
+    if (f->odd[i]) n = shade__triangle_normal(m, t);
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t corner = 3 * t + k;
+        const float angle = f->odd[i] ? shade__corner_angle(m, corner) : w[k].angle[i];
+        shade_vec3 *sum = &normals[shade__corner_index(m, corner)];
+        *sum = shade_madd(*sum, angle, n);
+    }
+}
+
+/* Sums the faces around each vertex, weighted by their angles.  Lanes take a third of the time of
+   one face after another with SSE2, a fifth with AVX2. */
+static void shade__sum_normals(const shade_mesh *m, shade_vec3 *normals)
+{
+    const int count = shade__corner_count(m) / 3;
+    SHADE_ALIGNED shade__faces faces;
+    for (int t = 0; t < count; t += SHADE__BLOCK) {
+        const int n = shade__min(count - t, SHADE__BLOCK);
+        shade__load_faces(m, (uint32_t)t, n, &faces);
+        shade__find_faces(&faces);
+        for (int i = 0; i < n; i++) shade__add_face(m, (uint32_t)(t + i), &faces, i, normals);
+    }
+}
+
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
@@ -7331,15 +7552,10 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     bytes = (size_t)mesh->vertex_count * sizeof *normals;
     result = shade__check_outs(mesh, shade__array(normals, bytes), shade__array(NULL, 0));
     if (result) return result;
+
     SHADE_MEMSET(normals, 0, bytes);
-    for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
-        shade_vec3 n = shade__triangle_normal(mesh, t);
-        for (uint32_t k = 3 * t; k < 3 * t + 3; k++) {
-            shade_vec3 *sum = &normals[shade__corner_index(mesh, k)];
-            *sum = shade_madd(*sum, shade__corner_angle(mesh, k), n);
-        }
-    }
-    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade__unit_vector(normals[i]);
+    shade__sum_normals(mesh, normals);
+    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
     return SHADE_OK;
 }
 
