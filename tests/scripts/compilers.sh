@@ -235,7 +235,7 @@ program "zig cc" "" C "$zig" cc -ffp-contract=off
 program "zig cc, C++" "" C++ "$zig" cc -ffp-contract=off -fno-sanitize=function
 program "zig cc for Windows" "$wine" C "$zig" cc -target x86_64-windows-gnu
 
-# Each program runs the loops that are built for its processor: it tells the level of them, 0 to 2.
+# Each program runs the loops that are built for its processor: it tells the level of them, 0 to 3.
 # gcc's and clang's libraries answer as the processor itself does; qemu's and valgrind's processors
 # have less.  zig builds for this processor unless it is told.
 level= compiled=
@@ -264,10 +264,10 @@ if [ "$(uname -m)" = x86_64 ]; then
     processor "gcc" "" "" gcc $own
     processor "gcc, its library" "" "" gcc -DHAS_CPU_MODEL
     processor "clang" "" "" clang $own
-    for cpu in Nehalem:0 SandyBridge:0 Haswell:1; do
+    for cpu in Conroe:0 Penryn:1 Nehalem:1 SandyBridge:1 Haswell:2; do
         processor "${cpu%:*}" "qemu-x86_64 -cpu ${cpu%:*}" "level ${cpu#*:}" gcc -static $own
     done
-    processor "valgrind" "valgrind -q --error-exitcode=9" "level 1" gcc -g $own
+    processor "valgrind" "valgrind -q --error-exitcode=9" "level 2" gcc -g $own
     processor "zig cc" "" "" "$zig" cc
     processor "zig cc for musl" "" "" "$zig" cc -target x86_64-linux-musl
     processor "zig cc for old glibc" "" "" "$zig" cc -target x86_64-linux-gnu.2.17
