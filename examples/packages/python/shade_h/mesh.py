@@ -15,6 +15,7 @@ from ._native import (Array, Bytes, Chunk, Doubles, Edge, Error, Floats, Indices
 from ._native import Mesh as NativeMesh
 from .annotate import NONE, Bar, bar_of, sampled
 from .camera import UPRIGHT
+from .others import parts_of
 from .cloud import balls
 from .light import Material
 
@@ -270,6 +271,8 @@ class Mesh:
         """Colours by face of numbers by face; of numbers by vertex the place in a map, so that they
         are mixed before they become colours, and the surfaces with the map."""
         got = arguments.array("scalars", scalars, (None,)).astype(np.float64)
+        if np.isinf(got).any() and not np.isfinite(got).any() and options[1] is None:
+            raise Error("scalars must have a finite number, or clim: all are infinite")
         count, faces = len(self.local), len(self.faces)
         if len(got) not in (count, rows, faces):
             raise Error(f"scalars must have a number for each of {count} vertices or {rows} faces, "
@@ -530,13 +533,13 @@ def is_file(value: object) -> bool:
 
 def mesh(value: Like, **options: Any) -> Mesh:
     """Makes a Mesh of a path, of a pair (vertices, faces), of an object with .vertices and .faces
-    (trimesh), or of one with .tessellate (cadquery, build123d); of points alone, (n, 3), small
-    balls.  options are those of Mesh."""
+    (trimesh), of a mesh of PyVista, VTK, meshio or Open3D, or of one with .tessellate (cadquery,
+    build123d); of points alone, (n, 3), small balls.  options are those of Mesh."""
     if isinstance(value, Mesh) and not options:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
-    if is_file(value):
+    if is_file(value) and not hasattr(value, "cells"):    # a meshio.Mesh has read() too
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
@@ -544,7 +547,13 @@ def mesh(value: Like, **options: Any) -> Mesh:
     if isinstance(value, np.ndarray) and value.ndim == 2:
         corners, triangles, more = balls(value, options)
         return Mesh(corners, triangles, **more)
-    shape = value.val() if callable(getattr(value, "val", None)) else value
+    given = {k: v for k, v in options.items() if v is not None}
+    parts = parts_of(value)
+    if parts is not None:
+        look = {} if "color" in given or "texture" in given else parts[2]
+        return Mesh(parts[0], parts[1], **{**look, **given})
+    other: Any = value
+    shape = other.val() if callable(getattr(other, "val", None)) else other
     faces = getattr(shape, "faces", None)
     if callable(getattr(shape, "tessellate", None)) and (faces is None or callable(faces)):
         vertices, faces = shape.tessellate(0.1)
@@ -553,6 +562,5 @@ def mesh(value: Like, **options: Any) -> Mesh:
         raise Error("mesh must have .vertices and .faces, or be (vertices, faces) or a path, "
                     f"not {arguments.shown(value)}")
     count = len(np.asarray(shape.vertices)), len(np.asarray(faces))
-    given = {k: v for k, v in options.items() if v is not None}
     extra = {} if "color" in given or "texture" in given else _visual(shape, count)
     return Mesh(shape.vertices, faces, **{**extra, **given})
