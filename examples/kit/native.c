@@ -14,6 +14,7 @@
 #include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/kit/scene/renderer.h"
+#include "examples/kit/scene/deform.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
 #include "examples/shared/label.h"
@@ -956,6 +957,14 @@ int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh,
                       const double *origin)
 {
     return renderer_set_mesh(scene, number, mesh, smooth, origin);
+}
+
+/* 1: done, 0: out of memory, -1: the mesh has other counts, -2: a position is not finite */
+NATIVE(scene_deform)
+int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m);
+int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m)
+{
+    return renderer_deform(scene, number, m);
 }
 
 NATIVE(scene_texture)

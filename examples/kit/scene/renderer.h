@@ -139,6 +139,8 @@ typedef struct renderer_scene {
     renderer_around around;
     int *users;  /* of meshes, textures and objects: the scene, and pictures being drawn */
     int version; /* counts changes of meshes and textures */
+    renderer_shape *spares; /* of meshes that move: see deform.h */
+    int spare_count;
     struct renderer_scene *held; /* what pictures show until a change of several steps is done */
 } renderer_scene;
 
@@ -508,6 +510,8 @@ static inline void renderer_scene_close(renderer_scene *s)
     if (!s->borrowed) renderer_shape_free(&s->box);
     if (!s->borrowed) renderer_shape_free(&s->plane);
     renderer_lock();
+    for (int i = 0; i < s->spare_count; i++) renderer_shape_free(&s->spares[i]);
+    free(s->spares);
     renderer_let_go(s);
     renderer_unlock();
     free(s);
@@ -647,6 +651,7 @@ static inline int renderer_set_mesh(renderer_scene *scene, int number, const sha
     if (all) {
         scene->meshes = all;
         renderer_shape_free(&all[number]);
+        if (number < scene->spare_count) renderer_shape_free(&scene->spares[number]);
         if (m && origin) memcpy(s.origin, origin, sizeof s.origin);
         all[number] = s;
         scene->version++;

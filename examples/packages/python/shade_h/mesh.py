@@ -40,6 +40,26 @@ def _box(points: Doubles) -> tuple[Doubles, Doubles]:
     return (some.min(0), some.max(0)) if len(some) else (np.zeros(3), np.zeros(3))
 
 
+def used_of(rows: Array, faces: Array) -> Array:
+    """The rows that faces have; not of those alone that have two corners at one place, which cannot
+    be seen."""
+    used = np.zeros(len(rows), bool)
+    at = np.ascontiguousarray(rows, np.float64)
+    library.python_seen(pointer(at), pointer(faces), faces.size, pointer(used))
+    out: Array = rows if used.all() else rows[used]
+    return out
+
+
+def counted(exact: Array, faces: Array) -> tuple[Array, Doubles]:
+    """Vertices as they count from an origin, and that: zero but for doubles far away."""
+    origin = np.zeros(3)
+    if exact.dtype.itemsize > 4 and len(exact):
+        exact = exact.astype(np.float64)
+        origin = origin_of(*_box(used_of(exact, faces) if len(faces) else exact))
+        exact = exact - origin if origin.any() else exact
+    return exact, origin
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
@@ -176,10 +196,7 @@ class Mesh:
         self.faces = arguments.faces("faces", _listed(faces), len(exact))
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
-        if exact.dtype.itemsize > 4 and len(exact):
-            exact = exact.astype(np.float64)
-            self.origin = origin_of(*_box(self._used(exact) if len(self.faces) else exact))
-            exact = exact - self.origin if self.origin.any() else exact
+        exact, self.origin = counted(exact, self.faces)
         self.local = arguments.floats("vertices", exact, (None, 3))
         lost = _not_finite(self.local)[self.faces].any(1).sum()
         if lost:
@@ -398,13 +415,7 @@ class Mesh:
         return out
 
     def _used(self, rows: Array) -> Array:
-        """The rows that faces have; not of those alone that have two corners at one place, which
-        cannot be seen."""
-        used = np.zeros(len(rows), bool)
-        at = np.ascontiguousarray(rows, np.float64)
-        library.python_seen(pointer(at), pointer(self.faces), self.faces.size, pointer(used))
-        out: Array = rows if used.all() else rows[used]
-        return out
+        return used_of(rows, self.faces)
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what points into this mesh."""

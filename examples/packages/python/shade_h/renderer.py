@@ -14,11 +14,11 @@ import numpy as np
 
 from . import _arguments as arguments
 from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Image, Integers,
-                      Light as NativeLight, Mesh as NativeMesh, check, interruptible, library, pointer)
+                      Light as NativeLight, Mesh as NativeMesh, Moved, check, interruptible, library, pointer)
 from .annotate import display
 from .camera import Camera
 from .light import Light, lamps_of
-from .mesh import Mesh, mesh as as_mesh
+from .mesh import Mesh, counted, mesh as as_mesh
 from .picture import Picture
 
 #: The shapes that are made once for all scenes, and the numbers that their size is.
@@ -112,6 +112,7 @@ class Shape:
         self.number, self.records, self.world = number, records, world
         self.textures: list[int] = []    # those that came with it
         self.source: tuple[Any, ...] = ()    # what update() makes it of; (): it was removed
+        self.quick: tuple[Array, int] | None = None    # faces and vertices, where these alone can be moved
 
     @property
     def count(self) -> int:
@@ -256,6 +257,7 @@ class Renderer:
         self._world = _World()
         self._meshes: dict[int, tuple[Any, ...]] = {}      # what they were made of, by their numbers
         self._textures: dict[int, tuple[Any, ...]] = {}    # where the library has them, and as what
+        self._moved: dict[int, tuple[Any, ...]] = {}       # those whose vertices are others by now
         self._next_texture = 0
         self._shown: dict[int, tuple[str | Shape, dict[str, Any]]] = {}    # objects, as add() took them
         self._owned: set[int] = set()    # textures that came with shapes
@@ -299,6 +301,10 @@ class Renderer:
         shape = self._keep_mesh(number, made.positions, made.normals, made.uv, colors, made.indices,
                                 origin=made.origin)
         shape.source = source
+        kind = source[2]
+        flat = isinstance(kind, str) and kind == "flat"
+        if not source[0] and made.normals is not None and (flat or made.positions is made.local):
+            shape.quick = made.faces, len(made.local)
         pieces = [piece for piece in made.pieces if piece.count]
         if source[0] and pieces:
             known: dict[Any, int] = {}
@@ -353,6 +359,7 @@ class Renderer:
                                          pointer(origin)):
             raise MemoryError("memory is not enough for the mesh")
         self._meshes[number] = *kept, corners, smooth, origin
+        self._moved.pop(number, None)
         records = _PLAIN.copy()
         records["mesh"], records["count"] = number, corners.size // 3
         return Shape(number, records, self._world)
@@ -386,12 +393,45 @@ class Renderer:
         """Gives a shape other vertices, and what else is not None; the rest stays as mesh() was given
         it.  A shape of a Mesh takes another Mesh, ground takes heights.  Its objects show it."""
         self._known(shape)
+        if faces is None and uv is None and colors is None and self._move(shape, vertices, normals):
+            return
         if not library.python_scene_hold(self._scene.handle):
             raise MemoryError("memory is not enough for the mesh")
         try:
             self._put_shape(shape, vertices, (faces, normals, uv, colors))
         finally:
             library.python_scene_done(self._scene.handle)
+
+    def _move(self, shape: Shape, vertices: Any, normals: Any) -> bool:
+        """Moves the vertices of a shape, where nothing else of it changes."""
+        kind = shape.source[2] if normals is None and len(shape.source) > 2 else normals
+        if shape.quick is None or isinstance(kind, str) != isinstance(shape.source[2], str) or \
+                isinstance(kind, str) and kind != shape.source[2]:
+            return False
+        faces, rows = shape.quick
+        exact = arguments.array("vertices", vertices, (None, 3))
+        if len(exact) != rows:
+            return False
+        local, origin = counted(exact, faces)
+        at = np.ascontiguousarray(local, np.float32)
+        moved = Moved(pointer(at), None, pointer(faces), len(at), faces.size,
+                      2 if not isinstance(kind, str) else int(kind == "smooth"), 0, (ctypes.c_double * 3)(*origin))
+        if moved.normals == 2:
+            given = arguments.floats("normals", kind, at.shape)
+            mesh = NativeMesh(positions=pointer(at), vertex_count=len(at), indices=pointer(faces),
+                              index_count=faces.size)
+            check(library.python_direct_normals(ctypes.byref(mesh), pointer(given)), "normals")
+            moved.given = pointer(given)
+        done = library.python_scene_deform(self._scene.handle, shape.number, ctypes.byref(moved))
+        if done == -2:
+            raise Error("vertices must hold finite numbers that fit float32")
+        if done == 0:
+            raise MemoryError("memory is not enough for the mesh")
+        if done > 0:
+            self._moved[shape.number] = shape, np.array(vertices)
+            if normals is not None:
+                shape.source = (*shape.source[:2], _own(normals), *shape.source[3:])
+        return bool(done > 0)
 
     def _put_shape(self, shape: Shape, vertices: object, others: tuple[Any, ...]) -> None:
         if len(shape.source) == 1:
@@ -401,8 +441,9 @@ class Renderer:
             if shape.source[0] and not _is_whole(vertices, given[0]):
                 raise Error("vertices must be a Mesh: the shape was made of one")
             made = self._shape(self._made_of(vertices, *given), (_is_whole(vertices, given[0]), *given), shape.number)
-        gone, shape.records, shape.textures, shape.source = \
-            shape.textures, made.records, made.textures, made.source
+        gone = shape.textures
+        shape.records, shape.textures, shape.source, shape.quick = \
+            made.records, made.textures, made.source, made.quick
         for number in [n for n, (of, _) in self._shown.items() if of is shape]:
             self._put(number, self._dressed(number, *self._shown[number]))
         self._drop(gone)
@@ -673,6 +714,7 @@ class Renderer:
             raise Error(f"what: object {shown[0]} shows the shape; remove that before")
         library.python_scene_mesh(self._scene.handle, what.number, None, 0, None)
         del self._meshes[what.number]
+        self._moved.pop(what.number, None)
         what.source = ()
         self._drop(what.textures)
 
@@ -710,7 +752,7 @@ class Renderer:
                 self._set_behind(background=self._behind[4])
         finally:
             library.python_scene_done(self._scene.handle)
-        self._shown, self._meshes, self._world = {}, {}, _World()
+        self._shown, self._meshes, self._moved, self._world = {}, {}, {}, _World()
         self._scene.rest()
 
     def _set_records(self, records: Array) -> None:
@@ -885,6 +927,8 @@ class Renderer:
     @_changes
     def __getstate__(self) -> dict[str, Any]:
         """All but what the library holds."""
+        for shape, vertices in list(self._moved.values()):
+            self._put_shape(shape, vertices, (None, None, None, None))
         state = {k: v for k, v in self.__dict__.items() if k not in ("_scene", "_change")}
         next_object = library.python_scene_next(self._scene.handle, 0)
         return {**state, "records": self._scene.records(), "next_object": next_object}
