@@ -16,6 +16,7 @@
 # make course        pages and slides of the courses alone, and their slides with answers as PDF
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader of the assignments: solutions, wrong answers, what holds programs
+# make project       tries the judge of the project: solutions, starters, mistakes, what students get
 # make dist          the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install       header, programs, man pages, completions for bash, thumbnailer and types
 #                    below PREFIX in DESTDIR; make uninstall removes them;
@@ -146,6 +147,8 @@ course-zip:
 	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/teaching/course/build.sh
 assignments:
 	@sh examples/teaching/assignments/test/assignments.sh
+project:
+	@sh examples/teaching/project/test/project.sh
 coverage:
 	@sh tests/scripts/coverage.sh
 mutation:
@@ -222,7 +225,7 @@ uninstall:
 
 clean:
 	rm -rf build out dist
-.PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
+.PHONY: all pictures programs test assignments project course course-zip bench bench-plot matrix \
         conformance coverage mutation static lint format format-check prove fuzz gallery \
         playground vector-report findings dist install install-header uninstall clean
 .SECONDARY:

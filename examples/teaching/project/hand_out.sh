@@ -12,7 +12,7 @@ mkdir -p "$T/$P" "$T/$A/judge"
 cp shade.h LICENSE "$T"
 cp -R $P/*.md $P/check.py $P/judge $P/starter "$T/$P"
 cp $A/vectors.h "$T/$P/starter"
-cp $A/README.md $A/vectors.h $A/grade.py "$T/$A"
+cp $A/vectors.h $A/grade.py "$T/$A"
 for name in __init__.py points.py tools.py process.py room.py student.py student.c hold.c prototypes.h; do
     cp "$A/judge/$name" "$T/$A/judge" || exit 1
 done
