@@ -10,7 +10,7 @@ chmod 711 "$T"
 if there zip; then
     check "what students get is packed" sh $P/hand_out.sh "$T/project.zip"
     python3 -m zipfile -e "$T/project.zip" "$T/got"
-    check "no solution is in it" no find "$T/got" -name 'solution*' -o -name 'test' -o -name '[0-9][0-9]_*.py'
+    check "no solution is in it" same "$(find "$T/got" -name 'solution*' -o -name test -o -name '[0-9][0-9]_*.py')" ""
     check "the starter draws from the first minute" sh -c \
         "cd '$T/got/$P/starter' && ${MAKE:-make} -s pictures CC='${CC:-cc}' && test -s 6.png"
     check "what it draws is a PNG" python3 -c "
