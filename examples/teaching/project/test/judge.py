@@ -37,7 +37,7 @@ python = python or subprocess.run(["/usr/bin/python3", "-c", "import numpy"], ch
 if not python:
     print("left out  renderers in Python: no NumPy")
 for end in ("c", "py")[:1 + python]:
-    for seed in ("1", "5"):
+    for seed in ("1", "5")[:2 if end == "c" else 1]:
         for task, got in points(HERE / f"solution.{end}", seed).items():
             most = sum(case[0] for case in CASES[task])
             count(sum(score for score, _ in got) == most, f"solution.{end}, {task}: {got}")
