@@ -17,6 +17,7 @@
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader of the assignments: solutions, wrong answers, what holds programs
 # make project       tries the judge of the project: solutions, starters, mistakes, what students get
+# make questions     tries the bank of questions: answers, Moodle, QTI, sheets
 # make dist          the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install       header, programs, man pages, completions for bash, thumbnailer and types
 #                    below PREFIX in DESTDIR; make uninstall removes them;
@@ -149,6 +150,8 @@ assignments:
 	@sh examples/teaching/assignments/test/assignments.sh
 project:
 	@sh examples/teaching/project/test/project.sh
+questions:
+	@sh examples/teaching/questions/test/questions.sh
 coverage:
 	@sh tests/scripts/coverage.sh
 mutation:
@@ -225,7 +228,7 @@ uninstall:
 
 clean:
 	rm -rf build out dist
-.PHONY: all pictures programs test assignments project course course-zip bench bench-plot matrix \
+.PHONY: all pictures programs test assignments project questions course course-zip bench bench-plot matrix \
         conformance coverage mutation static lint format format-check prove fuzz gallery \
         playground vector-report findings dist install install-header uninstall clean
 .SECONDARY:

@@ -55,7 +55,7 @@ class Right:
     """The pictures that shade.h draws."""
 
     def __init__(self):
-        self.folder, self.known = tempfile.TemporaryDirectory(), {}  # pylint: disable=R1732
+        self.folder = tempfile.TemporaryDirectory()  # pylint: disable=R1732
         self.numbers, self.program = numbered(), os.path.join(self.folder.name, "right")
         made = subprocess.run(
             [*shlex.split(os.environ.get("CC", "cc")), "-std=gnu99", "-O1", "-w", f"-I{ROOT}",
@@ -66,15 +66,11 @@ class Right:
 
     def pictures(self, scene_list, mistake="NONE"):
         """Returns pictures of scenes, right ones or with a mistake, as codes of 255."""
-        key = mistake, id(scene_list)
-        if key not in self.known:
-            sent = b"".join(struct.pack(f"{1 + len(s)}f", self.numbers[mistake], *s)
-                            for s in scene_list)
-            got = subprocess.run([self.program], input=sent, stdout=subprocess.PIPE, check=True).stdout
-            size = 3 * WIDTH * HEIGHT
-            self.known[key] = [codes(struct.unpack_from(f"{size}f", got, 4 * size * k))
-                               for k in range(len(scene_list))]
-        return self.known[key]
+        sent = b"".join(struct.pack(f"{1 + len(s)}f", self.numbers[mistake], *s) for s in scene_list)
+        got = subprocess.run([self.program], input=sent, stdout=subprocess.PIPE, check=True).stdout
+        size = 3 * WIDTH * HEIGHT
+        return [codes(struct.unpack_from(f"{size}f", got, 4 * size * k))
+                for k in range(len(scene_list))]
 
 
 def codes(numbers):
