@@ -14,6 +14,9 @@
 #include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/kit/scene/renderer.h"
+#include "examples/kit/scene/deform.h"
+#include "examples/kit/core/camera.h"
+#include "examples/kit/core/color.h"
 #include "examples/shared/label.h"
 
 #ifndef NATIVE
@@ -836,6 +839,109 @@ int python_part_of(const model *m, int i, python_part *part)
     return m->part_count;
 }
 
+/* ---- arguments and cameras, of core/ --------------------------------------------------------- */
+
+NATIVE(color)
+int python_color(core_refusal *r, const char *argument, const char *word, double *rgb);
+int python_color(core_refusal *r, const char *argument, const char *word, double *rgb)
+{
+    return core_color(r, argument, word, rgb);
+}
+
+NATIVE(colors)
+int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count,
+                  int columns, int whole, int bytes, float *out, double *alpha);
+int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count,
+                  int columns, int whole, int bytes, float *out, double *alpha)
+{
+    return core_colors(r, argument, rows, count, columns, whole, bytes, out, alpha);
+}
+
+/* Returns the indices that were made, -1: refused */
+NATIVE(faces)
+int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows,
+                 int columns, int vertices, uint32_t *out);
+int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows,
+                 int columns, int vertices, uint32_t *out)
+{
+    return (int)core_faces(r, argument, faces, rows, columns, vertices, out);
+}
+
+/* x: eye, target, up; fov, aspect, near, far */
+NATIVE(look_at) int python_look_at(core_refusal *r, const double *x, core_camera *out);
+int python_look_at(core_refusal *r, const double *x, core_camera *out)
+{
+    return core_look_at(r, x, x + 3, x + 6, x[9], x[10], x[11], x[12], out);
+}
+
+NATIVE(opencv)
+int python_opencv(core_refusal *r, const double *K, const double *extrinsics, int width, int height,
+                  double near, double far, core_camera *out);
+int python_opencv(core_refusal *r, const double *K, const double *extrinsics, int width, int height,
+                  double near, double far, core_camera *out)
+{
+    return core_opencv(r, K, extrinsics, width, height, near, far, out);
+}
+
+NATIVE(opengl)
+int python_opengl(core_refusal *r, const double *projection, const double *pose, core_camera *out);
+int python_opengl(core_refusal *r, const double *projection, const double *pose, core_camera *out)
+{
+    return core_opengl(r, projection, pose, out);
+}
+
+NATIVE(range_of)
+int python_range_of(core_refusal *r, const char *argument, const double *projection,
+                    core_range *out);
+int python_range_of(core_refusal *r, const char *argument, const double *projection,
+                    core_range *out)
+{
+    return core_range_of(r, argument, projection, out);
+}
+
+NATIVE(view_name) const char *python_view_name(int i, double *angles);
+const char *python_view_name(int i, double *angles)
+{
+    return core_view_name(i, angles, angles + 1);
+}
+
+/* out: the way toward the eye, and the way up */
+SHADEDEF void python_direction(double azimuth, double elevation, int up, double *out);
+void python_direction(double azimuth, double elevation, int up, double *out)
+{
+    core_direction(azimuth, elevation, up, out, out + 3);
+}
+
+NATIVE(fit_points)
+int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
+               core_camera *out);
+int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
+               core_camera *out)
+{
+    core_cloud cloud;
+    if (core_cloud_open(r, side, &cloud)) return r->code;
+    core_cloud_add(&cloud, points, NULL, count, NULL);
+    core_fit(&cloud, side, out);
+    return 0;
+}
+
+SHADEDEF void python_studio(const float *points, size_t count, const double *view, int up,
+                            double *out);
+void python_studio(const float *points, size_t count, const double *view, int up, double *out)
+{
+    core_ball ball = { .some = 0 };
+    core_ball_add(&ball, points, NULL, count, NULL);
+    core_ball_reach(&ball, points, NULL, count, NULL);
+    core_studio(&ball, view, up, out);
+}
+
+/* low and high: the box; out: from where it counts */
+NATIVE(origin) void python_origin_of(const double *low, const double *high, double *out);
+void python_origin_of(const double *low, const double *high, double *out)
+{
+    core_origin(low, high, out);
+}
+
 /* ---- cameras of renderer.h ------------------------------------------------------------------- */
 
 SHADEDEF renderer_scene *python_scene_open(void);
@@ -851,6 +957,14 @@ int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh,
                       const double *origin)
 {
     return renderer_set_mesh(scene, number, mesh, smooth, origin);
+}
+
+/* 1: done, 0: out of memory, -1: the mesh has other counts, -2: a position is not finite */
+NATIVE(scene_deform)
+int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m);
+int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m)
+{
+    return renderer_deform(scene, number, m);
 }
 
 NATIVE(scene_texture)
@@ -958,6 +1072,7 @@ size_t python_size(int which)
                                    sizeof(shade_light),     sizeof(shade_chunk),
                                    sizeof(python_part),     sizeof(renderer_image),
                                    sizeof(renderer_object), sizeof(renderer_picture),
-                                   sizeof(python_picture) };
+                                   sizeof(python_picture),  sizeof(core_refusal),
+                                   sizeof(core_side),       sizeof(core_camera) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

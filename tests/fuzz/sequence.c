@@ -266,11 +266,13 @@ static int write_file(void *user, const void *bytes, size_t size)
 
 static void do_file(fuzz_input *in, outcome *o)
 {
-    const picture *p = &w.pic[fuzz_byte(in) % 2];
+    const uint32_t kind = fuzz_byte(in);
+    const picture *p = &w.pic[kind % 2];
     sink s = { 0, w.file_bytes };
     if (fuzz_one_in(in, 4)) s.fails_at = fuzz_byte(in) % (w.file_bytes + 1);
     o->writes[0] = w.file;
-    o->result = shade_encode_ppm(write_file, &s, &p->target);
+    o->result = kind & 2 ? shade_encode_png(write_file, &s, &p->target)
+                         : shade_encode_ppm(write_file, &s, &p->target);
     HOLDS(o->result == SHADE_OK || o->result == SHADE_ERROR_IO || !s.at);
     if (o->result == SHADE_ERROR_IO) o->result = SHADE_OK;    /* what came before it is there */
     o->number[0] = (int)s.at;

@@ -500,6 +500,15 @@ static void shape_clear_and_encode(fuzz_input *in)
     HOLDS(shade_encode_ppm(shape_write, &sink, &p.target) == want);
     if (want == SHADE_OK) HOLDS(sink.bytes == size);
     else if (want != SHADE_ERROR_IO) HOLDS(!sink.calls);
+
+    sink.bytes = 0;
+    sink.calls = 0;
+    if (want == SHADE_ERROR_IO) want = SHADE_OK;
+    HOLDS(shade_encode_png(shape_write, &sink, &p.target) ==
+          (want == SHADE_OK && sink.bytes > sink.fails_at ? SHADE_ERROR_IO : want));
+    if (want != SHADE_OK) HOLDS(!sink.calls);
+    else if (sink.bytes <= sink.fails_at)
+        HOLDS(100 * sink.bytes <= 113 * size + 9000 + 100 * (size_t)p.rows);
     HOLDS(picture_same(&p));
     picture_close(&p);
 }

@@ -197,7 +197,7 @@ static void prove_resolve(shade_format format, int factor)
     in.color = fine + sizeof fine - (size_t)(WIDTH * HEIGHT * factor * factor) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(WIDTH * HEIGHT) * bytes;
     shade__open_decoder(&in, factor, &decoder);
-    shade__convert(&decoder, &out, NULL, NULL);
+    shade__convert(&decoder, &out);
 }
 
 /* a level of mipmaps from the one before, in memory that ends with the last texel of each */
@@ -214,7 +214,7 @@ static void prove_shrink(shade_format format, int width, int height)
     shade__open_decoder(&in, 2, &decoder);
     for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     decoder.halving = &halving;
-    shade__convert(&decoder, &out, NULL, NULL);
+    shade__convert(&decoder, &out);
 }
 
 /* offsets of pixels in the greatest picture, its rows however far apart */
@@ -242,6 +242,71 @@ int main(void)
     prove_shrink(SHADE_FORMAT_A8, 7, 1);
     prove_shrink(SHADE_FORMAT_RGBA32F, 3, 8);
     prove_offsets();
+    return 0;
+}
+#endif
+
+#ifdef PROVE_files
+/* Bytes of files: pixels at every edge of a picture whose memory ends with the last pixel, filters
+   of any bytes, and packing from any state that a stream of bytes can reach. */
+#include "prove.h"
+
+enum { WIDTH = 67, HEIGHT = 2 };    /* a run of 64 pixels, and one of 3 */
+
+static shade_target picture;
+static uint8_t pixels[16 * WIDTH * HEIGHT];
+static shade__png_rows rows;
+static shade__png png;
+
+static int swallow(void *user, const void *bytes, size_t size)
+{
+    (void)user;
+    (void)bytes;
+    /*@ assert 0 < size <= 2828; */
+    return ANY_OF(0, 1);
+}
+
+static void prove_rows(shade_format format)
+{
+    picture.format = format;
+    picture.width = WIDTH;
+    picture.height = HEIGHT;
+    picture.srgb = ANY_OF(0, 1);
+    picture.color = pixels + sizeof pixels - WIDTH * HEIGHT * shade__pixel_bytes(format);
+    shade__png_rows_at(&picture, 0, 0, 64, &rows);
+    shade__png_rows_at(&picture, 64, 1, 3, &rows);
+}
+
+/* A byte after any others: up to 257 wait as a run, up to 7 bits, and a chunk is full or not. */
+static void prove_packing(void)
+{
+    png.target = &picture;
+    png.sink = swallow;
+    for (int k = 0; k < 3; k++) png.before[k] = ANY_OF(0, 255);
+    png.repeats = ANY_OF(0, SHADE__PNG_REPEAT);
+    png.apart = ANY_OF(0, 3);
+    png.sum[0] = (uint32_t)ANY_OF(0, 65520);
+    png.sum[1] = (uint32_t)ANY_OF(0, 65520);
+    png.bits = (uint32_t)ANY_OF(0, 127);
+    png.bit_count = ANY_OF(0, 7);
+    png.size = (uint32_t)ANY_OF(0, SHADE__PNG_DATA);
+    shade__take_byte(&png, ANY_OF(0, 255));
+}
+
+int main(void)
+{
+    memset(pixels, ANY_OF(0, 255), sizeof pixels);
+    prove_rows(SHADE_FORMAT_RGBA8);
+    prove_rows(SHADE_FORMAT_BGRA8);
+    prove_rows(SHADE_FORMAT_RGB565);
+    prove_rows(SHADE_FORMAT_RGB565_SWAPPED);
+    prove_rows(SHADE_FORMAT_RGBA32F);
+    memset(&rows, ANY_OF(0, 255), sizeof rows);
+    for (int filter = 0; filter < 5; filter += 2) {
+        int byte = shade__filtered(&rows, filter, ANY_OF(0, 3 * SHADE__FILE_RUN - 1));
+        /*@ assert 0 <= byte <= 255; */
+    }
+    prove_packing();
     return 0;
 }
 #endif

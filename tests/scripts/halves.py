@@ -10,8 +10,8 @@ import re
 import sys
 
 CEILING = {"renderer": 49500, "tools": 14500, "explanations": 13500}
-# A table that holds nothing but numbers is data, and counts as one token.
-TABLE = re.compile(r"(^static const \w+ \w+\[\] = )\{[-\s0-9a-zA-Z.,]*\}", re.MULTILINE)
+# A table that holds nothing but numbers, or numbers and their names, is data: one token.
+TABLE = re.compile(r'(static const \w+ \w+\[\w*\] = )\{(?:[-{}\s0-9a-zA-Z.,]|"[^"]*")*\}(?=;)')
 TOKEN = re.compile(
     r"""
     "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*'                  # strings, characters

@@ -1,5 +1,5 @@
 /* calls.h - every call of shade.h that takes memory, once, in a world of buffers: what it reads and
-   what it writes.  reads.c holds each row to page protection, and the table of tests/README.md to
+   what it writes.  reads.c holds each row to page protection, and the table of tests/CALLS.md to
    these rows; sharing.c runs them under ThreadSanitizer. */
 #ifndef CALLS_H
 #define CALLS_H
@@ -297,9 +297,15 @@ CALL(call_encode_ppm)
     unsigned sum = 0;
     return (int)shade_encode_ppm(sink, &sum, w->target) || !sum;
 }
+CALL(call_encode_png)
+{
+    unsigned sum = 0;
+    return (int)shade_encode_png(sink, &sum, w->target) || !sum;
+}
 #ifndef SHADE_NO_STDIO
 /* Where there are pages there is /dev/null. */
 CALL(call_write_ppm) { return (int)shade_write_ppm("/dev/null", w->target); }
+CALL(call_write_png) { return (int)shade_write_png("/dev/null", w->target); }
 #endif
 CALL(call_resolve) { return (int)shade_resolve(w->target, w->in, 2); }
 CALL(call_sample) { return !(shade_sample(w->map, 0.3f, 0.6f, 0.5f).w > 0); }
@@ -440,8 +446,12 @@ static const world_call world_calls[] = {
       "target", "color, depth" },
     { "shade_encode_ppm", "", call_encode_ppm, none,
       "target, color", "" },
+    { "shade_encode_png", "", call_encode_png, none,
+      "target, color", "" },
 #ifndef SHADE_NO_STDIO
     { "shade_write_ppm", "", call_write_ppm, none,
+      "target, color", "" },
+    { "shade_write_png", "", call_write_png, none,
       "target, color", "" },
 #endif
     { "shade_resolve", "", call_resolve, none,

@@ -665,8 +665,8 @@ static void whole_open(whole_call *w)
 }
 
 /* Calls by letter: Draw, Mesh, Lines, Normals, Corner normals, Edges, Boxes of chunks, mipmaps X,
-   Resolve, Ppm, clear K. */
-static const char whole_calls[] = "DMLNCEBXRPK";
+   Resolve, Ppm, pnG, clear K. */
+static const char whole_calls[] = "DMLNCEBXRPGK";
 
 static shade_result whole_result(whole_call *w, char call)
 {
@@ -686,6 +686,7 @@ static shade_result whole_result(whole_call *w, char call)
     case 'X': return shade_build_mipmaps(w->texture, w->levels, w->memory, w->bytes);
     case 'R': return shade_resolve(&w->half, w->target, w->factor);
     case 'P': return shade_encode_ppm(w->sink, NULL, w->target);
+    case 'G': return shade_encode_png(w->sink, NULL, w->target);
     default: return shade_clear(w->target, shade_v4(1, 1, 1, 1), 1);
     }
 }
@@ -695,7 +696,7 @@ static shade_result whole_result(whole_call *w, char call)
 static const char *fault_argument(whole_call *w, int k)
 {
     switch (k) {
-    case 0: w->target = NULL; return "DMLRPK";
+    case 0: w->target = NULL; return "DMLRPGK";
     case 1: w->pipeline = NULL; return "D";
     case 2: w->p.vertex = NULL; return "D";
     case 3: w->mesh = NULL; return "MNCEB";
@@ -713,7 +714,7 @@ static const char *fault_argument(whole_call *w, int k)
         return "E";
     case 10: w->texture = NULL; return "X";
     case 11: w->levels = NULL; return "X";
-    case 12: w->sink = NULL; return "P";
+    case 12: w->sink = NULL; return "PG";
     case 13: w->capacity = -1; return "EB";
     case 14: w->memory = (char *)whole_out.memory + 2; return "CX";
     case 15:
@@ -728,12 +729,12 @@ static const char *fault_argument(whole_call *w, int k)
 static const char *fault_target(whole_call *w, int k)
 {
     switch (k) {
-    case 0: w->picture.width = 0; return "DMLRPK";
-    case 1: w->picture.stride = 9; return "DMLRPK";
-    case 2: w->picture.format = SHADE_FORMAT_A8; return "DMLRPK";
-    case 3: w->picture.clip_width = -1; return "DMLRPK";
-    case 4: w->picture.row_offset = 1; return "DMLRPK";
-    case 5: w->picture.color = NULL; return "RP";
+    case 0: w->picture.width = 0; return "DMLRPGK";
+    case 1: w->picture.stride = 9; return "DMLRPGK";
+    case 2: w->picture.format = SHADE_FORMAT_A8; return "DMLRPGK";
+    case 3: w->picture.clip_width = -1; return "DMLRPGK";
+    case 4: w->picture.row_offset = 1; return "DMLRPGK";
+    case 5: w->picture.color = NULL; return "RPG";
     case 6: w->half.format = (shade_format)-1; return "R";
     default: return NULL;
     }
@@ -911,7 +912,7 @@ TEST(drive, sizes_that_do_not_fit_are_arguments_behind_good_targets)
 /* Not as a format of colours, nor where there are none. */
 TEST(drive, alpha_alone_is_no_format_of_a_target)
 {
-    for (const char *call = "DMLKRPDMLK"; *call; call++) {
+    for (const char *call = "DMLKRPGDMLK"; *call; call++) {
         whole_call w;
         whole_open(&w);
         w.picture.format = SHADE_FORMAT_A8;
@@ -928,6 +929,7 @@ TEST(drive, alpha_alone_is_no_format_of_a_target)
     CHECK_INT(shade_resolve(&w.half, &w.picture, 2), SHADE_ERROR_TARGET);
 #ifndef SHADE_NO_STDIO
     CHECK_INT(shade_write_ppm("none.ppm", &w.half), SHADE_ERROR_TARGET);
+    CHECK_INT(shade_write_png("none.png", &w.half), SHADE_ERROR_TARGET);
 #endif
     canvas_close(&w.c);
 }

@@ -155,6 +155,42 @@ TEST(matrix, inverses_match_elimination)
     CHECK_SAY(tested > 1000, "%d well-conditioned matrices", tested);
 }
 
+/* Cameras of every distance and scale, and any affine matrix, beside elimination in double */
+TEST(matrix, the_eye_is_the_point_that_a_view_takes_to_the_origin)
+{
+    for (int i = 0; i < 2000; i++) {
+        const double far = (double)rnd_log(1e-3, 1e8);
+        const shade_vec3 eye = shade_scale(d3_round(rnd_direction()), (float)far);
+        const shade_vec3 center = d3_round(rnd_direction());
+        shade_mat4 view = shade_mat4_look_at(eye, center, d3_round(rnd_direction()));
+        if (i % 4 == 3) view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, -3, 0.5f)), view);
+        dmat inverse;
+        dmat_invert(dmat_from(view), 4, &inverse);
+        const shade_vec3 got = shade_mat4_eye(view);
+        const float *xyz = &got.x;
+        for (int k = 0; k < 3; k++)
+            CHECK_NEAR(xyz[k], inverse.m[k][3] / inverse.m[3][3], 2e-7 * far + 1e-7);
+        if (i % 4 < 3) CHECK_NEAR(shade_distance(got, eye), 0, 1e-6 * far + 1e-6);
+    }
+    const shade_vec3 none = shade_mat4_eye(shade_mat4_identity());
+    CHECK(none.x == 0 && none.y == 0 && none.z == 0);
+}
+
+/* G3 */
+TEST(matrix, a_view_that_is_singular_or_not_finite_looks_from_the_origin)
+{
+    for (int i = 0; i < 200; i++) {
+        const shade_vec3 up = d3_round(rnd_direction());
+        shade_mat4 view = shade_mat4_look_at(shade_v3(1, 2, 3), shade_v3(0, 0, 0), up);
+        float *entry = (float *)&view;
+        if (i % 2) entry[rnd_int(0, 15)] = i % 4 == 1 ? (float)NAN : rnd_sign() * (float)INFINITY;
+        else memset(&view.col[rnd_int(0, 3)], 0, sizeof(shade_vec4));
+        const shade_vec3 eye = shade_mat4_eye(view);
+        CHECK_SAY(eye.x == 0 && eye.y == 0 && eye.z == 0, "%g %g %g", (double)eye.x, (double)eye.y,
+                  (double)eye.z);
+    }
+}
+
 /* G3 */
 TEST(matrix, the_inverse_of_a_singular_matrix_is_zero)
 {

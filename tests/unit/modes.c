@@ -148,10 +148,11 @@ static void modes_tools(void (*open)(const char *what), void (*close)(const char
         CHECK_INT(shade_build_mipmaps(&map, levels, memory, sizeof memory), SHADE_OK);
         close("mipmaps");
         if (format == SHADE_FORMAT_A8) continue;
-        open("resolve and PPM");
+        open("resolve, PPM and PNG");
         CHECK_INT(shade_resolve(&to, &from, 2), SHADE_OK);
         CHECK_INT(shade_encode_ppm(modes_swallow, NULL, &to), SHADE_OK);
-        close("resolve and PPM");
+        CHECK_INT(shade_encode_png(modes_swallow, NULL, &to), SHADE_OK);
+        close("resolve, PPM and PNG");
     }
     open("shape");
     CHECK_INT(shade_mesh_normals(&m.mesh, n), SHADE_OK);

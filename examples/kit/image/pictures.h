@@ -4,6 +4,7 @@
 #define MODEL_PICTURES_H
 
 #include "../read/files.h"
+#include "pnm.h"
 
 /* Gives a picture its pixels (RGBA8, from malloc) and its mipmaps. */
 static inline void picture_fill(model_picture *p, void *pixels, int width, int height)
@@ -76,16 +77,66 @@ static int picture_clearness(const model_picture *p)
 #define STBI_MAX_DIMENSIONS 16384
 #include <stb/stb_image.h>
 
+/* PPM and PGM by their greatest value, which stb_image does not heed */
+static const char *picture_decode_pnm(model_picture *p, pnm *from)
+{
+    const size_t pixels = (size_t)from->width * (size_t)from->height;
+    uint8_t *rgba, *to;
+    if ((double)from->width * from->height > 1e8)
+        return "a picture of more than 100 million pixels";
+    rgba = to = (uint8_t *)malloc(4 * pixels);
+    if (!rgba) return "out of memory";
+    for (size_t i = 0; i < pixels; i++, to += 4) {
+        for (int k = 0; k < from->channels; k++) {
+            const int v = pnm_next(from);
+            if (v < 0 || v > from->most) {
+                free(rgba);
+                return v < 0 ? "ends too early" : "a value above its own maximum";
+            }
+            to[k] = (uint8_t)((510 * (long long)v + from->most) / (2 * from->most));
+        }
+        if (from->channels == 1) to[1] = to[2] = to[0];
+        to[3] = 255;
+    }
+    picture_fill(p, rgba, from->width, from->height);
+    return NULL;
+}
+
+/* 1: the bytes are a TGA whose rows are stored from the right to the left, which stb_image does not
+   heed.  Other formats have other numbers where TGA has its kind and that of its colours. */
+static int picture_is_from_right(const unsigned char *bytes, size_t size)
+{
+    const int kind = size > 18 ? bytes[2] : 0;
+    const int tga = bytes[1] < 2 && (kind & ~8) >= 1 && (kind & ~8) <= 3;
+    return size > 18 && tga && (bytes[17] & 16);
+}
+
+static void picture_turn(uint8_t *pixels, int width, int height)
+{
+    for (int y = 0; y < height; y++) {
+        uint8_t *left = pixels + 4 * (size_t)width * (size_t)y, *right = left + 4 * (width - 1);
+        for (; left < right; left += 4, right -= 4) {
+            uint8_t own[4];
+            memcpy(own, left, 4);
+            memcpy(left, right, 4);
+            memcpy(right, own, 4);
+        }
+    }
+}
+
 /* Reads one picture.  Returns the error, or NULL. */
 static const char *picture_decode(model_picture *p, const unsigned char *bytes, size_t size)
 {
     int width, height, channels;
     unsigned char *pixels;
+    pnm plain;
+    if (!pnm_open(&plain, bytes, size)) return picture_decode_pnm(p, &plain);
     if (size > INT_MAX || !stbi_info_from_memory(bytes, (int)size, &width, &height, &channels))
         return "no picture that stb_image reads";
     if ((double)width * height > 1e8) return "a picture of more than 100 million pixels";
     pixels = stbi_load_from_memory(bytes, (int)size, &width, &height, &channels, 4);
     if (!pixels) return stbi_failure_reason();
+    if (picture_is_from_right(bytes, size)) picture_turn(pixels, width, height);
     picture_fill(p, pixels, width, height);
     return NULL;
 }
@@ -113,9 +164,9 @@ static void picture_load(model *m, int number, const char *path, int outside)
         snprintf(error, sizeof error,
                  "%s: it lies outside of the model's folder; --outside reads it", name);
     for (int attempt = !beside_model; attempt < 2 && failed; attempt++) {
-        mesh_reader r = mesh_about(name, error, attempt ? 0 : sizeof error);
-        char *beside = model_beside(path, attempt ? last : name);
-        failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
+        char *beside = NULL;
+        failed = model_load_file(path, attempt ? last : name, MODEL_PICTURE_BYTES, &bytes, &size,
+                                 &beside, error, attempt ? 0 : sizeof error);
         if (failed)
             free(beside);
         else

@@ -43,7 +43,7 @@ static inline int mesh_is_stl(const char *name, const unsigned char *bytes, size
 {
     model_kind kind = model_kind_of(name);
     if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "ply")) return 0;
-    if (!strcmp(kind.text, "stl")) return 1;
+    if (!strcmp(kind.text, "stl") || !strcmp(kind.text, "ast")) return 1;
     return (size >= 5 && !memcmp(bytes, "solid", 5)) || stl_fits(bytes, size) ||
            stl_has_own(bytes, size);
 }
@@ -244,7 +244,11 @@ static inline int model_load_file(const char *path, const char *name, double mos
 {
     mesh_reader r = mesh_about(name, error, room);
     *where = model_beside(path, name);
-    return *where ? model_load(&r, *where, most, bytes, size) : mesh_fail(&r, "out of memory");
+    if (!*where) return mesh_fail(&r, "out of memory");
+    if (!model_load(&r, *where, most, bytes, size)) return 0;
+    if (errno == ENOENT && model_is_alone(path))
+        mesh_fail(&r, "%s: it may be hidden, for the folder shows the model alone", strerror(ENOENT));
+    return 1;
 }
 
 /* Appends copies of some vertices to an array of a mesh.  Returns non-zero where memory is out. */

@@ -6,6 +6,7 @@
 #include "reader.h"
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <dirent.h>
 #include <sys/stat.h>
 /* 1: there is something that is no file: a pipe would let us wait, a device would not end. */
 static inline int model_is_device(const char *path)
@@ -13,8 +14,23 @@ static inline int model_is_device(const char *path)
     struct stat there;
     return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
 }
+
+/* 1: the folder of a file shows nothing else, as the sandbox does in which GNOME draws thumbnails. */
+static inline int model_is_alone(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char folder[4096] = ".";
+    int entries = 0;
+    DIR *list;
+    if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    list = opendir(folder);
+    while (list && entries < 4 && readdir(list)) entries++;
+    if (list) closedir(list);
+    return entries == 3; /* with . and .. */
+}
 #else
 static inline int model_is_device(const char *path) { return (void)path, 0; }
+static inline int model_is_alone(const char *path) { return (void)path, 0; }
 #endif
 
 /* Opens a file; NULL with the error in r */

@@ -331,17 +331,23 @@ static inline int obj_join(mesh_reader *r, const obj_data *o, model *out)
     return 0;
 }
 
-/* Faces may name texture coordinates or normals in a file that has none at all: they do without.
-   0: the file has some. */
-static inline int obj_forget(obj_data *o, int kind, size_t count, model *out, const char *name)
+/* Faces may name texture coordinates or normals that the file does not have: those corners do
+   without.  VTK counts vt on over parts that have none. */
+static inline void obj_forget(obj_data *o, int kind, size_t count, model *out, const char *name)
 {
-    if (count) return 0;
-    for (size_t i = 0; i < o->corners.count; i++) o->corners.triple[i].k[kind] = 0;
-    o->highest[kind] = 0;
-    model_warn(out, name,
-               kind == OBJ_VT ? "faces name a vt, and the file has none: they do without"
-                              : "faces name a vn, and the file has none: they do without");
-    return 1;
+    char text[120];
+    for (size_t i = 0; i < o->corners.count; i++) {
+        uint32_t *index = &o->corners.triple[i].k[kind];
+        if (*index > count) *index = 0;
+    }
+    o->highest[kind] = (uint32_t)count;
+    if (count)
+        snprintf(text, sizeof text, "faces name a %s past the last of %lu: they do without",
+                 obj_names[kind], (unsigned long)count);
+    else
+        snprintf(text, sizeof text, "faces name a %s, and the file has none: they do without",
+                 obj_names[kind]);
+    model_warn(out, name, text);
 }
 
 /* Makes a vertex for each different corner that was read. */
@@ -357,8 +363,9 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     if (!o->faces.triangles && !o->lines.count) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
         const size_t count = o->list[k].count / (k == OBJ_VT ? 2 : 3);
-        if (o->highest[k] <= count || (k != OBJ_V && obj_forget(o, k, count, out, r->name)))
-            continue;
+        if (o->highest[k] <= count) continue;
+        if (k != OBJ_V) obj_forget(o, k, count, out, r->name);
+        if (k != OBJ_V) continue;
         r->line = o->highest_line[k];
         return mesh_fail(r, "there is no %s number %lu: the file has %lu", obj_names[k],
                          (unsigned long)o->highest[k], (unsigned long)count);
@@ -397,6 +404,14 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
 }
 
+/* FreeCAD, whose world has z upward, names itself in the first line of its OBJ. */
+static inline int obj_is_freecad(const mesh_reader *r)
+{
+    for (const unsigned char *p = r->at; r->end - p >= 7 && !mesh_line_end(r, p); p++)
+        if (!memcmp(p, "FreeCAD", 7)) return *r->at == '#';
+    return 0;
+}
+
 static inline int obj_read(mesh_reader *r, model *m)
 {
     static const obj_data empty;
@@ -404,6 +419,7 @@ static inline int obj_read(mesh_reader *r, model *m)
     int failed = 0;
     o.clearest = FLT_MAX;
     model_place(m, &o.origin);
+    m->z_up = m->up_told = obj_is_freecad(r);
     for (size_t i = 0; r->at < r->end && !failed; i++) {
         int comment;
         mesh_skip_blanks(r, 1);

@@ -1,7 +1,7 @@
 /* off.h - reads OFF files of text: OFF with C (colours of vertices), N (normals), ST (texture
    coordinates, which are skipped) in any order, counts, comments; each vertex and face begins a
    line and may go on in the next ones; colours behind the corners of faces, as whole numbers to 255
-   or as fractions.  Polygons may be concave.  4OFF, nOFF and OFF BINARY are refused. */
+   or as fractions, and behind vertices without a C, as OpenCTM writes them.  Polygons may be concave.  4OFF, nOFF and OFF BINARY are refused. */
 #ifndef MODEL_OFF_H
 #define MODEL_OFF_H
 
@@ -21,10 +21,11 @@ typedef struct off_data {
     mesh_origin origin;
     faces faces;
     int has_color, has_normal, tinted;
-    int others;      /* there are numbers behind vertices or faces that are no colours */
-    float brightest; /* of all colours: those to 1 are fractions */
-    int fractions;   /* some have a point: to 2 they are fractions */
-    float clearest;  /* the least alpha */
+    int guessed;             /* the header has no C, and the first vertex a colour */
+    int others;              /* there are numbers behind vertices or faces that are no colours */
+    float brightest;         /* of all colours: those to 1 are fractions */
+    int fractions;           /* some have a point: to 2 they are fractions */
+    float clearest, fullest; /* the least alpha, and the greatest */
 } off_data;
 
 /* Moves to the next line with something on it.  Returns 1 where there is none. */
@@ -72,12 +73,12 @@ static inline int off_goes_on(mesh_reader *r)
     return !mesh_at_word_end(r);
 }
 
-/* The rest of a line as red, green and blue; 0: there are none. */
+/* The rest of a line as red, green and blue, and 4 with alpha, else 3; 0: there are none. */
 static inline int off_color(mesh_reader *r, off_data *o, float rgb[3])
 {
     mesh_reader ahead = *r;
     int point = 0;
-    float alpha;
+    float alpha = FLT_MAX;
     mesh_skip_blanks(&ahead, 0);
     if (mesh_at_word_end(&ahead)) return 0;
     ahead.error_size = 0;
@@ -91,8 +92,20 @@ static inline int off_color(mesh_reader *r, off_data *o, float rgb[3])
     for (int k = 0; k < 3; k++) o->brightest = fmaxf(o->brightest, rgb[k]);
     o->fractions |= point;
     mesh_skip_blanks(&ahead, 0);
-    if (!mesh_take_number(&ahead, &alpha)) o->clearest = fminf(o->clearest, alpha);
-    return 1;
+    if (mesh_take_number(&ahead, &alpha)) return 3;
+    o->clearest = fminf(o->clearest, alpha);
+    o->fullest = fmaxf(o->fullest, alpha);
+    return 4;
+}
+
+/* Numbers behind the first vertex without C are colours where they are four, none of them negative:
+   three may be a normal. */
+static inline void off_guess(mesh_reader *r, off_data *o)
+{
+    off_data asked = *o;
+    float rgb[3];
+    if (off_color(r, &asked, rgb) != 4 || rgb[0] < 0 || rgb[1] < 0 || rgb[2] < 0) return;
+    o->has_color = o->guessed = 1;
 }
 
 /* The greatest value of a colour.  One number may have no point, where the others are fractions. */
@@ -120,7 +133,7 @@ static inline shade_vec3 off_linear(uint32_t bytes)
 static inline int off_vertex(mesh_reader *r, off_data *o)
 {
     double v[3], unused;
-    float place[3], rgb[3];
+    float place[3], rgb[3] = { -1, -1, -1 };
     long long line = 0;
     for (int k = 0; k < 3; k++) {
         if (off_coordinate(r, &v[k])) return 1;
@@ -129,13 +142,17 @@ static inline int off_vertex(mesh_reader *r, off_data *o)
     for (int k = 0; k < 3 && o->has_normal; k++)
         if (off_coordinate(r, &unused)) return 1;
     mesh_relative(&o->origin, v, place);
+    if (!o->position.count && !o->has_color) off_guess(r, o);
     if (mesh_push(&o->position, place, 3)) return mesh_fail(r, "out of memory");
     if (!o->has_color && off_goes_on(r)) { /* of the next vertex, where lines break anywhere */
         if (r->line != line) return mesh_fail(r, "a vertex ends in the middle of the line");
         o->others = 1;
     }
     if (!o->has_color) return 0;
-    if (!off_color(r, o, rgb)) return mesh_fail(r, "a vertex of COFF has no colour");
+    if (!off_color(r, o, rgb)) {
+        if (!o->guessed) return mesh_fail(r, "a vertex of COFF has no colour");
+        o->others = 1;
+    }
     return mesh_push(&o->color, rgb, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -243,7 +260,8 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
         shade_vec3 c;
         memcpy(m->positions + 3 * i, o->position.v + 3 * vertex, 12);
         if (!m->colors) continue;
-        if (!tint && o->has_color) bytes = off_bytes(o, o->color.v + 3 * vertex);
+        if (!tint && o->has_color && (o->color.v[3 * vertex] >= 0 || !o->guessed))
+            bytes = off_bytes(o, o->color.v + 3 * vertex);
         c = off_linear(bytes);
         memcpy(m->colors + 3 * i, &c, sizeof c);
     }
@@ -251,7 +269,8 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
     if (failed) return mesh_fail(r, "out of memory");
     if (o->others && !out->unread[0])
         model_leave_out(out, r->name, "numbers behind its vertices or faces that are no colours");
-    if (o->clearest < off_white(o)) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
+    if (o->clearest < off_white(o) && (o->fullest > 0 || !o->guessed))
+        known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);

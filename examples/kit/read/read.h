@@ -9,11 +9,11 @@
 #include "../scene/relief.h"
 #include "../command/save.h"
 
-/* Formats of our own readers, and those that assimp reads as another reader does, which
-   examples/programs/thumbnail/test/compared.txt names.  assimp is asked for no other. */
-static const char *const model_by_kit[] = {
-    "obj", "stl", "ply", "off", "gltf", "glb", "3mf", NULL
-};
+/* Formats of our own readers, of which ast is FreeCAD's name for STL of text, and those that assimp
+   reads as another reader does, which examples/programs/thumbnail/test/compared.txt names.  assimp
+   is asked for no other. */
+static const char *const model_by_kit[] = { "obj",  "stl", "ast", "ply", "off",
+                                            "gltf", "glb", "3mf", NULL };
 static const char *const model_by_assimp[] = { "3ds", "ac",  "acc",  "amf",  "ase", "b3d",
                                                "cob", "dae", "dxf",  "fbx",  "lwo", "lxo",
                                                "md2", "mdc", "ms3d", "ogex", "q3o", "smd",
@@ -62,15 +62,48 @@ static int is_ours(model_kind kind, const unsigned char *head, size_t size)
            mesh_is_gltf("a.a", head, size);
 }
 
-static int read_other(const char *path, model_kind kind, model *m, const model_request *q)
+#ifdef MODEL_ASSIMP
+/* Reads an AMF that is a ZIP archive, as its standard has it and FreeCAD and PrusaSlicer write it:
+   assimp does not unpack. */
+static int read_packed(const char *path, model *m, const model_request *q)
+{
+    static const zip none;
+    mesh_reader r = mesh_about(path, q->error, q->error_size);
+    unsigned char *bytes = NULL, *own = NULL;
+    const zip_entry *found = NULL;
+    zip z = none;
+    size_t size = 0;
+    int failed = model_load(&r, path, MODEL_BYTES, &bytes, &size);
+    r = mesh_of(bytes, size, path, q->error, q->error_size);
+    failed = failed || zip_open(&r, &z);
+    z.inflate = model_inflate;
+    for (size_t i = 0; i < z.count && !failed && !found; i++) {
+        zip_entry end = z.entry[i];
+        end.name += end.length > 4 ? end.length - 4 : 0;
+        end.length = 4;
+        if (z.entry[i].length > 4 && zip_is(&end, ".amf")) found = &z.entry[i];
+    }
+    if (!failed && !found) failed = mesh_fail(&r, "there is no .amf in the archive");
+    if (!failed) own = zip_unpack(&r, &z, found);
+    failed = failed || !own || assimp_read(path, own, (size_t)found->size, m, q);
+    free(own);
+    free(z.entry);
+    free(bytes);
+    return failed;
+}
+#endif
+
+static int read_other(const char *path, model_kind kind, const unsigned char *head, model *m,
+                      const model_request *q)
 {
     mesh_reader r = mesh_about(path, q->error, q->error_size);
     if (!option_among(model_by_assimp, kind.text))
         return mesh_fail(&r, ".%s files are not read", kind.text);
 #ifdef MODEL_ASSIMP
+    if (!strcmp(kind.text, "amf") && !memcmp(head, "PK\3\4", 4)) return read_packed(path, m, q);
     return assimp_read(path, NULL, 0, m, q);
 #else
-    (void)m;
+    (void)m, (void)head;
     return mesh_fail(&r,
                      ".%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
                      "STL, PLY, OFF, glTF and 3MF",
@@ -131,7 +164,7 @@ static int read_path(const char *path, model *m, const model_request *q)
     if (is_ours(kind, head, size))
         failed = model_read_file(path, m, q);
     else
-        failed = read_other(path, kind, m, q);
+        failed = read_other(path, kind, head, m, q);
 #ifdef MODEL_ASSIMP
     if (failed && !kind.text[0] && !is_certain(head, size)) { /* assimp may know the contents */
         const model_request silent = { .most = q->most };

@@ -508,6 +508,37 @@ static inline const unsigned char *model_text_of(const unsigned char *bytes, siz
     return bytes + mark;
 }
 
+/* Writes a character as UTF-8, and returns where its bytes end. */
+static inline unsigned char *mesh_put_character(unsigned char *to, uint32_t c)
+{
+    const int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+    static const unsigned char first[4] = { 0, 0xC0, 0xE0, 0xF0 };
+    *to++ = (unsigned char)(first[more] | c >> 6 * more);
+    for (int k = more - 1; k >= 0; k--) *to++ = (unsigned char)(0x80 | (c >> 6 * k & 63));
+    return to;
+}
+
+/* Text of UTF-16, from its byte order mark on, as UTF-8, to be freed, and its size.  Half of a pair
+   becomes U+FFFD.  NULL: out of memory */
+static inline unsigned char *mesh_utf8(const unsigned char *bytes, size_t *size)
+{
+    const size_t low = bytes[0] == 0xFF ? 0 : 1; /* the place of the lower byte of a unit */
+    unsigned char *out = (unsigned char *)malloc(*size / 2 * 3 + 1), *to = out;
+    uint32_t before = 0; /* the first half of a pair */
+    for (size_t i = 2; out && i + 1 < *size; i += 2) {
+        const uint32_t unit = bytes[i + low] | (uint32_t)bytes[i + 1 - low] << 8;
+        const int second = unit >> 10 == 0x37;
+        if (before && !second) to = mesh_put_character(to, 0xFFFD);
+        if (before && second)
+            to = mesh_put_character(to, 0x10000 + ((before & 1023) << 10) + (unit & 1023));
+        else if (unit >> 10 != 0x36)
+            to = mesh_put_character(to, second ? 0xFFFD : unit);
+        before = unit >> 10 == 0x36 ? unit : 0;
+    }
+    *size = out ? (size_t)(to - out) : 0;
+    return out;
+}
+
 /* The next few bytes as printable text, for messages */
 typedef struct mesh_quote {
     char text[28];

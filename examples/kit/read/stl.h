@@ -11,7 +11,8 @@ static const known_name stl_known[] = { { "solid", KNOWN_DRAWN },    { "facet", 
                                         { "normal", KNOWN_SILENT },  { "outer", KNOWN_DRAWN },
                                         { "loop", KNOWN_DRAWN },     { "vertex", KNOWN_DRAWN },
                                         { "endloop", KNOWN_DRAWN },  { "endfacet", KNOWN_DRAWN },
-                                        { "endsolid", KNOWN_DRAWN }, { NULL, KNOWN_REFUSED } };
+                                        { "endsolid", KNOWN_DRAWN }, { "color", KNOWN_TOLD },
+                                        { NULL, KNOWN_REFUSED } };
 
 typedef struct stl_data {
     mesh_set places;
@@ -153,8 +154,17 @@ static inline int stl_expect(mesh_reader *r, const char *word)
     return mesh_fail(r, "expected %s, found %s", word, mesh_here(r).text);
 }
 
+/* A colour by facet, a number whose meaning no description of the format has, behind its end */
+static inline int stl_color_word(mesh_reader *r, model *m)
+{
+    mesh_skip_blanks(r, 0);
+    if (!mesh_take_word(r, "color")) return 0;
+    mesh_take_line(r);
+    return known_take(r, m, KNOWN_TOLD, 0, "color", 5);
+}
+
 /* Reads what follows the word facet: a normal (any three words), a loop of corners, the ends. */
-static inline int stl_facet(mesh_reader *r, stl_data *s)
+static inline int stl_facet(mesh_reader *r, stl_data *s, model *m)
 {
     uint32_t first = 0, previous = 0, corner = 0;
     int corners = 0;
@@ -169,7 +179,7 @@ static inline int stl_facet(mesh_reader *r, stl_data *s)
         if (corners == 3 && stl_triangle(r, s, first, previous, corner)) return 1;
     }
     if (corners < 3) return mesh_fail(r, "expected a vertex, found %s", mesh_here(r).text);
-    return stl_expect(r, "endloop") || stl_expect(r, "endfacet");
+    return stl_expect(r, "endloop") || stl_expect(r, "endfacet") || stl_color_word(r, m);
 }
 
 /* Skips a name, which ends with its line or where a facet with a normal begins: some files are one
@@ -190,13 +200,13 @@ static inline void stl_name(mesh_reader *r)
     }
 }
 
-static inline int stl_read_text(mesh_reader *r, stl_data *s)
+static inline int stl_read_text(mesh_reader *r, stl_data *s, model *m)
 {
     for (size_t facets = 0;;) {
         mesh_skip_lines(r);
         if (r->at == r->end) return 0;
         if (mesh_take_word(r, "facet")) {
-            if (mesh_tell(r, facets++) || stl_facet(r, s)) return 1;
+            if (mesh_tell(r, facets++) || stl_facet(r, s, m)) return 1;
         } else if (mesh_take_word(r, "solid") || stl_take(r, "endsolid")) {
             stl_name(r);
         } else {
@@ -290,7 +300,7 @@ static inline int stl_read(mesh_reader *r, model *out)
     const int is_text = stl_is_text(r);
     int failed;
     if (is_text) model_place(out, &s.origin);
-    failed = is_text ? stl_read_text(r, &s) : stl_read_binary(r, &s);
+    failed = is_text ? stl_read_text(r, &s, out) : stl_read_binary(r, &s);
     if (!failed && !s.indices.count)
         failed = mesh_fail(r, s.dropped ? "no triangle of it has corners that are all finite"
                                         : "no triangles in it");

@@ -241,18 +241,31 @@ static inline int threemf_numbers(threemf *t, xml *x, const char *name)
     return got < 0 ? -1 : count;
 }
 
-/* #RRGGBB or #RRGGBBAA; white where there is none */
+/* Reads #RRGGBB or #RRGGBBAA.  0: it is none of them. */
+static inline int threemf_hex(xml_text value, double c[4])
+{
+    if ((value.size != 7 && value.size != 9) || *value.at != '#') return 0;
+    for (size_t i = 1; i < value.size; i += 2) {
+        const long long bits = mesh_hex(value.at + i, value.at + value.size, 2);
+        if (bits < 0) return 0;
+        c[i / 2] = (double)bits / 255;
+    }
+    return 1;
+}
+
+/* A colour; white where there is none, and where it cannot be read, with a word: the geometry of
+   such a file is whole. */
 static inline int threemf_color(threemf *t, xml *x, const char *name)
 {
     const xml_text value = xml_value(x, XML_NO_SPACE, name);
     double c[4] = { 1, 1, 1, 1 };
     shade_vec3 linear;
-    if (value.at && (value.size != 7 && value.size != 9)) return xml_fail(x, name, "is no colour");
-    if (value.at && *value.at != '#') return xml_fail(x, name, "is no colour");
-    for (size_t i = 1; i < value.size; i += 2) {
-        const long long bits = mesh_hex(value.at + i, value.at + value.size, 2);
-        if (bits < 0) return xml_fail(x, name, "is no colour");
-        c[i / 2] = (double)bits / 255;
+    if (value.at && !threemf_hex(value, c)) {
+        char text[80];
+        c[0] = c[1] = c[2] = c[3] = 1;
+        snprintf(text, sizeof text, "%s \"%.*s\" is no colour: it counts as white", name,
+                 value.size < 20 ? (int)value.size : 20, (const char *)value.at);
+        model_warn(t->m, t->r->name, text);
     }
     linear = shade_linear_from_srgb(shade_v3((float)c[0], (float)c[1], (float)c[2]));
     c[0] = (double)linear.x;
@@ -599,6 +612,8 @@ static inline int threemf_read_model(threemf *t, xml *x)
 {
     int failed = 0;
     if (!xml_inside(x, 0)) return 1;
+    if (xml_is(x, XML_NO_SPACE, "model") && !xml_assume(x, THREEMF_CORE))
+        model_warn(t->m, t->r->name, "its elements have no name space: they count as those of 3MF");
     if (!xml_is(x, THREEMF_CORE, "model"))
         return mesh_fail(x->r, "its element is no model of 3MF's core");
     if (threemf_required(t, x) || threemf_unit(x, &threemf_file_at(t, t->files.count - 1)->unit))
@@ -638,8 +653,12 @@ static inline int threemf_open(threemf *t, const char *path, char name[200], uns
     *owned = zip_unpack(r, &t->z, e);
     if (!*owned) return 1;
     size = (size_t)e->size;
-    if (size > 1 && ((*owned)[0] ^ (*owned)[1]) == 1 && (*owned)[0] > 0xFD)
-        return mesh_fail(r, "its XML is UTF-16, which is not read");
+    if (size > 1 && ((*owned)[0] ^ (*owned)[1]) == 1 && (*owned)[0] > 0xFD) {
+        unsigned char *text = mesh_utf8(*owned, &size);
+        free(*owned);
+        *owned = text;
+        if (!text) return mesh_fail(r, "out of memory");
+    }
     r->begin = r->at = model_text_of(*owned, &size);
     r->end = r->begin + size;
     r->line = 1;

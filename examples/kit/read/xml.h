@@ -252,6 +252,18 @@ static inline int xml_open(xml *x)
     return 0;
 }
 
+/* Gives the element that was opened last, which has no prefix and no name space, that one, and with
+   it what stands inside.  Non-zero: there is no room. */
+static inline int xml_assume(xml *x, int space)
+{
+    static const xml_binding usual;
+    if (x->bindings == XML_BINDINGS) return 1;
+    x->binding[x->bindings] = usual;
+    x->binding[x->bindings].depth = x->depth;
+    x->binding[x->bindings++].space = x->space = space;
+    return 0;
+}
+
 static inline void xml_leave(xml *x)
 {
     while (x->bindings && x->binding[x->bindings - 1].depth == x->depth) x->bindings--;

@@ -3,42 +3,6 @@
 /** What render and Mesh throw: a sentence that begins with the name of the argument. */
 export class ShadeError extends TypeError {}
 
-const NAMES = {
-    white: 0xFFFFFF, black: 0, gray: 0x808080, grey: 0x808080, red: 0xD62728, green: 0x2CA02C,
-    blue: 0x1F77B4, orange: 0xFF7F0E, yellow: 0xF2C037, purple: 0x9467BD, brown: 0x8C564B,
-    pink: 0xE377C2, cyan: 0x17BECF, steel: 0x8FA3B5, clay: 0xBFB2A4,
-};
-
-// The rest of the names of CSS Color Module Level 4, section 6.1
-const CSS = new Map(Array.from(`
-    aliceblue f0f8ff antiquewhite faebd7 aqua 00ffff aquamarine 7fffd4 azure f0ffff beige f5f5dc
-    bisque ffe4c4 blanchedalmond ffebcd blueviolet 8a2be2 burlywood deb887 cadetblue 5f9ea0
-    chartreuse 7fff00 chocolate d2691e coral ff7f50 cornflowerblue 6495ed cornsilk fff8dc
-    crimson dc143c darkblue 00008b darkcyan 008b8b darkgoldenrod b8860b darkgray a9a9a9
-    darkgreen 006400 darkgrey a9a9a9 darkkhaki bdb76b darkmagenta 8b008b darkolivegreen 556b2f
-    darkorange ff8c00 darkorchid 9932cc darkred 8b0000 darksalmon e9967a darkseagreen 8fbc8f
-    darkslateblue 483d8b darkslategray 2f4f4f darkslategrey 2f4f4f darkturquoise 00ced1
-    darkviolet 9400d3 deeppink ff1493 deepskyblue 00bfff dimgray 696969 dimgrey 696969
-    dodgerblue 1e90ff firebrick b22222 floralwhite fffaf0 forestgreen 228b22 fuchsia ff00ff
-    gainsboro dcdcdc ghostwhite f8f8ff gold ffd700 goldenrod daa520 greenyellow adff2f
-    honeydew f0fff0 hotpink ff69b4 indianred cd5c5c indigo 4b0082 ivory fffff0 khaki f0e68c
-    lavender e6e6fa lavenderblush fff0f5 lawngreen 7cfc00 lemonchiffon fffacd lightblue add8e6
-    lightcoral f08080 lightcyan e0ffff lightgoldenrodyellow fafad2 lightgray d3d3d3
-    lightgreen 90ee90 lightgrey d3d3d3 lightpink ffb6c1 lightsalmon ffa07a lightseagreen 20b2aa
-    lightskyblue 87cefa lightslategray 778899 lightslategrey 778899 lightsteelblue b0c4de
-    lightyellow ffffe0 lime 00ff00 limegreen 32cd32 linen faf0e6 magenta ff00ff maroon 800000
-    mediumaquamarine 66cdaa mediumblue 0000cd mediumorchid ba55d3 mediumpurple 9370db
-    mediumseagreen 3cb371 mediumslateblue 7b68ee mediumspringgreen 00fa9a mediumturquoise 48d1cc
-    mediumvioletred c71585 midnightblue 191970 mintcream f5fffa mistyrose ffe4e1 moccasin ffe4b5
-    navajowhite ffdead navy 000080 oldlace fdf5e6 olive 808000 olivedrab 6b8e23 orangered ff4500
-    orchid da70d6 palegoldenrod eee8aa palegreen 98fb98 paleturquoise afeeee
-    palevioletred db7093 papayawhip ffefd5 peachpuff ffdab9 peru cd853f plum dda0dd
-    powderblue b0e0e6 rebeccapurple 663399 rosybrown bc8f8f royalblue 4169e1 saddlebrown 8b4513
-    salmon fa8072 sandybrown f4a460 seagreen 2e8b57 seashell fff5ee sienna a0522d silver c0c0c0
-    skyblue 87ceeb slateblue 6a5acd slategray 708090 slategrey 708090 snow fffafa
-    springgreen 00ff7f steelblue 4682b4 tan d2b48c teal 008080 thistle d8bfd8 tomato ff6347
-    turquoise 40e0d0 violet ee82ee wheat f5deb3 whitesmoke f5f5f5 yellowgreen 9acd32`.matchAll(/([a-z]+) ([0-9a-f]{6})/g), (found) => found.slice(1)));
-
 function shown(value) {
     if (isArray(value)) return `${value.constructor?.name ?? "an array"} of ${value.length}`;
     if (typeof value === "string") return JSON.stringify(value.slice(0, 40));
@@ -175,30 +139,22 @@ export function indices(name, value, vertices, words) {
 /** The sRGB value of linear light, not clamped */
 export const encoded = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 
-/** Display colours, 0 .. 1; integers are bytes. */
+let core = null;
+
+/** Hands over what the core knows of colours: named(label, word) and shown(label, numbers, columns, whole, bytes). */
+export function useCore(functions) { core = functions; }
+
+/** Display colours, 0 .. 1, of numbers or of bytes: typed arrays of integers are bytes, but where all are 0 or 1 and
+ *  the type does not say so. */
 export function displayed(name, value, width) {
-    if (value instanceof Uint8Array || value instanceof Uint8ClampedArray) {
-        return Float32Array.from(value, (x) => x * Math.fround(1 / 255));
-    }
-    const got = rows(name, value, width);
-    if (!got.every((x) => x >= 0 && x <= 1)) throw new ShadeError(`${name} must be from 0 to 1`);
-    return got;
+    const got = numbers(name, value), bytes = got instanceof Uint8Array || got instanceof Uint8ClampedArray;
+    if (got.length % width) throw new ShadeError(`${name} must hold ${width} numbers a row, not ${got.length} in all`);
+    return core.shown(name, got, width, bytes || /^Int|^Uint/.test(got.constructor.name), bytes);
 }
 
 /** One display colour: #RRGGBB, #RGB, a name of ours or of CSS, or three numbers. */
 export function color(label, value) {
-    if (typeof value !== "string") return vector(label, displayed(label, value, 3), 3);
-    const name = value.toLowerCase();
-    let bits = Object.hasOwn(NAMES, name) ? NAMES[name] : undefined;
-    const digits = CSS.get(name) ?? /^#?([0-9a-f]{3}|[0-9a-f]{6})$/i.exec(value)?.[1];
-    if (bits === undefined && digits) {
-        bits = parseInt(digits.length === 3 ? digits.replace(/./g, "$&$&") : digits, 16);
-    }
-    if (bits === undefined) {
-        throw new ShadeError(`${label} must be #RRGGBB, #RGB, a name of CSS or one of ` +
-                             `${Object.keys(NAMES).join(", ")}, not ${shown(value)}`);
-    }
-    return Float32Array.of((bits >> 16) / 255, ((bits >> 8) & 255) / 255, (bits & 255) / 255);
+    return typeof value === "string" ? Float32Array.from(core.named(label, value)) : vector(label, displayed(label, value, 3), 3);
 }
 
 /** Of shade_wrap, by number */

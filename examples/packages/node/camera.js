@@ -1,63 +1,169 @@
-// Cameras: a view from the world and a projection, as matrices of WebGL, by columns.
-import { ShadeError, choice, flag, isArray, matrix, record, vector } from "./arguments.js";
+// Cameras: views from the world and projections, as matrices of WebGL, by columns.  The core makes them.
+import * as check from "./arguments.js";
 
-// Azimuth and elevation in degrees of the views that have names
-const VIEWS = {
-    front: [0, 0], right: [90, 0], back: [180, 0], left: [270, 0], top: [0, 90], bottom: [0, -90],
-    iso: [45, Math.atan(Math.sqrt(0.5)) * 180 / Math.PI],
-};
-const MARGIN = 1.08, FOV = 28, MOST = 1e8;
+const { ShadeError, choice, flag, isArray, matrix, record, vector } = check;
+const FOV = 28, MARGIN = 1.08, PLACE = 20;    // PLACE: numbers of a core_place: pose, origin, reach
+const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const norm = (a) => Math.sqrt(dot(a, a));
-const scale = (a, s) => a.map((x) => x * s);
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                         a[0] * b[1] - a[1] * b[0]];
+/** 4 x 4 by columns, row by row */
+const byRows = (m) => Float64Array.from(m, (_, k) => m[4 * (k % 4) + Math.floor(k / 4)]);
 
-/** The rows of a rotation after which back is +z, and up is as near to +y as it can be. */
-function facing(back, up) {
-    const z = scale(back, 1 / norm(back));
-    let x = cross(up, z);
-    if (norm(x) < 1e-6 * norm(up)) {
-        const size = z.map(Math.abs), axis = [0, 0, 0];
-        axis[size.indexOf(Math.min(...size))] = 1;
-        x = cross(axis, z);
-    }
-    x = scale(x, 1 / norm(x));
-    return [x, cross(z, x), z];
+/** A number of any size, which the core looks at */
+function oneNumber(name, value) {
+    if (typeof value === "number") return value;
+    throw new ShadeError(`${name} must be a number, not ${value === undefined ? "missing" : typeof value}`);
 }
 
-/** The way toward the eye, and the way up. */
-function direction(view, up) {
-    const [azimuth, elevation] = isArray(view) ? vector("view", view, 2)
-                                               : VIEWS[choice("view", view, Object.keys(VIEWS))];
-    const a = azimuth * (Math.PI / 180), e = elevation * (Math.PI / 180);
-    const back = [Math.sin(a) * Math.cos(e), -Math.cos(a) * Math.cos(e), Math.sin(e)];
-    const head = [-Math.sin(a) * Math.sin(e), Math.cos(a) * Math.sin(e), Math.cos(e)];
-    const turned = (v) => choice("up", up, ["y", "z"]) === "y" ? [v[0], v[2], -v[1]] : v;
-    return [turned(back), turned(head)];
+/** So many numbers of any size, which the core looks at */
+function numbers(name, value, ...counts) {
+    const got = check.doubles(name, value, 1);
+    if (counts.includes(got.length)) return got;
+    throw new ShadeError(`${name} must hold ${counts.join(" or ")} numbers, not ${got.length}`);
 }
 
-/** From where coordinates in a box are counted, so that floats keep their digits: zero, or for a box
-    far away a round number near it, of which doubles subtract without rounding. */
-export function originOf(low, high) {
-    const middle = low.map((x, k) => (x + high[k]) / 2);
-    const extent = Math.max(...low.map((x, k) => high[k] - x));
-    const far = Math.max(...middle.map(Math.abs));
-    if (!Number.isFinite(far) || !Number.isFinite(extent) || far <= 16 * extent) return [0, 0, 0];
-    const step = extent > 0 ? Number(`1e${Math.ceil(Math.log10(extent))}`) : 1;
-    return middle.map((x) => {
-        const half = x / step, whole = Math.round(half);    // ties go to even numbers, as in NumPy
-        return (whole - half === 0.5 && whole % 2 ? whole - 1 : whole) * step;
+/** The cameras, over the functions of index.js that know the module's memory. */
+export function camerasOf({ library, withMemory, put, text, asked }) {
+    const doubles = (at, count) => new Float64Array(library.memory.buffer, at, count);
+    const VIEWS = {};
+    withMemory((room) => {
+        const angles = room(16);
+        for (let i = 0, at; (at = library.view_name(i, angles)); i++) VIEWS[text(at)] = [...doubles(angles, 2)];
     });
+
+    /** From where coordinates in a box are counted, so that floats keep their digits */
+    function originOf(low, high) {
+        return withMemory((room) => {
+            const out = room(24);
+            library.origin(put(room(24), Float64Array.from(low)), put(room(24), Float64Array.from(high)), out);
+            return [...doubles(out, 3)];
+        });
+    }
+
+    /** Meshes in a world that counts from an origin: { origin, placed }. */
+    function placed(meshes) {
+        return withMemory((room) => {
+            const rows = meshes.map(({ pose, origin, reach }) => [...pose, ...origin, reach]);
+            const at = put(room(8 * PLACE * meshes.length + 8), Float64Array.from(rows.flat())), out = room(24);
+            library.place_all(at, meshes.length, out);
+            return { origin: [...doubles(out, 3)],
+                     placed: meshes.map((mesh, i) => ({ mesh, pose: doubles(at + 8 * PLACE * i, 16).slice() })) };
+        });
+    }
+
+    const listed = (room, near) => [
+        put(room(4 * near.length + 4), Uint32Array.from(near, ({ mesh }) => mesh.address)),
+        put(room(8 * PLACE * near.length + 8), Float64Array.from(near.flatMap(({ pose }) => [...pose, 0, 0, 0, 0]))),
+        near.length];
+
+    const read = (at) => ({ view: Float32Array.from(doubles(at, 16)), projection: Float32Array.from(doubles(at + 128, 16)) });
+
+    /** A core_side */
+    function sideOf(room, view, up, width, height, ortho, ...others) {
+        const angles = isArray(view) ? (vector("view", view, 2), view) : VIEWS[choice("view", view, Object.keys(VIEWS))];
+        const axis = AXES.indexOf(choice("up", up, ["y", "z"])), side = room(56);
+        doubles(side, 2).set(angles);
+        new Int32Array(library.memory.buffer, side + 16, 4).set([axis, width, height, flag("ortho", ortho) ? 1 : 0]);
+        doubles(side + 32, 3).set(others);
+        return side;
+    }
+
+    /** The nearest camera that sees all meshes from a side: { view, projection }.  room is how much deeper
+     *  than the meshes the picture reaches, as a part of their extent. */
+    function fitted(near, view, [width, height], up, ortho, deeper) {
+        return withMemory((room) => {
+            const side = sideOf(room, view, up, width, height, ortho, FOV, MARGIN, deeper), out = room(256);
+            asked(library.fit, side, ...listed(room, near), out);
+            return read(out);
+        });
+    }
+
+    /** 4 x 4 by columns: takes the meshes to the studio, about the origin and within distance 1, with +y up
+     *  and +z toward the eye. */
+    function studio(near, { view }, up) {
+        const axis = AXES.indexOf(choice("up", up, ["y", "z"]));
+        return withMemory((room) => {
+            const out = room(128), from = put(room(128), Float64Array.from(view));
+            library.studio(...listed(room, near), from, axis, out);
+            return Float32Array.from(doubles(out, 16));
+        });
+    }
+
+    /** Refuses a view by columns that is more than a rotation and a translation. */
+    function rigid(name, view) {
+        if (withMemory((room) => library.not_rigid(put(room(128), byRows(view)), 1)) < 0) return;
+        throw new ShadeError(`${name} must be a rotation and a translation, without scale or mirror`);
+    }
+
+    /** near, far and whether the projection, by columns, is parallel */
+    function rangeOf(name, projection) {
+        return withMemory((room) => {
+            const out = room(24), words = put(room(128), Float64Array.from(projection));
+            asked(library.range_of, put(room(64), new TextEncoder().encode(`${name}\0`)), words, out);
+            const [near, far] = doubles(out, 2);
+            return { near, far, parallel: new Int32Array(library.memory.buffer, out + 16, 1)[0] };
+        });
+    }
+
+    /** The camera that a caller describes by its matrices, in a world that counts from an origin. */
+    function given(value, origin) {
+        const { view, projection } = record("view", value, ["view", "projection"]);
+        const camera = { view: matrix("view.view", view), projection: vector("view.projection", projection, 16) };
+        const m = camera.view;
+        rigid("view.view", m);
+        for (let k = 0; k < 3; k++) m[12 + k] += m[k] * origin[0] + m[4 + k] * origin[1] + m[8 + k] * origin[2];
+        camera.view = Float32Array.from(m);
+        return camera;
+    }
+
+    /** A camera of the core, which takes its matrices as arguments */
+    function made(call, arrays, ...others) {
+        return withMemory((room) => {
+            const at = arrays.map((numbers) => put(room(8 * numbers.length + 8), Float64Array.from(numbers))), out = room(256);
+            asked(call, ...at, ...others, out);
+            return { view: doubles(out, 16).slice(), projection: doubles(out + 128, 16).slice() };
+        });
+    }
+
+    /** Cameras as { view, projection }: see index.d.ts. */
+    const Camera = {
+        lookAt(eye, target = [0, 0, 0], options = undefined) {
+            const { up = [0, 0, 1], fov = 45, aspect, near = 0.01, far = 1000 } =
+                record("options", options, ["up", "fov", "aspect", "near", "far"]);
+            return made(library.look_at, [[...numbers("eye", eye, 3), ...numbers("target", target, 3), ...numbers("up", up, 3),
+                                           ...Object.entries({ fov, aspect, near, far }).map((one) => oneNumber(...one))]]);
+        },
+        opencv(K, extrinsics, size, options = undefined) {
+            const { near = 0.01, far = 1000 } = record("options", options, ["near", "far"]);
+            const [width, height] = check.size("size", size), whole = [...numbers("extrinsics", extrinsics, 12, 16)];
+            if (whole.length === 12) whole.push(0, 0, 0, 1);
+            return { ...made(library.opencv, [numbers("K", K, 9), whole], width, height, oneNumber("near", near),
+                             oneNumber("far", far)), size: [width, height] };
+        },
+        opengl(projection, pose) {
+            return made(library.opengl, [numbers("projection", projection, 16), byRows(numbers("pose", pose, 16))]);
+        },
+        fitted(positions, options = undefined) {
+            const { view = "iso", size = [640, 480], up = "z", ortho = false, fov = FOV, margin = MARGIN } =
+                record("options", options, ["view", "size", "up", "ortho", "fov", "margin"]);
+            const [width, height] = check.size("size", size), points = check.rows("positions", positions, 3);
+            return withMemory((room) => {
+                const at = put(room(points.byteLength + 4), points), out = room(256);
+                const side = sideOf(room, view, up, width, height, ortho, oneNumber("fov", fov), oneNumber("margin", margin), 0);
+                asked(library.fit_points, side, at, points.length / 3, out);
+                return { view: doubles(out, 16).slice(), projection: doubles(out + 128, 16).slice() };
+            });
+        },
+    };
+
+    return { Camera, originOf, placed, fitted, studio, rigid, rangeOf, given };
 }
 
-/** The box around the rows that are finite and fit floats; marks leaves others out. */
-export function boxOf(rows, marks) {
+/** The box around the rows that are finite and fit floats */
+export function boxOf(rows) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (let i = 0; i < rows.length; i += 3) {
         const most = Math.max(Math.abs(rows[i]), Math.abs(rows[i + 1]), Math.abs(rows[i + 2]));
-        if (!(most <= 1e30) || (marks && !marks[i / 3])) continue;
+        if (!(most <= 1e30)) continue;
         for (let k = 0; k < 3; k++) {
             low[k] = Math.min(low[k], rows[i + k]);
             high[k] = Math.max(high[k], rows[i + k]);
@@ -66,187 +172,19 @@ export function boxOf(rows, marks) {
     return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
 }
 
-/** The meshes in a world that counts from an origin: { origin, placed }. */
-export function placed(meshes) {
-    let low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    const own = meshes.map(({ pose: m, origin: o, reach }) => {
-        const out = Float64Array.from(m);
-        for (let k = 0; k < 3; k++) out[12 + k] += m[k] * o[0] + m[4 + k] * o[1] + m[8 + k] * o[2];
-        const scale = Math.max(...[0, 1, 2, 4, 5, 6, 8, 9, 10].map((k) => Math.abs(m[k])));
-        const middle = [out[12], out[13], out[14]];
-        low = middle.map((x, k) => Math.min(low[k], x - scale * reach));
-        high = middle.map((x, k) => Math.max(high[k], x + scale * reach));
-        return out;
-    });
-    const origin = meshes.length ? originOf(low, high) : [0, 0, 0];
-    return { origin, placed: meshes.map((mesh, i) => {
-        own[i].set(origin.map((x, k) => own[i][12 + k] - x), 12);
-        return { mesh, positions: mesh.positions, used: mesh.used, pose: own[i] };
-    }) };
-}
-
-/** 4 x 4 by columns, of three rows and a translation. */
-function rigid(turn, move) {
-    const m = new Float32Array(16);
-    for (let row = 0; row < 3; row++) {
-        for (let column = 0; column < 3; column++) m[4 * column + row] = turn[row][column];
-        m[12 + row] = move[row];
-    }
-    m[15] = 1;
-    return m;
-}
-
-function perspective(width, height, near, far) {
-    const slope = Math.tan(FOV * (Math.PI / 180) / 2), m = new Float32Array(16);
-    m[0] = 1 / (slope * (width / height));
-    m[5] = 1 / slope;
-    m[10] = (far + near) / (near - far);
-    m[11] = -1;
-    m[14] = 2 * far * near / (near - far);
-    return m;
-}
-
-function orthographic(width, height, turn, low, high, reach) {
-    const middle = low.map((x, k) => (x + high[k]) / 2), m = new Float32Array(16);
-    const extent = low.map((x, k) => (high[k] - x) / 2);
-    const half = MARGIN * Math.max(extent[1], extent[0] * height / width, 1e-4 * reach);
-    m[0] = height / (half * width);
-    m[5] = 1 / half;
-    m[10] = -1 / (2 * reach);
-    m[14] = -1;
-    m[15] = 1;
-    return { view: rigid(turn, [-middle[0], -middle[1], -middle[2] - 2 * reach]), projection: m };
-}
-
-/** Which vertices triangles use, 1 or 0 each; not those alone that have two corners at one place, which
-    cannot be seen. */
-export function used({ positions: p, indices }) {
-    const marks = new Uint8Array(p.length / 3);
-    const one = (i, j) => p[3 * i] === p[3 * j] && p[3 * i + 1] === p[3 * j + 1] && p[3 * i + 2] === p[3 * j + 2];
-    let seen = false;
-    for (let i = 0; i < indices.length; i += 3) {
-        const [a, b, c] = [indices[i], indices[i + 1], indices[i + 2]];
-        if (one(a, b) || one(b, c) || one(c, a)) continue;
-        marks[a] = marks[b] = marks[c] = 1;
-        seen = true;
-    }
-    if (!seen) for (const i of indices) marks[i] = 1;
-    return marks;
-}
-
-/** Calls take with each point of the meshes in the world, but those with NaN or beyond 1e8. */
-function eachPoint(meshes, take) {
-    for (const { positions: p, pose: m, used: marks } of meshes) {
-        for (let i = 0, at = 0; i < marks.length; i++, at += 3) {
-            const x = Math.fround(p[at] * m[0] + p[at + 1] * m[4] + p[at + 2] * m[8] + m[12]);
-            const y = Math.fround(p[at] * m[1] + p[at + 1] * m[5] + p[at + 2] * m[9] + m[13]);
-            const z = Math.fround(p[at] * m[2] + p[at + 1] * m[6] + p[at + 2] * m[10] + m[14]);
-            const most = Math.max(Math.abs(x), Math.abs(y), Math.abs(z));
-            if (marks[i] && most <= MOST) take(x, y, z);
-        }
-    }
-}
-
-/** Extremes of the points in the axes of the camera, and of what bounds the eye from four sides.
-    Points with NaN or beyond 1e8 do not count. */
-function extremes(meshes, turn, [across, along]) {
-    const [r, u, b] = turn, low = [0, 0, 0], high = [0, 0, 0], above = [0, 0], below = [0, 0];
-    let none = true;
-    const take = (x, y, z) => {
-        const right = x * r[0] + y * r[1] + z * r[2], up = x * u[0] + y * u[1] + z * u[2];
-        const back = x * b[0] + y * b[1] + z * b[2], bounds = [right, up, back];
-        for (let k = 0; k < 3; k++) {
-            low[k] = none ? bounds[k] : Math.min(low[k], bounds[k]);
-            high[k] = none ? bounds[k] : Math.max(high[k], bounds[k]);
-        }
-        above[0] = Math.max(none ? -Infinity : above[0], right + across * back);
-        above[1] = Math.max(none ? -Infinity : above[1], up + along * back);
-        below[0] = Math.max(none ? -Infinity : below[0], across * back - right);
-        below[1] = Math.max(none ? -Infinity : below[1], along * back - up);
-        none = false;
-    };
-    eachPoint(meshes, take);
-    if (none) take(0, 0, 0);
-    return { low, high, above, below };
-}
-
-/** The nearest camera that sees all meshes from a side: { view, projection }.  room is how much deeper
-    than the meshes the picture reaches, as a part of their extent. */
-export function fitted(meshes, view, [width, height], up, ortho, room) {
-    const turn = facing(...direction(view, up)), slope = Math.tan(FOV * (Math.PI / 180) / 2);
-    const slopes = [slope * width / height, slope];
-    const { low, high, above, below } = extremes(meshes, turn, slopes);
-    const most = Math.max(...low.map(Math.abs), ...high.map(Math.abs));
-    const reach = Math.max(norm(high.map((x, k) => x - low[k])), most * 1e-6, 1e-6);
-    if (flag("ortho", ortho)) return orthographic(width, height, turn, low, high, reach);
-    const shift = [0, 1].map((k) => (above[k] - below[k]) / 2);
-    const bounds = [0, 1].map((k) => (above[k] + below[k]) / (2 * slopes[k]));
-    const least = Math.max(...bounds, high[2] + 1e-3 * reach);
-    const distance = least + (MARGIN - 1) * (least - (low[2] + high[2]) / 2);
-    const far = distance - low[2] + room * reach;
-    const near = Math.max(0.9 * (distance - high[2] - room * reach), (room ? 0.01 : 1e-4) * far);
-    return {
-        view: rigid(turn, [-shift[0], -shift[1], -distance]),
-        projection: perspective(width, height, near, 1.1 * far + 1e-3 * reach),
-    };
-}
-
-/** 4 x 4 by columns: takes the meshes to the studio, about the origin and within distance 1, with +y
-    up and +z toward the eye. */
-export function studio(meshes, { view }, up) {
-    let low = null, high = null, size = 0;
-    eachPoint(meshes, (...p) => {
-        low = p.map((x, k) => Math.min(x, low?.[k] ?? x));
-        high = p.map((x, k) => Math.max(x, high?.[k] ?? x));
-    });
-    const middle = (low ?? [0, 0, 0]).map((x, k) => (x + (high?.[k] ?? 0)) / 2);
-    eachPoint(meshes, (...p) => { size = Math.max(size, norm(p.map((x, k) => x - middle[k]))); });
-    const y = choice("up", up, ["y", "z"]) === "z" ? [0, 0, 1] : [0, 1, 0];
-    const [across, over] = [0, 1].map((row) => {
-        const way = [view[row], view[row + 4], view[row + 8]];
-        return way.map((x, k) => x - dot(way, y) * y[k]);
-    });
-    const x = norm(across) < 1e-3 ? scale(over, 1 / norm(over)) : scale(across, 1 / norm(across));
-    const turn = [x, y, cross(x, y)].map((row) => scale(row, 1 / Math.max(size, 1e-12)));
-    return rigid(turn, turn.map((row) => -dot(row, middle)));
-}
-
-/** The rows of the rotation of a matrix by columns, which has a translation besides, and no more */
-export function rotationOf(name, view) {
-    const rows = [0, 1, 2].map((k) => [view[k], view[4 + k], view[8 + k]]);
-    const last = [3, 7, 11].every((k) => view[k] === 0) && view[15] === 1;
-    const apart = rows.map((a, i) => rows.map((b, k) => Math.abs(dot(a, b) - (i === k ? 1 : 0))));
-    if (last && Math.max(...apart.flat()) <= 1e-3) return rows;
-    throw new ShadeError(`${name} must be a rotation and a translation, without scale`);
-}
-
-/** The camera that a caller describes by its matrices, in a world that counts from an origin. */
-export function given(value, origin) {
-    const { view, projection } = record("view", value, ["view", "projection"]);
-    const camera = { view: matrix("view.view", view),
-                     projection: vector("view.projection", projection, 16) };
-    const rows = rotationOf("view.view", camera.view);
-    for (let k = 0; k < 3; k++) camera.view[12 + k] += dot(rows[k], origin);
-    camera.view = Float32Array.from(camera.view);
-    return camera;
-}
-
 /** The eye of a camera in the space of a mesh, or the way toward it where all see the same way. */
 export function eyeOf({ view, projection }, pose) {
     const parallel = projection[15] !== 0, inverse = inverted(pose);
     if (!inverse) return null;
-    const back = [view[2], view[6], view[10]];
-    const eye = [0, 1, 2].map((k) => -(view[4 * k] * view[12] + view[4 * k + 1] * view[13] +
-                                       view[4 * k + 2] * view[14]));
-    const p = parallel ? back : eye.map((x, k) => x - pose[12 + k]);
-    return { eye: inverse.map((row) => dot(row, p)), parallel };
+    const eye = [0, 1, 2].map((k) => -(view[4 * k] * view[12] + view[4 * k + 1] * view[13] + view[4 * k + 2] * view[14]));
+    const p = parallel ? [view[2], view[6], view[10]] : eye.map((x, k) => x - pose[12 + k]);
+    return { eye: inverse.map((row) => row[0] * p[0] + row[1] * p[1] + row[2] * p[2]), parallel };
 }
 
-/** The rows of the inverse of the upper left 3 x 3, or null. */
+/** The rows of the inverse of the upper left 3 x 3, or null */
 function inverted(m) {
-    const columns = [0, 4, 8].map((k) => [m[k], m[k + 1], m[k + 2]]);
-    const rows = [cross(columns[1], columns[2]), cross(columns[2], columns[0]),
-                  cross(columns[0], columns[1])];
-    const det = dot(columns[0], rows[0]);
-    return Math.abs(det) < 1e-30 ? null : rows.map((row) => scale(row, 1 / det));
+    const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+    const [a, b, c] = [0, 4, 8].map((k) => [m[k], m[k + 1], m[k + 2]]);
+    const rows = [cross(b, c), cross(c, a), cross(a, b)], det = a[0] * rows[0][0] + a[1] * rows[0][1] + a[2] * rows[0][2];
+    return det === 0 ? null : rows.map((row) => row.map((x) => x / det));
 }

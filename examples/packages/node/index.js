@@ -1,6 +1,6 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
-import { boxOf, eyeOf, fitted, given, originOf, placed, studio, used } from "./camera.js";
+import { boxOf, camerasOf, eyeOf } from "./camera.js";
 import encoded from "./module.js";
 import { readersOf } from "./model.js";
 import { mujocoOf } from "./mujoco.js";
@@ -76,6 +76,45 @@ function succeed(name, result) {
     if (result) throw new ShadeError(`${name}: ${text(library.words(result))}`);
 }
 
+/** What a function of the core returns; throws what it refuses, by the argument's name. */
+function asked(call, ...given) {
+    return withMemory((room) => {
+        const why = room(452);
+        words(why, 113).fill(0);
+        const got = call(why, ...given);
+        if (words(why, 1)[0]) throw new ShadeError(`${text(why + 4)} ${text(why + 68)}`);
+        return got;
+    });
+}
+
+const cameras = camerasOf({ library, withMemory, put, text, asked });
+
+/** A display colour by its name or its digits */
+function named(label, word) {
+    return withMemory((room) => {
+        const encoded = (string) => put(room(4 * string.length + 1), new TextEncoder().encode(`${string}\0`));
+        const rgb = room(24);
+        asked(library.color, encoded(label), encoded(word), rgb);
+        return new Float64Array(library.memory.buffer, rgb, 3).slice();
+    });
+}
+
+/** Display colours, 0 .. 1 */
+function shown(label, numbers, columns, whole, bytes) {
+    const count = numbers.length / columns;
+    return withMemory((room) => {
+        const [name, rows] = [put(room(label.length * 4 + 1), new TextEncoder().encode(`${label}\0`)),
+                              put(room(8 * numbers.length + 8), Float64Array.from(numbers))];
+        const [rgb, alpha] = [room(12 * count + 4), room(8)];
+        asked(library.colors, name, rows, count, columns, whole ? 1 : 0, bytes ? 1 : 0, rgb, alpha);
+        return floats(rgb, 3 * count).slice();
+    });
+}
+check.useCore({ named, shown });
+
+/** Cameras by an eye and a target, by OpenCV's and OpenGL's matrices, and fitted: see index.d.ts. */
+export const Camera = cameras.Camera;
+
 /** Linear light of display colours. */
 function linear(rgb) {
     return withMemory((room) => {
@@ -117,12 +156,12 @@ function material(value) {
 function warn({ positions, indices }) {
     const corners = (i, good) => [0, 1, 2].every((c) => [0, 1, 2].every((k) => good(positions[3 * indices[i + c] + k])));
     let lost = 0, seen = false;
-    for (let i = 0; i < indices.length && !seen; i += 3) seen = corners(i, (x) => Math.abs(x) <= 1e8);
+    for (let i = 0; i < indices.length && !seen; i += 3) seen = corners(i, (x) => Math.abs(x) <= 1e30);
     if (seen && positions.every(Number.isFinite)) return;
     for (let i = 0; i < indices.length; i += 3) lost += !corners(i, Number.isFinite);
     if (seen && !lost) return;
     console.warn(seen ? `shade-h: positions: ${lost} triangles have corners that are no finite numbers (left out)`
-               : indices.length ? "shade-h: positions: no triangle has three corners within 1e8: nothing is drawn"
+               : indices.length ? "shade-h: positions: no triangle has three corners within 1e30: nothing is drawn"
                : "shade-h: indices: there are no triangles: nothing is drawn");
 }
 
@@ -134,7 +173,20 @@ function gloss(color) {
 // ---- meshes
 
 const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
-const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
+/** Indices of faces, rows of 3 or 4 corners */
+function triangles(faces, vertices) {
+    const columns = faces?.[0]?.length ?? 3, flat = Array.isArray(faces) ? faces.flat() : [];
+    if (!Array.isArray(faces) || !faces.every((row) => row?.length === columns) || !flat.every((x) => typeof x === "number")) {
+        throw new ShadeError("faces must be an array of rows of 3 or of 4 numbers");
+    }
+    return withMemory((room) => {
+        const name = put(room(6), new TextEncoder().encode("faces\0"));
+        const at = put(room(8 * flat.length + 8), Float64Array.from(flat)), out = room(24 * faces.length + 4);
+        return words(out, asked(library.faces, name, at, faces.length, columns, vertices, out)).slice();
+    });
+}
+
+const MESH_OPTIONS = ["positions", "indices", "faces", "normals", "color", "colors", "uv", "texture",
                       "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff", "metal", "roughness",
                       "relief", "strength", "glow", "glowFactor", "unlit"];
 // What needs uv, in the order of asked_mesh
@@ -148,15 +200,14 @@ export class Mesh {
         const got = check.record("mesh", source, MESH_OPTIONS);
         const { normals = "auto", color, colors, edges = false, twoSided = true } = got;
         const exact = check.doubles("positions", got.positions, 3);
-        this.origin = exact instanceof Float64Array ? originOf(...boxOf(exact)) : [0, 0, 0];
+        this.origin = exact instanceof Float64Array ? cameras.originOf(...boxOf(exact)) : [0, 0, 0];
         this.positions = Float32Array.from(exact);
         if (this.origin.some((x) => x !== 0)) {
             for (let i = 0; i < exact.length; i++) this.positions[i] = exact[i] - this.origin[i % 3];
         }
         const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
-        this.indices = check.indices("indices", got.indices, vertices, sentence).slice();
-        this.used = used(this);
-        this.reach = Math.max(...boxOf(this.positions, this.used).flat().map(Math.abs)) * Math.sqrt(3);
+        this.indices = got.faces === undefined ? check.indices("indices", got.indices, vertices, sentence).slice()
+            : triangles(got.faces, vertices);
         warn(this);
         this.pose = got.pose === undefined ? IDENTITY : check.pose("pose", got.pose);
         this.edges = check.flag("edges", edges);
@@ -176,6 +227,8 @@ export class Mesh {
             : gloss(plain ?? (white ? [1, 1, 1] : linear(check.color("color", "clay"))));
         this.tint = plain === null && got.material === undefined ? null : this.material.slice(6, 9);
         this.#at = this.#made(normals, colors, got);
+        this.reach = library.mesh_reach(this.#at);
+        if (this.reach < 0) throw new RangeError("memory is not enough for the mesh");
         forgotten.register(this, this.#at, this);
     }
 
@@ -327,16 +380,16 @@ export function render(meshes, options) {
             return made[made.length - 1];
         });
         const soft = named === "studio", side = typeof view === "string" || check.isArray(view);
-        const { origin, placed: near } = placed(several);
-        const camera = side ? fitted(near, view, [width, height], up, ortho, soft ? 1.5 : 0)
-            : given(view, origin);
+        const { origin, placed: near } = cameras.placed(several);
+        const camera = side ? cameras.fitted(near, view, [width, height], up, ortho, soft ? 1.5 : 0)
+            : cameras.given(view, origin);
         own?.lights.forEach((row) => {    // rows begin with x, y, z, w of a lamp
             row.set(origin.map((x, k) => row[k] - row[3] * x));
         });
         check.flag("depth", depth);
         return drawn(near, camera, { width, height, samples, background: behind, depth,
                                         light: own ?? quick(camera),
-                                        toStudio: soft ? studio(near, camera, up) : null });
+                                        toStudio: soft ? cameras.studio(near, camera, up) : null });
     } finally {
         made.forEach((mesh) => mesh.free());
     }
@@ -353,7 +406,7 @@ export const readGltf = readers.readGltf;
 export const read3mf = readers.read3mf;
 
 /** One scene and many cameras: see index.d.ts. */
-export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared });
+export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared, cameras });
 
 /** MuJoCo's own class without OpenGL: new mujoco.Renderer(mj, model, height, width). */
 export const mujoco = mujocoOf(Renderer);

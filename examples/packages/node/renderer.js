@@ -1,7 +1,6 @@
 // Cameras for simulators, learners and graders: one scene, many pictures of colour, depth, numbers of
 // objects and normals.  Names and bytes are those of the package for Python.
 import * as check from "./arguments.js";
-import { rotationOf } from "./camera.js";
 
 const { ShadeError } = check;
 
@@ -88,27 +87,13 @@ function rows(name, value) {
     return Array.from({ length: 16 }, (_, k) => m[4 * (k % 4) + Math.floor(k / 4)]);
 }
 
-/** near, far and whether the projection is parallel, of a matrix of OpenGL by columns. */
-function rangeOf(p) {
-    const refused = () => new ShadeError("camera: its projection must be that of OpenGL, with near before far");
-    if (p[15] !== 0) {
-        const near = (p[14] + 1) / p[10], far = (p[14] - 1) / p[10];
-        if (!(near < far)) throw refused();
-        return { near, far, parallel: 1 };
-    }
-    const a = p[10] / -p[11], b = p[14] / -p[11];
-    const near = b / (a - 1), far = a < -1 ? b / (a + 1) : 3e30;
-    if (!(near > 0 && near < far)) throw refused();
-    return { near, far: Math.min(far, 3e30), parallel: 0 };
-}
-
 /** A copy of options, whose arrays the caller may change afterwards */
 function own(options) {
     return Object.fromEntries(Object.entries(options).map(([name, value]) => [name, check.isArray(value) ? value.slice() : value]));
 }
 
 /** The class, over the functions of index.js that know the module's memory. */
-export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared }) {
+export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared, cameras }) {
     [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length], [9, IMAGE]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
@@ -633,8 +618,11 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #seen(name, camera) {
             const view = check.matrix(`${name}.view`, camera?.view);
             const projection = check.vector(`${name}.projection`, camera?.projection, 16);
-            rotationOf(`${name}.view`, view);
-            return { view, projection, ...rangeOf(projection) };
+            cameras.rigid(`${name}.view`, view);
+            if (camera.size && (camera.size[0] !== this.width || camera.size[1] !== this.height)) {
+                throw new ShadeError(`${name} was made for pictures of ${camera.size.join(" x ")} pixels, not of ${this.width} x ${this.height}`);
+            }
+            return { view, projection, ...cameras.rangeOf(name, projection) };
         }
 
         /** Matrices of all objects, row by row */

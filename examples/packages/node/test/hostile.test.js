@@ -48,7 +48,7 @@ test("errors begin with the name of the argument", () => {
     refused(/^normals must have a row for each of 8 vertices, not 1/, { ...box(), normals: [0, 0, 1] });
     refused(/^colors must have a row for each of 8 vertices or 12 faces, not 2/,
             { ...box(), colors: [0, 0, 0, 1, 1, 1] });
-    refused(/^color must be #RRGGBB.*"toString"/, { ...box(), color: "toString" });
+    refused(/^color must be #RRGGBB.*'toString'/, { ...box(), color: "toString" });
     refused(/^uv and texture belong together/, { ...box(), uv: new Float32Array(16) });
     refused(/^texture.data must hold 3 or 4 bytes a pixel, not 5/, { ...box(),
             uv: new Float32Array(16), texture: { data: [1, 2, 3, 4, 5], width: 1, height: 1 } });
@@ -459,7 +459,6 @@ test("a 3MF", async () => {
     await bad(/x of vertex is no number/, (all) => all.replace('x="1"', 'x="one"'));
     await bad(/x of vertex is missing/, (all) => all.replace('x="1"', ""));
     await bad(/transform of component must be 12 numbers/, (all) => all.replace("10 0 0", "10 0"));
-    await bad(/displaycolor of base is no colour/, (all) => all.replace("#FF8000", "#FF80"));
     await bad(/document types and entities are refused/, (all) => all.replace("<model", "<!DOCTYPE a><model"));
     await bad(/its XML is wrong/, (all) => all.replace("</build>", ""));
     await bad(/no faces in it/, (all) => all.replace(/<build>.*<.build>/, "<build/>").replaceAll(/<triangle [^>]*>/g, ""));
@@ -509,6 +508,11 @@ test("a model of any format", async () => {
     await bad(/^options.format must be one of obj, stl/, obj, { format: "fbx" });
     await bad(/^options.beside must be a function/, obj, { beside: {} });
     await bad(/^options.outside is no option/, obj, { outside: true });
+    const [plain] = await read(obj, { beside, color: "red", picture: () => assert.fail("no picture counts") });
+    assert.deepEqual([plain.color, plain.material, plain.texture, plain.uv], ["red", undefined, undefined, undefined]);
+    const [scan] = await read("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n", { color: [0, 1, 0] });
+    assert.deepEqual([scan.colors, scan.color], [undefined, [0, 1, 0]]);
+    await bad(/^options.color /, obj, { color: "no such colour" });
     await assert.rejects(readModel("a.obj"), /model: must be the bytes of a file/);
     await assert.rejects(read(obj, { beside: () => { throw new RangeError("mine"); } }), /RangeError: mine/);
     await read(obj, { beside, format: "obj", picture: () => null });

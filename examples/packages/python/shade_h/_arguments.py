@@ -2,20 +2,16 @@
 name."""
 from __future__ import annotations
 
+import ctypes
 import math
-import re
 import warnings
 from typing import Any, Sequence, Union
 
 import numpy as np
 
-from ._native import Array, Bytes, Doubles, Error, Floats, Indices, library, pointer
+from ._native import Array, Bytes, Doubles, Error, Floats, Indices, asked, library, pointer
 
 Color = Union[str, Sequence[float], Array]
-NAMES = {"white": 0xFFFFFF, "black": 0, "gray": 0x808080, "grey": 0x808080, "red": 0xD62728,
-         "green": 0x2CA02C, "blue": 0x1F77B4, "orange": 0xFF7F0E, "yellow": 0xF2C037,
-         "purple": 0x9467BD, "brown": 0x8C564B, "pink": 0xE377C2, "cyan": 0x17BECF,
-         "steel": 0x8FA3B5, "clay": 0xBFB2A4}
 MATERIALS = [library.shade_preset_name(i).decode().replace(" ", "_") for i in range(24)]
 MOST = 2**31 - 1
 WRAPS = ["repeat", "clamp", "mirror"]
@@ -117,20 +113,16 @@ def size(name: str, value: object) -> tuple[int, int]:
 
 def faces(name: str, value: object, vertices: int) -> Indices:
     """Triangles as indices; polygons of four corners are cut in two."""
-    got = np.asarray(array(name, value, (None, None)))
-    if got.dtype.kind == "f" and not np.array_equal(got, np.floor(got)):
-        raise Error(f"{name} must hold whole numbers")
-    if got.shape[1] == 4:
-        got = got[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-    if got.shape[1] != 3:
-        raise Error(f"{name} must have the shape (n, 3) or (n, 4), not {got.shape}")
-    if got.size > MOST:
-        raise Error(f"{name} has {got.size} indices; at most {MOST} are drawn")
-    if got.size and (got.min() < 0 or got.max() >= vertices):
-        wrong = got.min() if got.min() < 0 else got.max()
-        words = library.shade_result_string(7).decode()
-        raise Error(f"{name}: {words} (index {wrong} of {vertices} vertices)")
-    return np.array(got, np.uint32, order="C")
+    given = array(name, value, (None, None))
+    if given.size * 2 > MOST:
+        raise Error(f"{name} has {given.size} indices; at most {MOST} are drawn")
+    rows, columns = given.shape
+    if given.dtype.kind in "iu" and columns == 3 and given.size and given.min() >= 0 and given.max() < vertices:
+        return np.array(given, np.uint32, order="C")    # most are so
+    out = np.empty((rows * (2 if columns == 4 else 1), 3), np.uint32)
+    asked(library.python_faces, name.encode(), np.array(given, np.float64, order="C"), rows,
+          columns, vertices, out)
+    return out
 
 
 def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Floats:
@@ -139,29 +131,20 @@ def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Float
     got = array(name, value, (None, None))
     if got.shape[1] not in columns:
         raise Error(f"{name} must have 3 or 4 columns, not {got.shape[1]}")
-    whole = got.dtype.kind in "iu"
-    if got.size and not (got.min() >= 0 and got.max() <= (255 if whole else 1)):
-        raise Error(f"{name} must be from 0 to {'255' if whole else '1 (or whole, to 255)'}, "
-                    f"not {got.min():g} .. {got.max():g}")
-    scale = 1 / 255 if whole else 1.0
-    if got.size and got.shape[1] == 4 and got[:, 3].min() < 1 / scale:
+    rgb, alpha = np.empty((len(got), 3), np.float32), ctypes.c_double()
+    asked(library.python_colors, name.encode(), np.array(got, np.float64, order="C"), len(got),
+          got.shape[1], got.dtype.kind in "iu", got.dtype == np.uint8, rgb, ctypes.byref(alpha))
+    if alpha.value < 1:
         warnings.warn(f"{name}: its alpha is left out", stacklevel=4)
-    rgb = np.ascontiguousarray(got[:, :3] * np.float32(scale), dtype=np.float32)
     library.python_linear(pointer(rgb), len(rgb))
     return rgb
 
 
 def hexadecimal(name: str, text: str) -> list[float]:
-    """Red, green and blue of a name or of #RGB, #RRGGBB."""
-    digits = re.fullmatch("#?([0-9a-fA-F]{3}|[0-9a-fA-F]{6})", text)
-    value = NAMES.get(text, int(digits[1], 16) if digits else -1)
-    if digits and len(digits[1]) == 3:
-        value = sum((value >> 4 * k & 15) * 17 << 8 * k for k in range(3))
-    if value < 0 and text.lower().replace(" ", "_").replace("-", "_") in MATERIALS:
-        raise Error(f"{name}: {text} is a material: say material={text!r} instead")
-    if value < 0:
-        raise Error(f"{name} must be #RRGGBB, #RGB or one of {', '.join(NAMES)}, not {shown(text)}")
-    return [(value >> shift & 255) / 255 for shift in (16, 8, 0)]
+    """Red, green and blue of a name, ours or of CSS, or of #RGB, #RRGGBB."""
+    rgb = np.empty(3)
+    asked(library.python_color, name.encode(), text.encode(errors="replace"), rgb)
+    return [float(x) for x in rgb]
 
 
 def displayed(name: str, value: object) -> Array:

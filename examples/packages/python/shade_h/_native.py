@@ -160,6 +160,34 @@ class OwnedMesh(Structure):
                 ("chunks", c_void_p)]
 
 
+class Refusal(Structure):
+    """core_refusal"""
+    _fields_ = [("code", c_int), ("argument", ctypes.c_char * 64), ("text", ctypes.c_char * 384)]
+
+
+class Side(Structure):
+    """core_side"""
+    _fields_ = [("azimuth", c_double), ("elevation", c_double), ("up", c_int), ("width", c_int),
+                ("height", c_int), ("ortho", c_int), ("fov", c_double), ("margin", c_double),
+                ("room", c_double)]
+
+
+class CameraOf(Structure):
+    """core_camera"""
+    _fields_ = [("view", c_double * 16), ("projection", c_double * 16)]
+
+
+class Range(Structure):
+    """core_range"""
+    _fields_ = [("near", c_double), ("far", c_double), ("parallel", c_int)]
+
+
+class Moved(Structure):
+    """renderer_moved"""
+    _fields_ = [("positions", c_void_p), ("given", c_void_p), ("faces", c_void_p), ("vertex_count", c_int),
+                ("index_count", c_int), ("normals", c_int), ("unused", c_int), ("origin", c_double * 3)]
+
+
 #: zip_inflate
 INFLATE = ctypes.CFUNCTYPE(c_int, c_void_p, c_size_t, c_void_p, c_size_t)
 
@@ -197,9 +225,22 @@ def _open() -> Any:
             ("python_texture_levels", c_int, 3 * [c_void_p] + [c_size_t, c_int]),
             ("python_heights", c_int, [c_void_p, c_int, c_int]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
+            ("python_color", c_int, [c_void_p, c_char_p, c_char_p, c_void_p]),
+            ("python_colors", c_int, [c_void_p, c_char_p, c_void_p, c_size_t] + 3 * [c_int] + 2 * [c_void_p]),
+            ("python_faces", c_int, [c_void_p, c_char_p, c_void_p, c_size_t, c_int, c_int, c_void_p]),
+            ("python_look_at", c_int, 3 * [c_void_p]),
+            ("python_opencv", c_int, 3 * [c_void_p] + [c_int, c_int, c_double, c_double, c_void_p]),
+            ("python_opengl", c_int, 4 * [c_void_p]),
+            ("python_range_of", c_int, [c_void_p, c_char_p, c_void_p, c_void_p]),
+            ("python_view_name", c_char_p, [c_int, c_void_p]),
+            ("python_direction", None, [c_double, c_double, c_int, c_void_p]),
+            ("python_fit", c_int, [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
+            ("python_studio", None, [c_void_p, c_size_t, c_void_p, c_int, c_void_p]),
+            ("python_origin_of", None, 3 * [c_void_p]),
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
             ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
+            ("python_scene_deform", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
             ("python_scene_put", c_int, [c_void_p, c_int, c_void_p, c_int]),
@@ -237,8 +278,9 @@ def _open() -> Any:
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     if (library.python_size(10), library.python_size(11)) != (SOLID.itemsize, SHOT.size):
         raise ImportError(f"{path} does not belong to this version: renderer_object")
-    if library.python_size(12) != ctypes.sizeof(FilePicture):
-        raise ImportError(f"{path} does not belong to this version: {FilePicture.__doc__}")
+    for i, twin in enumerate((FilePicture, Refusal, Side, CameraOf)):
+        if library.python_size(12 + i) != ctypes.sizeof(twin):
+            raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     return library
 
 
@@ -250,6 +292,16 @@ def check(result: int, what: str) -> None:
     if result:
         words = library.shade_result_string(result).decode()
         raise Error(f"{what}: {words}")
+
+
+def asked(function: Callable[..., Any], *given: Any) -> Any:
+    """What a function of the core returns, of arrays among others; raises what it refuses, by the
+    argument's name."""
+    why = Refusal()
+    got = function(ctypes.byref(why), *(pointer(one) if isinstance(one, np.ndarray) else one for one in given))
+    if why.code:
+        raise Error(f"{why.argument.decode()} {why.text.decode(errors='replace')}")
+    return got
 
 
 def interruptible(call: Callable[[c_int], Any], late: Callable[[Any], object] = bool) -> Any:

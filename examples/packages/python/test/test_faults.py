@@ -396,8 +396,10 @@ def test_a_color_out_of_range_is_refused(color):
 
 
 def test_words_and_whole_numbers_mean_what_they_look_like():
-    with pytest.raises(shade.Error, match="material='gold'"):
-        shade.render(VERTICES, FACES, color="gold", **SMALL)
+    with pytest.raises(shade.Error, match="material='jade'"):
+        shade.render(VERTICES, FACES, color="jade", **SMALL)
+    gold = shade.render(VERTICES, FACES, color="#ffd700", **SMALL)    # a material too, but CSS has the colour
+    assert shade.render(VERTICES, FACES, color="Gold", **SMALL) == gold
     red = shade.render(VERTICES, FACES, color=(1.0, 0, 0), **SMALL)
     assert shade.render(VERTICES, FACES, color=(1, 0, 0), **SMALL) == red
     assert shade.render(VERTICES, FACES, color=np.uint8([255, 0, 0]), **SMALL) == red

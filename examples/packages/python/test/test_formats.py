@@ -629,12 +629,29 @@ def test_two_meshes_of_one_object_count_their_own_vertices():
     (lambda t: t.replace(b'v1="0"', b'v1="99"'), "a vertex that is not there"),
     (lambda t: t.replace(b'objectid="1"', b'objectid="2"'), "there is no object 2"),
     (lambda t: t.replace(b"<triangle ", b"<zebra "), "no faces in it, but zebra, which is not read"),
-    (lambda t: t.decode().encode("utf-16"), "UTF-16, which is not read"),
     (lambda t: t + b"<model/>", "its XML is wrong")])
 def test_damaged_3mf_is_refused(change, words):
     data = threemf(f'<object id="1">{mesh_xml(*plate())}</object>', '<item objectid="1"/>')
     with pytest.raises(shade.Error, match=words):
         shade.load(io.BytesIO(rezipped(data, change)))
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda t: t.decode().encode("utf-16"), None),
+    (lambda t: b"\xfe\xff" + t.decode().encode("utf-16-be"), None),
+    (lambda t: re.sub(b' xmlns="[^"]*"', b"", t), "no name space: they count as those of 3MF"),
+    (lambda t: t.replace(b"#FF0000", b"#FG0000"), '"#FG0000" is no colour: it counts as white')])
+def test_3mf_of_other_writers_is_drawn(change, words):
+    """UTF-16, no name space, a colour that is none: the geometry is whole, and what is odd is told."""
+    colors = '<m:colorgroup id="5"><m:color color="#FF0000"/></m:colorgroup>'
+    data = threemf(f'{colors}<object name="\U0001f9c0 \u00e4" id="1" pid="5" pindex="0">{mesh_xml(*plate())}'
+                   "</object>", '<item objectid="1"/>')
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        got = shade.load(io.BytesIO(rezipped(data, change)))
+    want = shade.load(io.BytesIO(data))
+    assert (got.vertices[got.faces] == want.vertices[want.faces]).all()
+    assert (words is None and not said) or (words and words in str(said[0].message))
 
 
 # ---- bombs, and anything -------------------------------------------------------------------------

@@ -66,7 +66,7 @@ def renderer(call):
     ("K must have", lambda: shade.Camera.opencv(np.diag([100, 100, 2]), np.eye(4), (9, 9))),
     ("K must have", lambda: shade.Camera.opencv(np.zeros((3, 3)), np.eye(4), (9, 9))),
     ("extrinsics must be 3 x 4 or 4 x 4", lambda: shade.Camera.opencv(np.eye(3), np.zeros((5, 4)), (9, 9))),
-    ("projection must have an inverse", lambda: shade.Camera.opengl(np.zeros((4, 4)), np.eye(4))),
+    ("projection must have near and far planes", lambda: shade.Camera.opengl(np.zeros((4, 4)), np.eye(4))),
     ("aspect must be a number", lambda: shade.Camera.look_at((3, 3, 3), aspect="1")),
     ("margin must be from", lambda: shade.fitted(VERTICES, margin=-1)),
     ("at does not go with pose", lambda: renderer(lambda r: r.add("sphere", 1, at=(1, 0, 0), pose=np.eye(4)))),

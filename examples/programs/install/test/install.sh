@@ -341,6 +341,22 @@ for type in $(entry MimeType | tr ';' ' '); do
     check "a thumbnail of $type" thumbnail "$file" "$T/models/out put.png" 64
     check "that is a picture" picture "$T/models/out put.png"
 done
+# GNOME's sandbox shows a program the model and nothing beside it
+mkdir "$T/alone"
+sed 1i"mtllib own.mtl" "$input.obj" >"$T/alone/m.obj"
+buffer='"uri":"own.bin",'
+gltf "$buffer" >"$T/alone.gltf"
+hidden() {                      # file beside the model, that folder, the program's output
+    "$P/bin/shade-thumbnail" --size 64x64 "$2" "$T/alone.ppm" >"$T/said" 2>&1
+    grep -q "$1: No such file or directory: it may be hidden, for the folder shows the model alone" "$T/said"
+}
+check "a library that may be hidden" hidden own.mtl "$T/alone/m.obj"
+check "it is drawn without" test -s "$T/alone.ppm"
+mv "$T/alone.gltf" "$T/alone/m.gltf"
+check "beside another file it is not there" no hidden own.mtl "$T/alone/m.obj"
+rm "$T/alone/m.obj"
+check "a buffer that may be hidden" hidden own.bin "$T/alone/m.gltf"
+
 # what a desktop calls each file, with the types of the system, of MeshLab's kind, and ours
 if there gio && there update-mime-database && [ -f /usr/share/mime/packages/freedesktop.org.xml ]; then
     packages="$T/desktop/mime/packages"
@@ -370,6 +386,8 @@ if there gio && there update-mime-database && [ -f /usr/share/mime/packages/free
     done
 else left_out "types of files on a desktop: no gio or shared-mime-info"
 fi
+
+. examples/programs/install/test/desktops.sh
 
 # ---- what the programs' help shows as examples ---------------------------------------------------
 mkdir -p "$T/shown/parts"
@@ -411,6 +429,7 @@ done
 check "what is not ours stays" same "$(cd "$P" && find . -type f | sort | tr '\n' ' ')" \
     "./bin/thumbnail ./include/other.h "
 check "make uninstall with DESTDIR" $MAKE -s uninstall DESTDIR="$S" PREFIX=/usr
-check "nothing stays there" same "$(find "$S" -type f)" ""
+check "no file stays there" same "$(find "$S" -type f)" ""
+check "and no folder that make install made" same "$(cd "$S" && find . -mindepth 1 -type d | sort | tr '\n' ' ')" ""
 
 finish

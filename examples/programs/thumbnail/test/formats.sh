@@ -35,6 +35,16 @@ sed 's|</amf>|<constellation id="2"><instance objectid="1"><deltax>5</deltax></i
     "$T/wedge.amf" >"$T/placed.amf"
 check "AMF with a constellation" draw placed.amf a.ppm
 check "is told" said "placed.amf: the places of its constellations"
+if there python3; then
+    (cd "$T" && python3 -c "
+import zipfile
+for name, kind, inside in ('packed', 8, 'wedge.amf'), ('stored', 0, 'Wedge.AMF'), ('empty', 0, 'a.txt'):
+    zipfile.ZipFile(name + '.amf', 'w', kind).write('wedge.amf', inside)")
+    for k in packed stored; do
+        { [ $k = packed ] && [ ! "$ZLIB" ]; } || same "AMF that is an archive, $k" wedge.amf $k.amf 0 ""
+    done
+    bad_model "an archive of something else" empty.amf "there is no .amf in the archive"
+fi
 dxf() { printf '%s\n' 0 SECTION 2 ENTITIES "$@" 0 ENDSEC 0 EOF; }
 line="0 LINE 8 0 10 0 20 0 30 0 11 2 21 0 31 9"
 face="0 3DFACE 8 0 10 0 20 0 30 0 11 2 21 0 31 0 12 0 22 1.5 32 0 13 0 23 1.5 33 0"

@@ -73,11 +73,31 @@ f 1 3 4\nf 2 3 4\n" >"$T/hole.obj"
 # glTF as text; the fourth corner is moved by what a file adds
 gltf_head='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]'
 gltf_reports() {
-    for k in KHR_draco_mesh_compression EXT_meshopt_compression KHR_texture_basisu \
-        EXT_texture_webp EXT_made_up; do
+    for k in KHR_draco_mesh_compression KHR_texture_basisu EXT_texture_webp EXT_made_up; do
         printf '%s,"extensionsRequired":["%s"]}' "$gltf_head" $k >"$T/needs.gltf"
         bad_model "$k is needed" needs.gltf "needs.gltf: it needs $k, which is not read"
     done
+    # wedge.obj as gltfpack would pack it
+    for k in EXT KHR; do
+        printf '%s,"extensionsRequired":["%s_meshopt_compression"],"meshes":[{"primitives":[{
+            "attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"count":4,"type":"VEC3",
+            "componentType":5126,"bufferView":0},{"count":12,"type":"SCALAR","componentType":5123,
+            "bufferView":1}],"bufferViews":[{"buffer":1,"byteLength":48,"byteStride":12,"extensions":{
+            "%s_meshopt_compression":{"buffer":0,"byteLength":73,"byteStride":12,"count":4,
+            "mode":"ATTRIBUTES"}}},{"buffer":1,"byteOffset":48,"byteLength":24,"extensions":{
+            "%s_meshopt_compression":{"buffer":0,"byteOffset":73,"byteLength":23,"byteStride":2,
+            "count":12,"mode":"TRIANGLES"}}}],"buffers":[{"byteLength":96,"uri":"data:;base64,oAAAAAE8AA
+AAgH8AAAEPAAAAf4ABDwAAAH59AAABAwAAAP8BAwAAAH4AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAOH+DhID8AQAdod
+WZ3iphmWJaJgBaQAA"},{"byteLength":72}]}' "$gltf_head" $k $k $k | tr -d '\n' | sed 's/  *//g' >"$T/packed.gltf"
+        same "views packed by ${k}_meshopt_compression" wedge.obj packed.gltf 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
+    sed 's/oAAAAAE8/pAAAAAE8/' "$T/packed.gltf" >"$T/wrong.gltf"
+    bad_model "a packed view that is damaged" wrong.gltf "wrong.gltf: a packed view is damaged"
+    sed 's/"count":4,"mode"/"count":400000,"mode"/' "$T/packed.gltf" >"$T/wrong.gltf"
+    bad_model "one of more than it has bytes for" wrong.gltf "wrong.gltf: a packed view is cut off"
+    sed 's/"mode":"TRIANGLES"/"mode":"STRIPS"/' "$T/packed.gltf" >"$T/wrong.gltf"
+    bad_model "another kind of packing" wrong.gltf "packed in a way that is not read"
     cp "$T/needs.gltf" "$T/needs"
     bad_model "nor is it drawn under another name" needs "it needs EXT_made_up, which is not read"
     sed "1s/^/$(printf "$mark")/; s/{/ {\n/" "$T/torus.gltf" >"$T/mark.gltf"
@@ -615,4 +635,77 @@ line_reports() {
     printf 'v 0 0 0\nv 1 1 1\nv nan 0 0\nl 1 2 3\n' >"$T/nan.obj"
     check "a line from nowhere" draw nan.obj a.ppm
     check "is told" grep "nan.obj: 1 lines have ends that are no finite numbers (left out)" "$T/err"
+}
+
+# What FreeCAD, VTK, OpenCTM and other writers do with formats
+writer_reports() {
+    printf "${wedge}vt 0 0\n$faces" | sed 's/^f 1 3 2/f 1\/9 3 2/' >"$T/far.obj"
+    same "a vt past the last" wedge.obj far.obj 0 "--up y"
+    check "is told" told "far.obj: faces name a vt past the last of 1: they do without"
+    printf "${wedge}vn 0 0 1\n$faces" | sed 's/^f 1 3 2/f 1\/\/2 3 2/' >"$T/far.obj"
+    same "a vn past the last" wedge.obj far.obj 0 "--up y"
+    check "is told" told "far.obj: faces name a vn past the last of 1: they do without"
+    { echo "# Created by FreeCAD <https://www.freecad.org>"; cat "$T/wedge.obj"; } >"$T/upright.obj"
+    check "z upward" draw wedge.obj a.ppm --up z
+    check "of FreeCAD's OBJ" draw upright.obj b.ppm
+    check "is known" cmp "$T/a.ppm" "$T/b.ppm"
+    { echo "# FreeCAD"; cat "$T/wedge.obj"; echo "# FreeCAD"; } | sed 1d >"$T/upright.obj"
+    same "named behind the first line it says nothing" wedge.obj upright.obj 0 ""
+
+    { echo solid; facets; echo endsolid; } >"$T/wedge.ast"
+    cp "$T/wedge.ast" "$T/plain.stl"
+    same "FreeCAD's name of STL" plain.stl wedge.ast 0 ""
+    check "without a word" test ! -s "$T/err"
+    sed 's/endfacet/& color 1234/' "$T/plain.stl" >"$T/tinted.stl"
+    same "a colour behind endfacet" plain.stl tinted.stl 0 ""
+    check "is told" told "tinted.stl: it has color, which is not read"
+
+    vertices="0 0 0 C\n2 0 0 C\n0 1.5 0 C\n0 0 1 C\n"
+    printf "COFF\n4 4 0\n$(echo "$vertices" | sed 's/C/1 0 0 1/g')$ply_faces" >"$T/red.off"
+    printf "OFF\n4 4 0\n$(echo "$vertices" | sed 's/C/1.0 0.0 0.0 0.0/g')$ply_faces" >"$T/bare.off"
+    same "colours of vertices without a C" red.off bare.off 0 ""
+    check "whose alpha of 0 says nothing" test ! -s "$T/err"
+    printf "OFF\n4 4 0\n$(echo "$vertices" | sed 's/C/255 0 0 128/g')$ply_faces" >"$T/bare.off"
+    same "as whole numbers" red.off bare.off 0 ""
+    check "whose alpha is told" told "bare.off: it has alpha, which is not read"
+    for k in "0.0 0.0 1.0" "-1.0 0.0 0.0 1.0"; do
+        printf "OFF\n4 4 0\n$(echo "$vertices" | sed "s/C/$k/g")$ply_faces" >"$T/bare.off"
+        same "$k may be a normal" wedge.obj bare.off 0 "--up y"
+        check "that is told" said "bare.off: numbers behind its vertices or faces that are no colours"
+    done
+}
+
+# Pictures of one kind as other programs store them
+picture_reports() {
+    pictured() {                # picture
+        printf "newmtl q\nmap_Kd $1\n" >"$T/pictured.mtl"
+        printf "mtllib pictured.mtl\n${wedge}vt .2 .75\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 2/1 3/1 4/1
+f 1/1 4/1 3/1\n" >"$T/pictured.obj"
+        check "$1" draw pictured.obj "$1.drawn.ppm" --up y
+        check "without a word" test ! -s "$T/err"
+    }
+    same_picture() { check "$1" "$T/look" same "$T/$2.drawn.ppm" "$T/$3.drawn.ppm" 2; }
+    printf 'P5\n2 1\n255\n\200\377' >"$T/grey.pgm"
+    printf 'P5\n2 1\n15\n\010\017' >"$T/grey15.pgm"
+    printf 'P5\n2 1\n65535\n\200\200\377\377' >"$T/grey65535.pgm"
+    printf 'P6\n2 1\n1023\n\002\001\002\001\002\001\003\377\003\377\003\377' >"$T/grey1023.ppm"
+    printf 'P2\n# text\n2 1\n510\n256 510\n' >"$T/text.pgm"
+    pictured grey.pgm
+    for k in grey15.pgm grey65535.pgm grey1023.ppm text.pgm; do
+        pictured $k
+        check "its greatest value counts: $k" "$T/look" same "$T/grey.pgm.drawn.ppm" "$T/$k.drawn.ppm" 9
+    done
+    tga() { printf '\000\000\002\000\000\000\000\000\000\000\000\000\002\000\001\000\030'"$1" >"$T/$2"; }
+    tga '\040\000\000\377\377\000\000' left.tga      # from the top left: red, blue
+    tga '\060\377\000\000\000\000\377' right.tga     # from the top right
+    tga '\020\377\000\000\000\000\377' low.tga       # from the bottom right
+    pictured left.tga
+    for k in right.tga low.tga; do
+        pictured $k
+        same_picture "a TGA stored from the right: $k" left.tga $k
+    done
+    printf 'P5\n2 1\n100\n\200\310' >"$T/wrong.pgm"
+    printf 'newmtl q\nmap_Kd wrong.pgm\n' >"$T/pictured.mtl"
+    check "drawn without" draw pictured.obj a.ppm --up y
+    check "a value above its own maximum" said "wrong.pgm: a value above its own maximum"
 }

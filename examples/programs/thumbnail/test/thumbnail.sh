@@ -31,10 +31,11 @@ compile examples/programs/thumbnail/test/models.c -lm -o "$T/models"
 compile $STB examples/programs/thumbnail/test/look.c -lm -o "$T/look"
 compile examples/kit/test/ears.c -lm -o "$T/ears"
 compile -pthread -Wno-unused-function examples/kit/test/hidden.c -lm -o "$T/hidden"
+compile -Wno-unused-function examples/kit/test/meshopt.c -lm -o "$T/meshopt"
 check "models" "$T/models" "$T"
 
-for build in ears hidden; do
-    "$T/$build" >"$T/$build.log" || grep FAIL "$T/$build.log"
+for build in ears hidden meshopt; do
+    "$T/$build" examples/kit/test/meshopt.txt >"$T/$build.log" || grep FAIL "$T/$build.log"
     passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/$build.log")))
     failed=$((failed + $(sed -n 's/.* \([0-9]*\) failed$/\1/p' "$T/$build.log")))
 done
@@ -338,6 +339,30 @@ bad_output() {
         grep 'File too large' '$T/err' && [ ! -e '$T/none.ppm' ] && ! ls '$T'/*.part"
     check "rights as others have" sh -c "umask 027; '$THUMBNAIL' '$T/flat.obj' '$T/r.ppm' $flat &&
         ls -l '$T/r.ppm' | grep '^-rw-r-----'"
+    # a file that exists stays the same file, as who holds it open wants it
+    mkdir -p "$T/kept"
+    check "a picture" draw flat.obj kept/a.ppm
+    chmod 640 "$T/kept/a.ppm"
+    ln -f "$T/kept/a.ppm" "$T/kept/hard.ppm"
+    ln -sf a.ppm "$T/kept/link.ppm"
+    ln -sf b.ppm "$T/kept/new.ppm"
+    exec 3<"$T/kept/a.ppm"
+    check "another one" draw torus.obj b.ppm
+    check "by a link" draw torus.obj kept/link.ppm
+    cat <&3 >"$T/c.ppm"
+    exec 3<&-
+    for k in c kept/a kept/hard; do check "is in $k" cmp "$T/b.ppm" "$T/$k.ppm"; done
+    check "rights stay" sh -c "ls -l '$T/kept/a.ppm' | grep '^-rw-r-----'"
+    check "the link stays" test -h "$T/kept/link.ppm"
+    check "by a link to nothing" draw torus.obj kept/new.ppm
+    check "makes what it names" cmp "$T/b.ppm" "$T/kept/b.ppm"
+    check "and stays" test -h "$T/kept/new.ppm"
+    check "smaller" "$THUMBNAIL" "$T/flat.obj" "$T/kept/a.ppm" --size 8x8
+    check "nothing of the old one is left" test "$(wc -c <"$T/kept/a.ppm")" -eq 203
+    check "a full disk leaves the old one" sh -c "ulimit -f 8; trap '' XFSZ
+        '$THUMBNAIL' '$T/torus.obj' '$T/kept/b.ppm' --size 300x300 2>'$T/err'; [ \$? -eq 1 ] &&
+        grep 'File too large' '$T/err' && cmp '$T/b.ppm' '$T/kept/b.ppm'"
+    check "and nothing beside it" test "$(ls "$T/kept" | wc -l)" -eq 5
 }
 
 bad_options() {
@@ -709,6 +734,7 @@ both() {
     line_reports
     color_reports
     habit_reports
+    writer_reports
     value_reports
     bad_output
     bad_options
@@ -725,6 +751,7 @@ build=full THUMBNAIL=$T/full
 [ -x "$THUMBNAIL" ] || finish
 both
 [ "$STB" ] && map_reports
+[ "$STB" ] && picture_reports
 [ "$STB" ] && . examples/programs/thumbnail/test/pictures.sh
 [ "$ASSIMP" ] && . examples/programs/thumbnail/test/formats.sh
 finish

@@ -1,0 +1,1028 @@
+/* elsewhere.h - materials and lamps of other renderers, said in shade.h's words.
+
+   Each program has one function.  It takes the numbers under the program's own names and gives a
+   look: the material, the model and flags of shade_lighting, what lamps must be multiplied by,
+   where V points to and how light becomes bytes.  elsewhere_lit_lanes then lights a packet as the
+   program does, and elsewhere_fragment is that as the fragment shader of a draw state:
+
+       elsewhere_look look = elsewhere_vtk((elsewhere_vtk_numbers){
+           .color = { 1, .8f, .6f }, .specular_color = { 1, 1, 1 },
+           .diffuse = .6f, .specular = .8f, .power = 30 });
+       elsewhere_lamp lamp = elsewhere_lamp_of(shade_directional_light(to, white));
+       elsewhere_scene scene = { &look, &lamp, 1, .ambient = { 1, 1, 1 }, .view = view };
+       state.fragment = elsewhere_fragment;
+       state.uniforms = &scene;
+
+   The colours that come out are display values: draw them to a target without .srgb.  Where
+   look.law is ELSEWHERE_LAW_FOUR and lamps have neither rim nor range, elsewhere_lighting gives a
+   shade_lighting that does the same without a shader.  Where look.refused is not NULL, the program
+   does something that nothing here can say, and the sentence tells what.
+
+   Above each function stand version and source of its law: the specification where there is one,
+   else what its pictures showed.  tables/ has pixels that the real programs drew, measure/ the
+   scripts that made them, README.md by how much they differ. */
+#ifndef ELSEWHERE_H
+#define ELSEWHERE_H
+
+#include "../../shade.h"
+#include <math.h>
+#include <string.h>
+
+typedef enum elsewhere_viewer { /* where V points to */
+    ELSEWHERE_VIEWER_RAY = 0,   /* against the ray of the pixel; under parallel projection the */
+                                /* camera's backward axis */
+    ELSEWHERE_VIEWER_POINT,     /* to the camera's position, under parallel projection too */
+    ELSEWHERE_VIEWER_AXIS       /* along the camera's backward axis, in perspective too */
+} elsewhere_viewer;
+
+typedef enum elsewhere_encoding { /* how light 0 .. 1 becomes a display value */
+    ELSEWHERE_ENCODING_NONE = 0,  /* as it is */
+    ELSEWHERE_ENCODING_SRGB,
+    ELSEWHERE_ENCODING_GAMMA,     /* light^(1/2.2) */
+    ELSEWHERE_ENCODING_ROOT       /* light^(1/2) */
+} elsewhere_encoding;
+
+typedef enum elsewhere_law { /* what lights a point; the number is elsewhere_look.number */
+    ELSEWHERE_LAW_FOUR = 0,  /* iteration four, as shade_lit_lanes */
+    ELSEWHERE_LAW_SCHLICK,   /* k_s becomes F = k_s + (1 - k_s) 2^((-5.55473 V.H - 6.98316) V.H) */
+                             /* and is multiplied by number */
+    ELSEWHERE_LAW_POWER,     /* N.L of the diffuse term becomes (N.L)^number */
+    ELSEWHERE_LAW_STEPS,     /* .7 where N.L < number, also behind, else 1; no highlight */
+    ELSEWHERE_LAW_EXPONENT,  /* k_a + k_s exp(-number (1 - R.V)); no N.L at all */
+    ELSEWHERE_LAW_SIGNED     /* k_a + k_d N.L, which is negative behind */
+} elsewhere_law;
+
+/* A material of another program */
+typedef struct elsewhere_look {
+    shade_material material;
+    shade_model model;
+    unsigned flags;              /* without SHADE_FLAG_INFINITE_VIEWER, which viewer decides */
+    elsewhere_viewer viewer;
+    elsewhere_encoding encoding;
+    int cut;                     /* non-zero: bytes are cut, not rounded */
+    float diffuse, specular;     /* multiply I_d and I_s of every lamp */
+    float head_diffuse;          /* I_d and I_s of a white lamp that the program has at the */
+    float head_specular;         /* camera, which shines along its axis; 0: none */
+    shade_vec3 own;              /* toward a white lamp at infinity that the program has; 0: none */
+    int own_turns;               /* non-zero: own is along the camera's axes, not the world's */
+    int tilted;                  /* non-zero: I_d of a lamp toward unit L is 2 / (1 + z) as bright, */
+                                 /* z along the camera's backward axis */
+    elsewhere_law law;
+    float number;
+    shade_vec3 most;             /* of emission, ambient and diffuse light together; 0: no bound */
+    const char *refused;         /* what cannot be said, or NULL */
+} elsewhere_look;
+
+typedef enum elsewhere_rim { /* how a cone ends, between inner and outer, off the axis */
+    ELSEWHERE_RIM_HARD = 0,  /* the cone of light.spot_cos_cutoff */
+    ELSEWHERE_RIM_ANGLE,     /* falls linearly in the angle; inner and outer are angles */
+    ELSEWHERE_RIM_COSINE,    /* smoothstep of the cosine; inner and outer are angles */
+    ELSEWHERE_RIM_LINEAR     /* falls linearly in the cosine; inner and outer are angles */
+} elsewhere_rim;
+
+typedef enum elsewhere_range { /* what distance r does to a lamp of reach d */
+    ELSEWHERE_RANGE_NONE = 0,  /* nothing but light.constant, linear, quadratic */
+    ELSEWHERE_RANGE_LINEAR,    /* max(0, 1 - r/d) */
+    ELSEWHERE_RANGE_CUT,       /* 1 up to d, 0 beyond */
+    ELSEWHERE_RANGE_WINDOW,    /* max(r, .1)^-power max(0, 1 - (r/d)^4)^2; d 0: no window */
+    ELSEWHERE_RANGE_FADE       /* 2 / (1 + (r/d)^power) */
+} elsewhere_range;
+
+typedef enum elsewhere_highlight { /* what is odd about the highlight of a lamp */
+    ELSEWHERE_HIGHLIGHT_PLAIN = 0,
+    ELSEWHERE_HIGHLIGHT_SQUARED,    /* it has 1 / (a + b r + c r^2) twice */
+    ELSEWHERE_HIGHLIGHT_WHOLE,      /* it is not dimmed at all, where any light arrives */
+    ELSEWHERE_HIGHLIGHT_AIM         /* it stands where light along the lamp's aim would put it */
+} elsewhere_highlight;
+
+/* A lamp of another program.  Rim and range become a row of visibility. */
+typedef struct elsewhere_lamp {
+    shade_light light;
+    elsewhere_rim rim;
+    float inner, outer;    /* radians */
+    elsewhere_range range;
+    float reach, power;
+    int at_most_one;       /* non-zero: 1 / (a + b r + c r^2) is at most 1 */
+    elsewhere_highlight highlight;
+} elsewhere_lamp;
+
+enum {
+    ELSEWHERE_LAMPS = 8,                       /* more lamps of yours than these are dark */
+    ELSEWHERE_ALL_LAMPS = ELSEWHERE_LAMPS + 2  /* with the program's own */
+};
+
+/* What elsewhere_lit_lanes and elsewhere_fragment read.  A zero view is the identity. */
+typedef struct elsewhere_scene {
+    const elsewhere_look *look;
+    const elsewhere_lamp *lamps;
+    int lamp_count;
+    shade_vec3 ambient;    /* I_a: most programs have 1, 1, 1 */
+    shade_mat4 view;       /* rotation and translation, from the world to the camera */
+    int parallel;          /* non-zero: the projection is a parallel one */
+} elsewhere_scene;
+
+/*------------------------------------------------------------------------------------------ laws */
+
+static inline elsewhere_lamp elsewhere_lamp_of(shade_light light)
+{
+    elsewhere_lamp lamp;
+    memset(&lamp, 0, sizeof lamp);
+    lamp.light = light;
+    return lamp;
+}
+
+/* The factor of a soft rim at unit L, 0 .. 1 */
+static inline float elsewhere_rim_at(const elsewhere_lamp *lamp, shade_vec3 L)
+{
+    const shade_vec3 aim = shade_normalize(lamp->light.spot_direction);
+    const float cosine = fminf(fmaxf(-shade_dot(L, aim), -1), 1);
+    float t;
+    if (lamp->rim == ELSEWHERE_RIM_HARD) return 1;
+    if (lamp->rim == ELSEWHERE_RIM_ANGLE)
+        t = (lamp->outer - acosf(cosine)) / fmaxf(lamp->outer - lamp->inner, 1e-6f);
+    else
+        t = (cosine - cosf(lamp->outer)) / fmaxf(cosf(lamp->inner) - cosf(lamp->outer), 1e-6f);
+    t = fminf(fmaxf(t, 0), 1);
+    return lamp->rim == ELSEWHERE_RIM_COSINE ? t * t * (3 - 2 * t) : t;
+}
+
+/* The factor of distance r, beside 1 / (a + b r + c r^2) */
+static inline float elsewhere_range_at(const elsewhere_lamp *lamp, float r)
+{
+    const float part = lamp->reach > 0 ? r / lamp->reach : 0;
+    const float window = fmaxf(1 - part * part * part * part, 0);
+    switch (lamp->range) {
+    case ELSEWHERE_RANGE_LINEAR: return fmaxf(1 - part, 0);
+    case ELSEWHERE_RANGE_CUT: return part <= 1 ? 1.0f : 0.0f;
+    case ELSEWHERE_RANGE_WINDOW: return window * window / fmaxf(powf(r, lamp->power), 0.01f);
+    case ELSEWHERE_RANGE_FADE: return 2 / (1 + powf(part, lamp->power));
+    default: return 1;
+    }
+}
+
+/* How much of a lamp is visible at P: the factor of rim and range */
+static inline float elsewhere_visibility(const elsewhere_lamp *lamp, shade_vec3 P)
+{
+    shade_vec3 L;
+    float r, sum, factor;
+    shade_light_at(&lamp->light, P, &L, &r);
+    factor = elsewhere_rim_at(lamp, L);
+    if (lamp->light.position.w == 0) return factor;
+    sum = lamp->light.constant + lamp->light.linear * r + lamp->light.quadratic * r * r;
+    if (lamp->at_most_one && sum > 0 && sum < 1) factor *= sum;
+    return factor * elsewhere_range_at(lamp, r);
+}
+
+/* The camera's backward axis in the world, and its position */
+static inline shade_vec3 elsewhere_axis(const elsewhere_scene *s)
+{
+    const shade_vec4 *c = s->view.col;
+    const shade_vec3 axis = { c[0].z, c[1].z, c[2].z };
+    return shade_dot(axis, axis) > 0 ? shade_normalize(axis) : shade_v3(0, 0, 1);
+}
+static inline shade_vec3 elsewhere_eye(const elsewhere_scene *s)
+{
+    const shade_vec4 *c = s->view.col, t = c[3];
+    return shade_neg(shade_v3(c[0].x * t.x + c[0].y * t.y + c[0].z * t.z,
+                              c[1].x * t.x + c[1].y * t.y + c[1].z * t.z,
+                              c[2].x * t.x + c[2].y * t.y + c[2].z * t.z));
+}
+
+/* A white lamp at infinity */
+static inline shade_light elsewhere_white(shade_vec3 toward, float diffuse, float specular)
+{
+    shade_light light = shade_directional_light(shade_neg(toward), shade_v3(1, 1, 1));
+    light.diffuse = shade_scale(light.diffuse, diffuse);
+    light.specular = shade_scale(light.specular, specular);
+    return light;
+}
+
+/* The lighting of a scene as shade_lit takes it, with room for ELSEWHERE_ALL_LAMPS; *eye
+   becomes the eye that goes with it. */
+static inline shade_lighting elsewhere_lighting(const elsewhere_scene *s, shade_light *lamps,
+                                                shade_vec3 *eye)
+{
+    const elsewhere_look *k = s->look;
+    const shade_vec3 axis = elsewhere_axis(s);
+    const int far = k->viewer == ELSEWHERE_VIEWER_AXIS ||
+                    (s->parallel && k->viewer == ELSEWHERE_VIEWER_RAY);
+    shade_lighting out;
+    memset(&out, 0, sizeof out);
+    for (int i = 0; i < s->lamp_count && i < ELSEWHERE_LAMPS; i++) {
+        const shade_vec4 at = s->lamps[i].light.position;
+        float tilt = 1;
+        if (k->tilted) tilt = shade_dot(shade_normalize(shade_v3(at.x, at.y, at.z)), axis);
+        if (k->tilted) tilt = 2 / fmaxf(1 + tilt, 1e-6f);
+        lamps[i] = s->lamps[i].light;
+        lamps[i].diffuse = shade_scale(lamps[i].diffuse, k->diffuse * tilt);
+        lamps[i].specular = shade_scale(lamps[i].specular, k->specular);
+        out.light_count = i + 1;
+    }
+    if (k->head_diffuse > 0 || k->head_specular > 0)
+        lamps[out.light_count++] = elsewhere_white(axis, k->head_diffuse, k->head_specular);
+    if (shade_dot(k->own, k->own) > 0) {
+        const shade_vec4 *c = s->view.col;
+        const shade_vec3 turned = { shade_dot(shade_v3(c[0].x, c[0].y, c[0].z), k->own),
+                                    shade_dot(shade_v3(c[1].x, c[1].y, c[1].z), k->own),
+                                    shade_dot(shade_v3(c[2].x, c[2].y, c[2].z), k->own) };
+        const int turns = k->own_turns && shade_dot(turned, turned) > 0;
+        lamps[out.light_count++] = elsewhere_white(turns ? turned : k->own, 1, 1);
+    }
+    out.lights = lamps;
+    out.ambient = s->ambient;
+    out.model = k->model;
+    out.flags = k->flags | (far ? (unsigned)SHADE_FLAG_INFINITE_VIEWER : 0u);
+    *eye = far ? axis : elsewhere_eye(s);
+    return out;
+}
+
+/* 0 .. 1 as a byte of a target without .srgb will show it */
+static inline float elsewhere_encode(const elsewhere_look *k, float light)
+{
+    float v = fminf(fmaxf(light, 0), 1);
+    if (k->encoding == ELSEWHERE_ENCODING_SRGB) v = shade_srgb_from_linear(shade_v3(v, v, v)).x;
+    if (k->encoding == ELSEWHERE_ENCODING_GAMMA) v = powf(v, 1 / 2.2f);
+    if (k->encoding == ELSEWHERE_ENCODING_ROOT) v = sqrtf(v);
+    return k->cut ? floorf(255 * v + 1e-3f) / 255 : v;
+}
+
+/* One lane, with unit vectors */
+typedef struct elsewhere_point {
+    shade_vec3 P, N, V;
+} elsewhere_point;
+
+/* What the passes of a packet share */
+typedef struct elsewhere_packet {
+    const elsewhere_look *look;
+    shade_lighting all;
+    shade_vec3 eye;
+    shade_rows rows;
+} elsewhere_packet;
+
+static inline elsewhere_point elsewhere_at(const elsewhere_packet *k, int lane)
+{
+    const float *P = k->rows.position + lane, *N = k->rows.normal + lane;
+    const int far = (k->all.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
+    elsewhere_point p;
+    p.P = shade_v3(P[0], P[SHADE_LANES], P[2 * SHADE_LANES]);
+    p.N = shade_normalize(shade_v3(N[0], N[SHADE_LANES], N[2 * SHADE_LANES]));
+    p.V = shade_normalize(far ? k->eye : shade_sub(k->eye, p.P));
+    return p;
+}
+
+/* Schlick's F at V.H, with a power of two in place of the fifth power */
+static inline float elsewhere_schlick(float f0, float v_dot_h)
+{
+    const float f = exp2f((-5.55473f * v_dot_h - 6.98316f) * v_dot_h);
+    return f0 * (1 - f) + f;
+}
+
+/* Rows that multiply k_s for one lamp: the factor of distance and cone where N.L > 0, else 0 */
+static inline void elsewhere_amounts(const elsewhere_packet *k, const shade_light *lamp, float *rows)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const elsewhere_point p = elsewhere_at(k, i);
+        shade_vec3 L;
+        float amount = shade_light_at(lamp, p.P, &L, NULL);
+        if (!(shade_dot(p.N, L) > 0)) amount = 0;
+        rows[i] = rows[i + SHADE_LANES] = rows[i + 2 * SHADE_LANES] = amount;
+    }
+}
+
+/* Adds the highlight of a lamp as if neither distance nor cone dimmed it. */
+static inline void elsewhere_add_whole(const elsewhere_packet *k, const shade_light *lamp,
+                                       float *rgb)
+{
+    shade_light whole = *lamp;
+    shade_lighting single = k->all;
+    float any[SHADE_LANES], one[3 * SHADE_LANES];
+    shade_rows rows = k->rows;
+    whole.constant = whole.linear = whole.quadratic = 0;
+    whole.spot_exponent = 0;
+    single.lights = &whole;
+    single.light_count = 1;
+    single.terms = SHADE_TERM_SPECULAR;
+    for (int i = 0; i < SHADE_LANES; i++) any[i] = rows.visibility[i] > 0 ? 1.0f : 0.0f;
+    rows.visibility = any;
+    shade_lit_lanes(&single, &k->look->material, k->eye, &rows, one);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] += one[i];
+}
+
+/* Adds the highlight of a lamp as if its its light came along its aim everywhere. */
+static inline void elsewhere_add_aimed(const elsewhere_packet *k, const shade_light *lamp,
+                                       float *rgb)
+{
+    shade_light along = shade_directional_light(lamp->spot_direction, lamp->specular);
+    shade_lighting single = k->all;
+    float factor[3 * SHADE_LANES], one[3 * SHADE_LANES];
+    shade_rows rows = k->rows;
+    single.lights = &along;
+    single.light_count = 1;
+    single.terms = SHADE_TERM_SPECULAR;
+    single.flags |= SHADE_FLAG_UNGATED_SPECULAR;
+    elsewhere_amounts(k, lamp, factor);
+    rows.specular = factor;
+    shade_lit_lanes(&single, &k->look->material, k->eye, &rows, one);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] += one[i];
+}
+
+/* Rows in place of k_s for one lamp: F times the look's number */
+static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp, float *rows)
+{
+    const shade_vec3 f0 = k->look->material.specular;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const elsewhere_point p = elsewhere_at(k, i);
+        shade_vec3 L;
+        float cosine;
+        shade_light_at(lamp, p.P, &L, NULL);
+        cosine = shade_dot(p.V, shade_halfway(L, p.V));
+        rows[i] = k->look->number * elsewhere_schlick(f0.x, cosine);
+        rows[i + SHADE_LANES] = k->look->number * elsewhere_schlick(f0.y, cosine);
+        rows[i + 2 * SHADE_LANES] = k->look->number * elsewhere_schlick(f0.z, cosine);
+    }
+}
+
+/* What one lamp adds at a point by a law that has another N.L, or none.  The highlight of
+   ELSEWHERE_LAW_POWER is not in it. */
+static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_light *lamp,
+                                         elsewhere_point p)
+{
+    shade_vec3 L;
+    const float amount = shade_light_at(lamp, p.P, &L, NULL);
+    const float cosine = shade_dot(p.N, L);
+    float weight = cosine;
+    if (k->law == ELSEWHERE_LAW_EXPONENT) {
+        const float turn = 1 - shade_dot(shade_mirror(L, p.N), p.V);
+        return shade_scale(shade_mul(k->material.specular, lamp->specular),
+                           amount * expf(-k->number * turn));
+    }
+    if (k->law == ELSEWHERE_LAW_STEPS) weight = cosine < k->number ? 0.7f : 1;
+    if (k->law == ELSEWHERE_LAW_POWER) weight = cosine > 0 ? powf(cosine, k->number) : 0;
+    return shade_scale(shade_mul(k->material.diffuse, lamp->diffuse), weight * amount);
+}
+
+/* Adds what one lamp gives; rows.visibility is the lamp's. */
+static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_light *lamp,
+                                      elsewhere_highlight highlight, float *rgb)
+{
+    const elsewhere_law law = k->look->law;
+    float one[3 * SHADE_LANES], factor[3 * SHADE_LANES];
+    shade_lighting single = k->all;
+    shade_material material = k->look->material;
+    shade_rows rows = k->rows;
+    memset(one, 0, sizeof one);
+    single.lights = lamp;
+    single.light_count = 1;
+    single.terms = SHADE_TERM_SPECULAR;
+    if (law == ELSEWHERE_LAW_FOUR || law == ELSEWHERE_LAW_SCHLICK)
+        single.terms |= SHADE_TERM_DIFFUSE;
+    if (law == ELSEWHERE_LAW_SCHLICK) {
+        elsewhere_fresnel(k, lamp, factor);
+        material.specular = shade_v3(1, 1, 1);
+        rows.specular = factor;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_SQUARED) {
+        elsewhere_amounts(k, lamp, factor);
+        rows.specular = factor;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_WHOLE) {
+        elsewhere_add_whole(k, lamp, rgb);
+        single.terms = SHADE_TERM_DIFFUSE;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_AIM) {
+        elsewhere_add_aimed(k, lamp, rgb);
+        single.terms = SHADE_TERM_DIFFUSE;
+    }
+    if (law <= ELSEWHERE_LAW_POWER)
+        shade_lit_lanes(&single, &material, k->eye, &rows, one);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade_vec3 other = { 0, 0, 0 };
+        if (law >= ELSEWHERE_LAW_POWER)
+            other = elsewhere_other(k->look, lamp, elsewhere_at(k, i));
+        other = shade_scale(other, rows.visibility[i]);
+        rgb[i] += one[i] + other.x;
+        rgb[i + SHADE_LANES] += one[i + SHADE_LANES] + other.y;
+        rgb[i + 2 * SHADE_LANES] += one[i + 2 * SHADE_LANES] + other.z;
+    }
+}
+
+/* Adds all lamps, each for itself, where one of them or the law is not iteration four's. */
+static inline void elsewhere_add_lamps(elsewhere_packet *k, const elsewhere_scene *s, float *rgb)
+{
+    const float *visibility = k->rows.visibility;
+    for (int j = 0; j < k->all.light_count; j++) {
+        const elsewhere_highlight odd =
+            j < s->lamp_count ? s->lamps[j].highlight : ELSEWHERE_HIGHLIGHT_PLAIN;
+        k->rows.visibility = &visibility[j * SHADE_LANES];
+        elsewhere_add_lamp(k, &k->all.lights[j], odd, rgb);
+    }
+    k->rows.visibility = visibility;
+}
+
+/* Light as shade_lit_lanes gives it, but that the sum without highlights has a bound */
+static inline void elsewhere_bounded(const elsewhere_packet *k, float *rgb)
+{
+    const float most[3] = { k->look->most.x, k->look->most.y, k->look->most.z };
+    shade_lighting terms = k->all;
+    float specular[3 * SHADE_LANES];
+    terms.terms = SHADE_TERM_SPECULAR;
+    shade_lit_lanes(&terms, &k->look->material, k->eye, &k->rows, specular);
+    terms.terms = SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+    shade_lit_lanes(&terms, &k->look->material, k->eye, &k->rows, rgb);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) {
+        const float bound = most[i / SHADE_LANES];
+        if (bound > 0) rgb[i] = fminf(rgb[i], bound);
+        rgb[i] += specular[i];
+    }
+}
+
+/* Lights the points of a packet as the program does.  P, N and rgb are three rows each, as of
+   shade_lit_lanes; rgb becomes display values of 0 .. 1. */
+static inline void elsewhere_lit_lanes(const elsewhere_scene *s, const float *P, const float *N,
+                                       float *rgb)
+{
+    float visibility[ELSEWHERE_ALL_LAMPS * SHADE_LANES];
+    shade_light lamps[ELSEWHERE_ALL_LAMPS];
+    elsewhere_packet k = { .look = s->look, .rows = { P, N, NULL, NULL, visibility } };
+    int apart = s->look->law != ELSEWHERE_LAW_FOUR;
+    k.all = elsewhere_lighting(s, lamps, &k.eye);
+    for (int j = 0; j < k.all.light_count; j++) {
+        const elsewhere_lamp *lamp = j < s->lamp_count ? &s->lamps[j] : NULL;
+        apart |= lamp && lamp->highlight;
+        for (int i = 0; i < SHADE_LANES; i++)
+            visibility[j * SHADE_LANES + i] =
+                lamp ? elsewhere_visibility(lamp, elsewhere_at(&k, i).P) : 1;
+    }
+    if (apart) {
+        shade_lighting none = k.all;
+        none.light_count = 0;
+        shade_lit_lanes(&none, &s->look->material, k.eye, &k.rows, rgb);
+        elsewhere_add_lamps(&k, s, rgb);
+    } else
+        elsewhere_bounded(&k, rgb);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = elsewhere_encode(s->look, rgb[i]);
+}
+
+/* The same as the fragment shader of a draw state, whose uniforms are an elsewhere_scene */
+static inline void elsewhere_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                      shade_colors *SHADE_RESTRICT out)
+{
+    elsewhere_lit_lanes((const elsewhere_scene *)uniforms, in->varying[SHADE_VARYING_POSITION],
+                        in->varying[SHADE_VARYING_NORMAL], out->color[0]);
+}
+
+/*---------------------------------------------------------------------------------------- programs
+   Colours are linear unless told.  scene.ambient is 1, 1, 1 unless told.
+   The struct of a program holds shade_vec3 and float alone, in the order of its row in
+   elsewhere_rows, where its defaults stand. */
+
+static inline elsewhere_look elsewhere_plain(shade_model model)
+{
+    elsewhere_look k;
+    memset(&k, 0, sizeof k);
+    k.model = model;
+    k.diffuse = k.specular = 1;
+    return k;
+}
+static inline shade_vec3 elsewhere_grey(float v) { return shade_v3(v, v, v); }
+
+/* VTK 9.1.0 and ParaView 5.11: vtkProperty.  (R.V)^SpecularPower, V toward the camera's position
+   even under parallel projection.  Surfaces are always lit on both sides; SetTwoSidedLighting(0)
+   changes nothing.  Lamps do not multiply the ambient term.  Measured. */
+typedef struct elsewhere_vtk_numbers {
+    shade_vec3 color, specular_color;
+    float ambient, diffuse, specular, power;
+} elsewhere_vtk_numbers;
+static inline elsewhere_look elsewhere_vtk(elsewhere_vtk_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse);
+    k.material.specular = shade_scale(v.specular_color, v.specular);
+    k.material.shininess = v.power;
+    k.flags = SHADE_FLAG_TWO_SIDED;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* POV-Ray 3.7.0: finish, of a pigment in linear rgb.  phong is (R.V)^phong_size, specular
+   (N.H)^(1/roughness), each where N.L > 0 alone.  brilliance b is (N.L)^b.  albedo, if not 0, says
+   that diffuse, phong and specular carry the word albedo: diffuse is then (b + 1)/2 as large, phong
+   (n + 1)/2, specular (n + 2) / (4 (2 - 2^(-n/2))).  Bytes are sRGB.  Measured; the words are those
+   of POV-Ray's reference, "Finish". */
+typedef struct elsewhere_povray_numbers {
+    shade_vec3 color;
+    float ambient, diffuse, phong, phong_size, specular, roughness, brilliance, albedo;
+} elsewhere_povray_numbers;
+static inline elsewhere_look elsewhere_povray(elsewhere_povray_numbers v)
+{
+    const int phong = v.phong > 0;
+    const float n = phong ? v.phong_size : 1 / fmaxf(v.roughness, 1e-6f);
+    const float blinn_scale = (n + 2) / (4 * (2 - powf(2, -n / 2)));
+    const float k_s = phong ? v.phong : v.specular;
+    elsewhere_look k = elsewhere_plain(phong ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse * (v.albedo > 0 ? (v.brilliance + 1) / 2 : 1));
+    k.material.specular = elsewhere_grey(k_s);
+    if (v.albedo > 0) k.material.specular = elsewhere_grey(k_s * (phong ? (n + 1) / 2 : blinn_scale));
+    k.material.shininess = n;
+    k.encoding = ELSEWHERE_ENCODING_SRGB;
+    if (v.brilliance != 1) k.law = ELSEWHERE_LAW_POWER;
+    k.number = v.brilliance;
+    if (phong && v.specular > 0) k.refused = "phong and specular at once are two highlights";
+    return k;
+}
+
+/* three.js 0.187.0: MeshPhongMaterial, of colours in linear light.  A lamp of intensity i gives
+   colour i N.L / pi and F (n + 2) / (8 pi) (N.H)^n i N.L, F being Schlick's at V.H: so k_s alone
+   does not say how bright a highlight is.  The default specular, 0x111111, is .0056 in linear light.
+   The sum of color times intensity of AmbientLights is scene.ambient.  Bytes are sRGB.  Measured; BlinnPhong of three's
+   shaders, lights_phong_pars_fragment. */
+typedef struct elsewhere_three_phong_numbers {
+    shade_vec3 color, specular, emissive;
+    float shininess;
+} elsewhere_three_phong_numbers;
+static inline elsewhere_look elsewhere_three_phong(elsewhere_three_phong_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = shade_scale(v.color, 1 / 3.14159265f);
+    k.material.diffuse = v.color;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_WEIGHTED_SPECULAR;
+    k.encoding = ELSEWHERE_ENCODING_SRGB;
+    k.diffuse = k.specular = 1 / 3.14159265f;
+    k.law = ELSEWHERE_LAW_SCHLICK;
+    k.number = (v.shininess + 2) / 8;
+    return k;
+}
+
+/* three.js 0.187.0: MeshLambertMaterial, colour i N.L / pi.  Measured. */
+typedef struct elsewhere_three_lambert_numbers {
+    shade_vec3 color, emissive;
+} elsewhere_three_lambert_numbers;
+static inline elsewhere_look elsewhere_three_lambert(elsewhere_three_lambert_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = v.emissive;
+    k.material.ambient = shade_scale(v.color, 1 / 3.14159265f);
+    k.material.diffuse = v.color;
+    k.encoding = ELSEWHERE_ENCODING_SRGB;
+    k.diffuse = k.specular = 1 / 3.14159265f;
+    return k;
+}
+
+/* three.js 0.187.0: MeshToonMaterial without a gradientMap: .7 where N.L < .4, behind too, so that
+   it is never dark; else 1.  Measured. */
+typedef struct elsewhere_three_toon_numbers {
+    shade_vec3 color, emissive;
+} elsewhere_three_toon_numbers;
+static inline elsewhere_look elsewhere_three_toon(elsewhere_three_toon_numbers v)
+{
+    elsewhere_three_lambert_numbers lambert;
+    elsewhere_look k;
+    lambert.color = v.color;
+    lambert.emissive = v.emissive;
+    k = elsewhere_three_lambert(lambert);
+    k.law = ELSEWHERE_LAW_STEPS;
+    k.number = 0.4f;
+    return k;
+}
+
+/* Babylon.js 9.35.0: StandardMaterial.  (N.H)^specularPower is not gated, so that highlights reach
+   behind the terminator, and V goes to the camera's position even under parallel projection.  The
+   ambientColor of the scene is scene.ambient; it counts times that of the material alone.  Bytes are light as it is.  Measured. */
+typedef struct elsewhere_babylon_numbers {
+    shade_vec3 diffuse, specular, ambient, emissive;
+    float power;
+} elsewhere_babylon_numbers;
+static inline elsewhere_look elsewhere_babylon(elsewhere_babylon_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.most = shade_v3(1, 1, 1);
+    k.material.emission = v.emissive;
+    k.material.ambient = v.ambient;
+    k.material.diffuse = v.diffuse;
+    k.material.specular = v.specular;
+    k.material.shininess = v.power;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* X3D as X_ITE 15.0.1 draws its Material: (N.H)^(128 shininess), not gated, V to the camera's
+   position even under parallel projection, bytes as they are.  Measured; the specification is X3D 4.0,
+   clause 17.2.2. */
+typedef struct elsewhere_x_ite_numbers {
+    shade_vec3 diffuseColor, specularColor, emissiveColor;
+    float shininess;
+} elsewhere_x_ite_numbers;
+static inline elsewhere_look elsewhere_x_ite(elsewhere_x_ite_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissiveColor;
+    k.material.diffuse = v.diffuseColor;
+    k.material.specular = v.specularColor;
+    k.material.shininess = 128 * v.shininess;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* X3D as X3DOM 1.8.3 draws it: the same, but that V is against the ray and that bytes are
+   light^(1/2.2).  Shininess 0 lights the whole ball.  Measured. */
+typedef elsewhere_x_ite_numbers elsewhere_x3dom_numbers;
+static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
+{
+    elsewhere_look k = elsewhere_x_ite(v);
+    k.viewer = ELSEWHERE_VIEWER_RAY;
+    k.encoding = ELSEWHERE_ENCODING_GAMMA;
+    return k;
+}
+
+/* p5.js 1.11: fill, specularMaterial, shininess, in the order of its words from 0 to 1.  .73 N.L and
+   2 (R.V)^shininess, whatever the colours are; not gated; V to the camera's position even under
+   parallel projection.  Measured; totalLight of lighting.glsl. */
+typedef struct elsewhere_p5_numbers {
+    shade_vec3 fill, specular, emissive;
+    float shininess;
+} elsewhere_p5_numbers;
+static inline elsewhere_look elsewhere_p5(elsewhere_p5_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = k.material.diffuse = v.fill;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    k.diffuse = 0.73f;
+    k.specular = 2;
+    return k;
+}
+
+/* xeokit 2.6: PhongMaterial.  (R.V)^shininess, not gated.  A scene's AmbientLights are scene.ambient and count times diffuse; the
+   material's ambient counts only in a scene without other lights.  Measured. */
+typedef struct elsewhere_xeokit_numbers {
+    shade_vec3 diffuse, specular, emissive;
+    float shininess;
+} elsewhere_xeokit_numbers;
+static inline elsewhere_look elsewhere_xeokit(elsewhere_xeokit_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = k.material.diffuse = v.diffuse;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    return k;
+}
+
+/* vtk.js 37.4: vtkProperty, as VTK's, with other lamps.  Measured. */
+typedef elsewhere_vtk_numbers elsewhere_vtkjs_numbers;
+static inline elsewhere_look elsewhere_vtkjs(elsewhere_vtkjs_numbers v)
+{
+    return elsewhere_vtk(v);
+}
+
+/* Tachyon 0.99: TEXTURE with PHONG PLASTIC phong PHONG_SIZE phong_size.  (N.H)^n, or (R.V)^n with
+   -shade_phong (shade_phong here); the other -shade_ flags have laws of their own.  Lamps do not
+   multiply the ambient term, bytes are cut.  Measured. */
+typedef struct elsewhere_tachyon_numbers {
+    shade_vec3 color;
+    float ambient, diffuse, phong, phong_size, shade_phong;
+} elsewhere_tachyon_numbers;
+static inline elsewhere_look elsewhere_tachyon(elsewhere_tachyon_numbers v)
+{
+    elsewhere_look k =
+        elsewhere_plain(v.shade_phong > 0 ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse);
+    k.material.specular = elsewhere_grey(v.phong);
+    k.material.shininess = v.phong_size;
+    k.cut = 1;
+    return k;
+}
+
+/* Raster3D 3.0-7: header lines phong, straight, ambient, specular, and an object's colour.  k_d is
+   colour (1 - ambient - specular), k_a ambient colour; the highlight is white, of strength specular
+   (.2 + .8 sqrt(Y)) where Y = .3 R + .59 G + .11 B of the colour; (R.V)^phong.  The lamp weighs
+   1 - straight, a lamp at the camera straight.  Bytes are 255 sqrt(light).  Measured. */
+typedef struct elsewhere_raster3d_numbers {
+    shade_vec3 color;
+    float phong, straight, ambient, specular;
+} elsewhere_raster3d_numbers;
+static inline elsewhere_look elsewhere_raster3d(elsewhere_raster3d_numbers v)
+{
+    const float luminance = 0.3f * v.color.x + 0.59f * v.color.y + 0.11f * v.color.z;
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, 1 - v.ambient - v.specular);
+    k.material.specular = elsewhere_grey(v.specular * (0.2f + 0.8f * sqrtf(luminance)));
+    k.material.shininess = v.phong;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.encoding = ELSEWHERE_ENCODING_ROOT;
+    k.diffuse = k.specular = 1 - v.straight;
+    k.head_diffuse = k.head_specular = v.straight;
+    return k;
+}
+
+/* PyMOL 2.5.0, ray, with light_count 2 and spec_count 1: a lamp at the camera of strength direct
+   without a highlight, and the lamp of strength reflect 2 / (1 + z), z of the unit direction toward
+   it; a white highlight of that lamp alone, specular_intensity (N.H)^shininess.  Ambient light and
+   both lamps together are at most 1 before they meet the colour.  Bytes are cut.
+   Measured. */
+typedef struct elsewhere_pymol_numbers {
+    shade_vec3 color;
+    float ambient, direct, reflect, specular_intensity, shininess;
+} elsewhere_pymol_numbers;
+static inline elsewhere_look elsewhere_pymol(elsewhere_pymol_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = v.color;
+    k.material.specular = elsewhere_grey(v.specular_intensity);
+    k.material.shininess = v.shininess;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.cut = 1;
+    k.diffuse = v.reflect;
+    k.tilted = 1;
+    k.head_diffuse = v.direct;
+    k.most = v.color;
+    return k;
+}
+
+/* gnuplot 5.4.4: set pm3d lighting primary p specular s, of a fill colour.  colour (1 - p + p N.L)
+   and a white s (R.V)^5, from a lamp of its own at the upper left of the screen.  primary 0 switches
+   the highlight off too.  Measured. */
+typedef struct elsewhere_gnuplot_numbers {
+    shade_vec3 color;
+    float primary, specular;
+} elsewhere_gnuplot_numbers;
+static inline elsewhere_look elsewhere_gnuplot(elsewhere_gnuplot_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, 1 - v.primary);
+    k.material.diffuse = shade_scale(v.color, v.primary);
+    k.material.specular = elsewhere_grey(v.primary > 0 ? v.specular : 0);
+    k.material.shininess = 5;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.own = shade_v3(-0.226f, 0.709f, 0.668f);
+    k.own_turns = 1;
+    return k;
+}
+
+/* matplotlib 3.6.3: mplot3d's shade, from a LightSource of azdeg and altdeg in degrees.  colour
+   (.65 + .35 N.L), also where N.L < 0; no highlight.  Measured. */
+typedef struct elsewhere_mplot3d_numbers {
+    shade_vec3 color;
+    float azdeg, altdeg;
+} elsewhere_mplot3d_numbers;
+static inline elsewhere_look elsewhere_mplot3d(elsewhere_mplot3d_numbers v)
+{
+    const float azimuth = shade_radians(90 - v.azdeg), altitude = shade_radians(v.altdeg);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.ambient = shade_scale(v.color, 0.65f);
+    k.material.diffuse = shade_scale(v.color, 0.35f);
+    k.law = ELSEWHERE_LAW_SIGNED;
+    k.own = shade_v3(cosf(azimuth) * cosf(altitude), sinf(azimuth) * cosf(altitude), sinf(altitude));
+    return k;
+}
+
+/* Octave 7.3: surfl with [ambient diffuse specular shine].  The sum over all is divided by ambient +
+   diffuse + specular, so that a highlight dims the rest.  Measured. */
+typedef struct elsewhere_surfl_numbers {
+    float ambient, diffuse, specular, shine;
+} elsewhere_surfl_numbers;
+static inline elsewhere_look elsewhere_surfl(elsewhere_surfl_numbers v)
+{
+    const float sum = fmaxf(v.ambient + v.diffuse + v.specular, 1e-6f);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = elsewhere_grey(v.ambient / sum);
+    k.material.diffuse = elsewhere_grey(v.diffuse / sum);
+    k.material.specular = elsewhere_grey(v.specular / sum);
+    k.material.shininess = v.shine;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/* OpenGL 1.0 to 2.1, fixed function: glMaterial and glLightModel.  (N.H)^n, lit at vertices; without
+   GL_LIGHT_MODEL_LOCAL_VIEWER V is the camera's axis everywhere.  Each lamp's own ambient light is
+   dimmed with it.  scene.ambient is GL_LIGHT_MODEL_AMBIENT, .2 by default.  Specified in OpenGL 2.1,
+   section 2.14.1, and measured. */
+typedef struct elsewhere_opengl_numbers {
+    shade_vec3 ambient, diffuse, specular, emission;
+    float shininess, local_viewer;
+} elsewhere_opengl_numbers;
+static inline elsewhere_look elsewhere_opengl(elsewhere_opengl_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emission;
+    k.material.ambient = v.ambient;
+    k.material.diffuse = v.diffuse;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_ATTENUATED_AMBIENT;
+    k.viewer = v.local_viewer > 0 ? ELSEWHERE_VIEWER_POINT : ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/*------------------------------------------------------------------------------------------- lamps
+   at is a position with w = 1, or with w = 0 the direction toward a lamp at infinity.  aim is where
+   a lamp points; zero: no spot.  Angles are degrees, as all of these programs have them, unless
+   told. */
+
+/* Where a lamp is, what it sends, where it points to */
+static inline elsewhere_lamp elsewhere_sends(shade_vec4 at, shade_vec3 color, shade_vec3 aim)
+{
+    shade_light light;
+    memset(&light, 0, sizeof light);
+    light.position = at;
+    light.diffuse = light.specular = color;
+    light.spot_direction = aim;
+    light.spot_cos_cutoff = -1;
+    return elsewhere_lamp_of(light);
+}
+static inline void elsewhere_attenuate(elsewhere_lamp *lamp, shade_vec3 abc)
+{
+    lamp->light.constant = abc.x;
+    lamp->light.linear = abc.y;
+    lamp->light.quadratic = abc.z;
+}
+
+/* A lamp in shade.h's own words, as OpenGL's fixed function has it: cutoff is half the cone. */
+typedef struct elsewhere_opengl_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, ambient, attenuation, aim;
+    float cutoff, exponent;
+} elsewhere_opengl_lamp_numbers;
+static inline elsewhere_lamp elsewhere_opengl_lamp(elsewhere_opengl_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.ambient = v.ambient;
+    lamp.light.spot_cos_cutoff = cosf(shade_radians(v.cutoff));
+    lamp.light.spot_exponent = v.exponent;
+    return lamp;
+}
+
+/* VTK 9.1.0: vtkLight.  A positional lamp is by default a spot of 30 degrees off its axis with
+   cos^exponent; from a cone of 90 on it shines everywhere, whatever the exponent.  Measured. */
+typedef struct elsewhere_vtk_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float cone, exponent;
+    shade_vec3 attenuation;
+} elsewhere_vtk_lamp_numbers;
+static inline elsewhere_lamp elsewhere_vtk_lamp(elsewhere_vtk_lamp_numbers v)
+{
+    const int even = v.at.w == 0 || v.cone >= 90;
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, even ? shade_v3(0, 0, 0) : v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.spot_cos_cutoff = cosf(shade_radians(v.cone));
+    lamp.light.spot_exponent = v.exponent;
+    return lamp;
+}
+
+/* POV-Ray 3.7.0: light_source.  The amount is 2 / (1 + (r/d)^p) where both fade_distance d and
+   fade_power p are given, else 1.  A spotlight falls by smoothstep of the cosine from radius to
+   falloff and has cos^tightness.  shadowless lamps make no highlight.  Measured. */
+typedef struct elsewhere_povray_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float fade_distance, fade_power, radius, falloff, tightness, shadowless;
+} elsewhere_povray_lamp_numbers;
+static inline elsewhere_lamp elsewhere_povray_lamp(elsewhere_povray_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    if (v.fade_distance > 0 && v.fade_power > 0) {
+        lamp.range = ELSEWHERE_RANGE_FADE;
+        lamp.reach = v.fade_distance;
+        lamp.power = v.fade_power;
+    }
+    lamp.rim = ELSEWHERE_RIM_COSINE;
+    lamp.inner = shade_radians(v.radius);
+    lamp.outer = shade_radians(v.falloff);
+    if (shade_dot(v.aim, v.aim) == 0) lamp.rim = ELSEWHERE_RIM_HARD;
+    lamp.light.spot_cos_cutoff = cosf(lamp.outer);
+    lamp.light.spot_exponent = v.tightness;
+    if (v.shadowless > 0) lamp.light.specular = shade_v3(0, 0, 0);
+    return lamp;
+}
+
+/* three.js 0.187.0: DirectionalLight, PointLight, SpotLight.  1 / max(r^decay, .01), times
+   (1 - (r / distance)^4)^2 where distance is not 0.  A spot falls by smoothstep of the cosine from
+   angle (1 - penumbra) to angle, which is half the cone, in radians.  Measured; 1/pi is in the
+   look. */
+typedef struct elsewhere_three_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float intensity, distance, decay, angle, penumbra;
+} elsewhere_three_lamp_numbers;
+static inline elsewhere_lamp elsewhere_three_lamp(elsewhere_three_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, shade_scale(v.color, v.intensity), v.aim);
+    lamp.range = ELSEWHERE_RANGE_WINDOW;
+    lamp.reach = v.distance;
+    lamp.power = v.decay;
+    if (shade_dot(v.aim, v.aim) > 0) lamp.rim = ELSEWHERE_RIM_COSINE;
+    lamp.inner = v.angle * (1 - v.penumbra);
+    lamp.outer = v.angle;
+    lamp.light.spot_cos_cutoff = cosf(v.angle);
+    return lamp;
+}
+
+/* Babylon.js 9.35.0: DirectionalLight, PointLight, SpotLight.  A lamp with a range falls linearly to
+   0 there.  angle is that of the full cone, in radians; the cone is hard, with cos^exponent.
+   Measured. */
+typedef struct elsewhere_babylon_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, aim;
+    float range, angle, exponent;
+} elsewhere_babylon_lamp_numbers;
+static inline elsewhere_lamp elsewhere_babylon_lamp(elsewhere_babylon_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    if (v.range > 0) lamp.range = ELSEWHERE_RANGE_LINEAR;
+    lamp.reach = v.range;
+    lamp.light.spot_cos_cutoff = cosf(v.angle / 2);
+    lamp.light.spot_exponent = v.exponent;
+    return lamp;
+}
+
+/* X3D as X_ITE draws it: 1 / max(a + b r + c r^2, 1), nothing beyond radius.  A spot falls linearly
+   in the angle from beamWidth to cutOffAngle, in radians; a beamWidth beyond cutOffAngle is full
+   light in the cone.  Measured; X3D 4.0, clause 17.4.3. */
+typedef struct elsewhere_x3d_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float intensity, radius, beamWidth, cutOffAngle;
+} elsewhere_x3d_lamp_numbers;
+static inline elsewhere_lamp elsewhere_x3d_lamp(elsewhere_x3d_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, shade_scale(v.color, v.intensity), v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.at_most_one = 1;
+    lamp.range = ELSEWHERE_RANGE_CUT;
+    lamp.reach = v.radius;
+    if (shade_dot(v.aim, v.aim) > 0 && v.beamWidth < v.cutOffAngle)
+        lamp.rim = ELSEWHERE_RIM_ANGLE;
+    lamp.inner = v.beamWidth;
+    lamp.outer = v.cutOffAngle;
+    lamp.light.spot_cos_cutoff = cosf(v.cutOffAngle);
+    return lamp;
+}
+
+/* p5.js 1.11: directionalLight, pointLight, spotLight, lightFalloff.  The highlight of a point lamp
+   has the square of 1 / (a + b r + c r^2), that of a spot does not.  angle is from the axis to the
+   edge, in radians, with cos^concentration.  Measured; totalLight of lighting.glsl. */
+typedef struct elsewhere_p5_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float angle, concentration;
+} elsewhere_p5_lamp_numbers;
+static inline elsewhere_lamp elsewhere_p5_lamp(elsewhere_p5_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.spot_cos_cutoff = cosf(v.angle);
+    lamp.light.spot_exponent = v.concentration;
+    if (v.at.w != 0 && shade_dot(v.aim, v.aim) == 0) lamp.highlight = ELSEWHERE_HIGHLIGHT_SQUARED;
+    return lamp;
+}
+
+/* vtk.js 37.4: vtkLight.  As VTK's, but that a cone of 90 is still one, and that the highlight of a
+   positional lamp stands where light along its aim would put it.  Measured; lights of
+   OpenGL/PolyDataMapper. */
+typedef elsewhere_vtk_lamp_numbers elsewhere_vtkjs_lamp_numbers;
+static inline elsewhere_lamp elsewhere_vtkjs_lamp(elsewhere_vtkjs_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_vtk_lamp(v);
+    if (v.at.w == 0) return lamp;
+    lamp.highlight = ELSEWHERE_HIGHLIGHT_AIM;
+    lamp.light.spot_direction = v.aim;
+    if (v.cone > 90) {
+        lamp.light.spot_cos_cutoff = -1;
+        lamp.light.spot_exponent = 0;
+    }
+    return lamp;
+}
+
+/* Tachyon 0.99: DIRECTIONAL_LIGHT, LIGHT, SPOTLIGHT.  A spot falls linearly in the angle from
+   Falloff_Start to Falloff_End, which are measured from the axis.  Neither distance nor the rim dims
+   highlights: they are whole wherever any light arrives.  Measured. */
+typedef struct elsewhere_tachyon_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float start, end;
+} elsewhere_tachyon_lamp_numbers;
+static inline elsewhere_lamp elsewhere_tachyon_lamp(elsewhere_tachyon_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    if (shade_dot(v.aim, v.aim) > 0) lamp.rim = ELSEWHERE_RIM_ANGLE;
+    lamp.highlight = ELSEWHERE_HIGHLIGHT_WHOLE;
+    lamp.inner = shade_radians(v.start);
+    lamp.outer = shade_radians(v.end);
+    lamp.light.spot_cos_cutoff = cosf(lamp.outer);
+    return lamp;
+}
+#endif
