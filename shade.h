@@ -56,36 +56,36 @@
        >>config     134  options               >>types      268  materials, targets, states
        >>light      453  the equation, colour  >>draw       562  shaders, meshes, pixels
        >>tools      721  explain, lines, rays  >>plumbing   934  compilers, flags and bits
-       >>math      1100  vectors and matrices
+       >>math      1101  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1468  processors            >>base      1715  bits, masks, rows of vectors
-       >>matrix    1912  cameras, inverses     >>power     2200  x^n
-       >>pixels    2266  formats, sRGB
+       >>machine   1469  processors            >>base      1716  bits, masks, rows of vectors
+       >>matrix    1913  cameras, inverses     >>power     2201  x^n
+       >>pixels    2267  formats, sRGB
      Inside: light
-       >>lamps     2577  attenuation, cones    >>terms     2829  one term at one point
-       >>surface   2904  material and lights   >>lit       3021  the whole sum, at many points
+       >>lamps     2578  attenuation, cones    >>terms     2830  one term at one point
+       >>surface   2905  material and lights   >>lit       3022  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3411  fields by owner       >>vertices  3624  shading, projection
-       >>triangles 3826  culling, edge setup   >>clip      4180  near, far, guard band
-       >>tiles     4367  edges and depth test  >>cover     4729  triangles, tile by tile
-       >>fragments 4997  interpolation, lod    >>texture   5272  texels, filters
-       >>store     5746  blending, packing
+       >>state     3412  fields by owner       >>vertices  3625  shading, projection
+       >>triangles 3827  culling, edge setup   >>clip      4181  near, far, guard band
+       >>tiles     4368  edges and depth test  >>cover     4730  triangles, tile by tile
+       >>fragments 4998  interpolation, lod    >>texture   5273  texels, filters
+       >>store     5747  blending, packing
      Inside: calls of the renderer
-       >>check     6013  refusals              >>seen      6273  view volume, chunks
-       >>drive     6393  shade_draw            >>mesh      6583  shade_draw_mesh
+       >>check     6030  refusals              >>seen      6290  view volume, chunks
+       >>drive     6410  shade_draw            >>mesh      6600  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6987  shade_draw_lines      >>camera    7179  eye and line of sight
-       >>shape     7273  normals, edges        >>chunks    7820  sorting and boxes
-       >>rays      7983  shade_pick            >>image     8174  smaller pictures, mipmaps
-       >>files     8487  PPM and PNG           >>presets   8806  classic materials
+       >>lines     7004  shade_draw_lines      >>camera    7196  eye and line of sight
+       >>shape     7290  normals, edges        >>chunks    7837  sorting and boxes
+       >>rays      8000  shade_pick            >>image     8191  smaller pictures, mipmaps
+       >>files     8504  PPM and PNG           >>presets   8822  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8889  shaders, run again    >>survey    9158  experiments on a draw
-       >>numbers   9577  what makes no sense   >>unseen   10061  why nothing is in view
-       >>hidden   10343  why nothing is stored >>black    10524  why all is black
-       >>wrong    10906  what else is wrong    >>verdict  11286  the calls
+       >>replay    8905  shaders, run again    >>survey    9174  experiments on a draw
+       >>numbers   9593  what makes no sense   >>unseen   10077  why nothing is in view
+       >>hidden   10359  why nothing is stored >>black    10540  why all is black
+       >>wrong    10922  what else is wrong    >>verdict  11302  the calls
      Sources
-       >>refs     11593                        >>history  11626
-       >>license  11632
+       >>refs     11609                        >>history  11642
+       >>license  11648
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5797,6 +5797,25 @@ SHADE__INLINE void shade__pack_linear(const shade__layout *layout, shade__in rgb
     }
 }
 
+/* The byte of a colour in sRGB, in three steps: its bits, clamped to 2^-13, with byte 0, and 1; its
+   cell of shade__byte_steps; the byte, from the entry of the cell. */
+SHADE__INLINE int32_t shade__srgb_bits(float c)
+{
+    const float kept = shade__keep(c, shade__mask(c > 0));
+    return shade__max(shade__min(shade__ordinal(kept), 0x3F800000), 0x39000000);
+}
+
+SHADE__INLINE uint32_t shade__srgb_cell(int32_t bits)
+{
+    const float root = shade__from_ordinal((bits >> 1) + 0x1FC00000);
+    return (uint32_t)(int32_t)(root * 372) - 4;
+}
+
+SHADE__INLINE uint32_t shade__srgb_byte(int32_t bits, uint32_t step)
+{
+    return (step >> 24) - (((uint32_t)bits - step) >> 23 & 1);
+}
+
 /* Packs colours as sRGB, and alpha, into bytes. */
 SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba,
                                      shade__out_bits packed, int blocks)
@@ -5810,17 +5829,14 @@ SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba
     for (int k = 0; k < 3; k++) {
         const int shift = shade__shift(&l, k);
         SHADE__EACH_BLOCK(i, blocks) {
-            const float v = rgba[i + k * SHADE_LANES], kept = shade__keep(v, shade__mask(v > 0));
-            /* from 2^-13, with byte 0, to 1 */
-            c[i] = shade__max(shade__min(shade__ordinal(kept), 0x3F800000), 0x39000000);
-            const float root = shade__from_ordinal((c[i] >> 1) + 0x1FC00000);
-            step[i] = (uint32_t)(int32_t)(root * 372) - 4;
+            c[i] = shade__srgb_bits(rgba[i + k * SHADE_LANES]);
+            step[i] = shade__srgb_cell(c[i]);
         }
         for (int at = 0; at < blocks * SHADE__BLOCK; at += SHADE__BLOCK)
             SHADE__ONE_BY_ONE
             SHADE__FOR(i, SHADE__BLOCK) { step[at + i] = shade__byte_steps[step[at + i]]; }
         SHADE__EACH_BLOCK(i, blocks) {
-            packed[i] |= ((step[i] >> 24) - (((uint32_t)c[i] - step[i]) >> 23 & 1)) << shift;
+            packed[i] |= shade__srgb_byte(c[i], step[i]) << shift;
         }
     }
 }
@@ -8506,13 +8522,12 @@ static uint8_t shade__byte_of(const shade_target *t, const shade__layout *l, con
                               int k)
 {
     float c;
-    if (l->bytes == 16) {
-        SHADE_MEMCPY(&c, p + 4 * k, 4);
-        c = t->srgb ? shade__encode(c) : shade__saturate(c);
-    } else {
-        c = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k) / (float)l->full[k];
-    }
-    return (uint8_t)(c * 255 + 0.5f);
+    int32_t bits;
+    if (l->bytes == 16) SHADE_MEMCPY(&c, p + 4 * k, 4);
+    else c = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k) / (float)l->full[k];
+    if (l->bytes < 16 || !t->srgb) return (uint8_t)(shade__saturate(c) * 255 + 0.5f);
+    bits = shade__srgb_bits(c);
+    return (uint8_t)shade__srgb_byte(bits, shade__byte_steps[shade__srgb_cell(bits)]);
 }
 
 /* R, G and B of the pixels x .. x + n - 1 of row y. */
