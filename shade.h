@@ -53,40 +53,40 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     135  options               >>types      264  materials, targets, states
-       >>light      449  the equation, colour  >>draw       558  shaders, meshes, pixels
-       >>tools      717  explain, lines, rays  >>plumbing   930  compilers, flags and bits
-       >>math      1071  vectors and matrices
+       >>config     135  options               >>types      269  materials, targets, states
+       >>light      454  the equation, colour  >>draw       563  shaders, meshes, pixels
+       >>tools      722  explain, lines, rays  >>plumbing   935  compilers, flags and bits
+       >>math      1101  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1439  processors            >>base      1674  bits, masks, rows of vectors
-       >>matrix    1871  cameras, inverses     >>power     2159  x^n
-       >>pixels    2225  formats, sRGB
+       >>machine   1469  processors            >>base      1716  bits, masks, rows of vectors
+       >>matrix    1913  cameras, inverses     >>power     2201  x^n
+       >>pixels    2267  formats, sRGB
      Inside: light
-       >>lamps     2536  attenuation, cones    >>terms     2788  one term at one point
-       >>surface   2863  material and lights   >>lit       2980  the whole sum, at many points
+       >>lamps     2578  attenuation, cones    >>terms     2830  one term at one point
+       >>surface   2905  material and lights   >>lit       3022  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3370  fields by owner       >>vertices  3583  shading, projection
-       >>triangles 3786  culling, edge setup   >>clip      4140  near, far, guard band
-       >>tiles     4327  edges and depth test  >>cover     4691  triangles, tile by tile
-       >>fragments 4959  interpolation, lod    >>texture   5234  texels, filters
-       >>store     5685  blending, packing
+       >>state     3412  fields by owner       >>vertices  3625  shading, projection
+       >>triangles 3828  culling, edge setup   >>clip      4182  near, far, guard band
+       >>tiles     4369  edges and depth test  >>cover     4733  triangles, tile by tile
+       >>fragments 5001  interpolation, lod    >>texture   5276  texels, filters
+       >>store     5751  blending, packing
      Inside: calls of the renderer
-       >>check     5936  refusals              >>seen      6194  view volume, chunks
-       >>drive     6314  shade_draw            >>mesh      6504  shade_draw_mesh
+       >>check     6018  refusals              >>seen      6278  view volume, chunks
+       >>drive     6398  shade_draw            >>mesh      6588  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6908  shade_draw_lines      >>camera    7100  eye and line of sight
-       >>shape     7194  normals, edges        >>chunks    7581  sorting and boxes
-       >>rays      7744  shade_pick            >>image     7935  smaller pictures, mipmaps
-       >>files     8248  PPM and PNG           >>presets   8567  classic materials
+       >>lines     6992  shade_draw_lines      >>camera    7184  eye and line of sight
+       >>shape     7278  normals, edges        >>chunks    7825  sorting and boxes
+       >>rays      7988  shade_pick            >>image     8179  smaller pictures, mipmaps
+       >>files     8492  PPM and PNG           >>presets   8811  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8650  shaders, run again    >>survey    8919  experiments on a draw
-       >>numbers   9357  what makes no sense   >>doubts    9695  what is seldom right
-       >>unseen    9848  why nothing is in view
-       >>hidden   10130  why nothing is stored >>black    10294  why all is black
-       >>wrong    10676  what else is wrong    >>verdict  11057  the calls
+       >>replay    8894  shaders, run again    >>survey    9163  experiments on a draw
+       >>numbers   9601  what makes no sense   >>doubts    9939  what is seldom right
+       >>unseen   10092  why nothing is in view
+       >>hidden   10374  why nothing is stored >>black    10538  why all is black
+       >>wrong    10920  what else is wrong    >>verdict  11301  the calls
      Sources
-       >>refs     11366                        >>history  11399
-       >>license  11405
+       >>refs     11610                        >>history  11643
+       >>license  11649
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -130,7 +130,7 @@
 #endif
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10300    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10400    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options.  Define them before the #include, with the same value in every file of a program.
@@ -141,7 +141,8 @@
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          checks the library's own invariants; default assert(x)
      SHADE_LANES              vertices or fragments in a packet, the unit that shaders work on: a
-                              power of two from 8 to 256; default 128; 16 suits small stacks
+                              power of two from 8 to 256; default 128, but 16 for Arm's M
+                              profile (Cortex-M), because small packets suit small stacks
      SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
                               both 11; with a fragment shader of your own 11
@@ -173,7 +174,11 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
 #include <stdint.h>
 
 #ifndef SHADE_LANES
+#if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
+#define SHADE_LANES 16
+#else
 #define SHADE_LANES 128
+#endif
 #endif
 #ifndef SHADE_MAX_VARYINGS
 #define SHADE_MAX_VARYINGS 16
@@ -953,15 +958,33 @@ SHADE__CLOSE
    in an order that avoids this, and SHADE_EACH_LANE has a 64-bit counter in tcc.
                                                                                            >>math */
 
-/* Floats must be evaluated as floats.  On s390x gcc -std=c99 evaluates them as doubles, as glibc
-   once did; SHADE__BEGIN turns that off for this file. */
-#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+/* Floats must be evaluated as floats, denormal ones too.  Compilers that do otherwise are refused,
+   without further errors.  On s390x gcc -std=c99 evaluates floats as doubles, as glibc once did;
+   SHADE__BEGIN turns that off for this file.  m68k -m68040 says that it evaluates floats as floats,
+   but only rounds their mantissa. */
+#define SHADE__EVAL_FLOAT
+#if FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53 || (defined(__SIZEOF_INT__) && __SIZEOF_INT__ < 4)
+#error "shade.h needs an int of 32 bits, and IEEE numbers: a float of 24 bits, a double of 53"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+#undef SHADE__EVAL_FLOAT
 #define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
+#elif defined(__m68k__) && defined(__HAVE_68881__)
+#error "shade.h: the registers of this FPU are wider than floats; for m68k: -msoft-float"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__ALTIVEC__) && !defined(__VSX__)
+#error "shade.h: AltiVec takes denormal floats for 0; for POWER: -mno-altivec, or -mvsx"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__TINYC__) && defined(__i386__)
+#error "shade.h: tcc for i386 evaluates floats in a wider type; use gcc -msse2 -mfpmath=sse"
+#undef SHADE_IMPLEMENTATION
+#elif defined(__PCC__)
+#error "shade.h: pcc 1.2.0 loses structs that nested calls return; use gcc, clang or tcc"
+#undef SHADE_IMPLEMENTATION
 #elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
 s390x: -std=gnu99 or -fexcess-precision=fast"
-#else
-#define SHADE__EVAL_FLOAT
+#undef SHADE_IMPLEMENTATION
 #endif
 
 /* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
@@ -994,8 +1017,11 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 
 /* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
    and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
-   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again. */
-#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+   -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again.  AltiVec's fma
+   takes denormal numbers for 0: there the fma is one of doubles, which is exact, rounded once. */
+#if defined(__ALTIVEC__) && defined(SHADE__GNU) && !defined(__clang__)
+#define SHADE__TIMES(a, b) ((float)__builtin_fma((double)(a), (double)(b), -0.0))
+#elif defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
     (defined(__cplusplus) || !defined(__STRICT_ANSI__))
 #define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
 #else
@@ -1009,16 +1035,20 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #if defined(__clang__)
 #define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
 #define SHADE__UNROLL_4
+#define SHADE__UNROLL_16
 #elif defined(__GNUC__) && __GNUC__ >= 8
 #define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
 #ifdef __OPTIMIZE_SIZE__
 #define SHADE__UNROLL_4
+#define SHADE__UNROLL_16
 #else
 #define SHADE__UNROLL_4 _Pragma("GCC unroll 4")
+#define SHADE__UNROLL_16 _Pragma("GCC unroll 16")
 #endif
 #else
 #define SHADE__NO_UNROLL
 #define SHADE__UNROLL_4
+#define SHADE__UNROLL_16
 #endif
 #ifdef __TINYC__
 #define SHADE__COUNTER ptrdiff_t
@@ -1543,15 +1573,15 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 4
 #endif
 
-/* On x86-64 gcc and clang compile each hot loop three times from one always-inlined body: for any
-   processor, for AVX2 and for AVX-512.  A call runs the best build that the processor supports.
-   All builds give the same bits, because none uses FMA.  For example,
+/* On x86-64 gcc and clang compile each hot loop up to four times from one always-inlined body: for
+   any processor, for SSE4.1, for AVX2 and for AVX-512.  A call runs the best build that the
+   processor supports.  All builds give the same bits, because none uses FMA.  For example,
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   becomes four functions.  Three are builds, made by SHADE__BUILD: shade__push_any,
-   shade__push_avx512 and
+   becomes five functions.  Four are builds, made by SHADE__BUILD: shade__push_any,
+   shade__push_sse41, shade__push_avx512 and
 
      __attribute__((target("avx2"))) static SHADE__HOT void
      shade__push_avx2(shade__draw *d, const shade__run *run, int runs)
@@ -1560,19 +1590,20 @@ typedef uint32_t shade__word;
          shade__push_body(d, run, runs);
      }
 
-   The body may use shade__width, the number of floats in a vector.  The fourth function is the one
+   The body may use shade__width, the number of floats in a vector.  The fifth function is the one
    to call, made by SHADE__CALL_BEST:
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
          const int best = SHADE__LEVEL;
-         if (best == 2) shade__push_avx512(d, run, runs);
-         else if (best == 1) shade__push_avx2(d, run, runs);
+         if (best == 3) shade__push_avx512(d, run, runs);
+         else if (best == 2) shade__push_avx2(d, run, runs);
+         else if (best == 1) shade__push_sse41(d, run, runs);
          else shade__push_any(d, run, runs);
      }
 
    Elsewhere shade__push calls shade__push_any, the only build.  Tests define SHADE__LEVEL as an int
-   expression, 0, 1 or 2, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
+   expression, 0 to 3, to force a build, and SHADE__TILE_TESTED to count tested tiles. */
 #ifndef SHADE__TILE_TESTED
 #define SHADE__TILE_TESTED() ((void)0)
 #endif
@@ -1597,7 +1628,8 @@ typedef uint32_t shade__word;
 #else
 #define SHADE__LEVEL \
     (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
-     __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
+     __builtin_cpu_supports("avx512dq") ? 3 : __builtin_cpu_supports("avx2") ? 2 : \
+     __builtin_cpu_supports("sse4.1") ? 1 : 0)
 #endif
 #endif
 #ifdef SHADE__ASK_PROCESSOR
@@ -1609,13 +1641,15 @@ SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
     return ebx;
 }
 
-/* The build for a processor, 0, 1 or 2 as in SHADE__LEVEL.  features is EBX of leaf 7, saved is
-   XCR0, the registers that the operating system saves.  AVX-512 needs the features AVX2, F, DQ, BW
-   and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit vectors.     [Intel25] */
-SHADE__INLINE int shade__build_for(uint32_t features, uint32_t saved)
+/* The build for a processor, 0 to 3 as in SHADE__LEVEL.  basic is ECX of leaf 1, features is EBX of
+   leaf 7, and saved is XCR0, the registers that the operating system saves.  AVX-512 needs the
+   features AVX2, F, DQ, BW and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit
+   vectors; SSE4.1 is bit 19 of basic.                                                [Intel25] */
+SHADE__INLINE int shade__build_for(uint32_t basic, uint32_t features, uint32_t saved)
 {
-    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 2;
-    return (features & 0x20) && !(~saved & 6);
+    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 3;
+    if ((features & 0x20) && !(~saved & 6)) return 2;
+    return basic >> 19 & 1;
 }
 
 /* 1 + the build, or 0 before the first call: the only variable of the library.  In a virtual
@@ -1626,11 +1660,11 @@ static int shade__known_build;
    so leaf 7. */
 static SHADE__COLD int shade__ask_processor(void)
 {
-    uint32_t ecx, edx, saved = 0, features = shade__cpuid(7, &ecx);
+    uint32_t basic, edx, saved = 0, features = shade__cpuid(7, &basic);
     int best;
-    shade__cpuid(1, &ecx);
-    if (ecx >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
-    best = shade__build_for(features, saved);
+    shade__cpuid(1, &basic);
+    if (basic >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
+    best = shade__build_for(basic, features, saved);
     __atomic_store_n(&shade__known_build, best + 1, __ATOMIC_RELAXED);
     return best;
 }
@@ -1648,26 +1682,34 @@ SHADE__INLINE int shade__best_build(void)
 #define SHADE__AVX512 \
     __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
-#define SHADE__CALL_BEST(name, for_avx512, parameters, arguments, body) \
+#define SHADE__CALL_BEST(name, for_sse41, for_avx512, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
     SHADE__BUILD(name##_avx2, __attribute__((target("avx2"))), 8, parameters, body) \
     static void name parameters \
     { \
         const int best = SHADE__LEVEL; \
-        if (best == 2) for_avx512 arguments; \
-        else if (best == 1) name##_avx2 arguments; \
+        if (best == 3) for_avx512 arguments; \
+        else if (best == 2) name##_avx2 arguments; \
+        else if (best == 1) for_sse41 arguments; \
         else name##_any arguments; \
     }
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
+    SHADE__BUILD(name##_sse41, __attribute__((target("sse4.1"))), SHADE__ANY_WIDTH, parameters, \
+                 body) \
     SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
-    SHADE__CALL_BEST(name, name##_avx512, parameters, arguments, body)
-/* For loops that AVX-512 makes no faster: the AVX2 build serves in place of a third. */
+    SHADE__CALL_BEST(name, name##_sse41, name##_avx512, parameters, arguments, body)
+/* For loops that SSE4.1 makes no faster: the build for any processor serves in its place. */
+#define SHADE__DISPATCH_AVX(name, parameters, arguments, body) \
+    SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
+    SHADE__CALL_BEST(name, name##_any, name##_avx512, parameters, arguments, body)
+/* For loops that AVX-512 makes no faster either: the AVX2 build serves in its place. */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments, body) \
-    SHADE__CALL_BEST(name, name##_avx2, parameters, arguments, body)
+    SHADE__CALL_BEST(name, name##_any, name##_avx2, parameters, arguments, body)
 #else
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
     static void name parameters { name##_any arguments; }
+#define SHADE__DISPATCH_AVX SHADE__DISPATCH
 #define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
 
@@ -2743,10 +2785,10 @@ SHADE__INLINE int shade__points(int n, int width)
     return shade__max(n & -(int)SHADE__POINT, SHADE__POINT);
 }
 
-SHADE__DISPATCH(shade__arrive,
-                (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
-                (lamp, point, n, a),
-                shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
+SHADE__DISPATCH_AVX(shade__arrive,
+                    (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
+                    (lamp, point, n, a),
+                    shade__arrive_body(lamp, point, shade__points(n, shade__width), a))
 
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount)
@@ -3311,10 +3353,10 @@ SHADE__INLINE void shade__lit_rows_body(const shade__surface *s, const shade_row
     shade__viewer(point, s->eye, n, &r.to_eye);
     for (int k = 0; k < s->lamps; k++) shade__add_lamp(k, n, &r, rgb);
 }
-SHADE__DISPATCH(shade__lit_rows,
-                (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
-                (s, rows, n, rgb),
-                shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
+SHADE__DISPATCH_AVX(shade__lit_rows,
+                    (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
+                    (s, rows, n, rgb),
+                    shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
 
 static void shade__lit_packet(const shade__surface *s, const shade_rows *rows, float *rgb)
 {
@@ -4937,8 +4979,8 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     runs->next = i;
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
-SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
-                (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
+SHADE__DISPATCH_AVX(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
+                    (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
 /* Draws all triangles of the setup.  The three functions are called one after the other to save
    stack; the last one can draw any triangle. */
@@ -5448,19 +5490,44 @@ SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, const uint32_
                              shade__texel(below[0], l, k), shade__texel(below[1], l, k), x, y);
 }
 
-/* Blends all channels of packed texels. */
-SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits texel, shade__out red,
-                                       shade__out green, shade__out blue, shade__out alpha)
+/* Blends the colours of a block of packed texels. */
+SHADE__INLINE void shade__blend_colors(const shade__layout *l, shade__in_bits above,
+                                       shade__in_bits below, shade__in x, shade__in y,
+                                       shade__out rgb)
 {
-    const uint32_t *second = texel + 2 * SHADE_LANES;
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const uint32_t *a = above + 2 * i, *b = below + 2 * i;
+        rgb[i] = shade__bilinear(l, 0, a, b, x[i], y[i]);
+        rgb[i + SHADE_LANES] = shade__bilinear(l, 1, a, b, x[i], y[i]);
+        rgb[i + 2 * SHADE_LANES] = shade__bilinear(l, 2, a, b, x[i], y[i]);
+    }
+}
+
+/* Blends their alpha, which is 1 where all texels are opaque: bilinear textures gain 2 to 7 %. */
+SHADE__INLINE void shade__blend_alpha(const shade__layout *l, shade__in_bits above,
+                                      shade__in_bits below, shade__in x, shade__in y,
+                                      shade__out alpha)
+{
+    const uint32_t full = (uint32_t)l->full[3] << shade__shift(l, 3);
+    uint32_t opaque = full;
+    SHADE__FOR(i, 2 * SHADE__BLOCK) { opaque &= above[i] & below[i]; }
+    if (opaque == full) {
+        SHADE__FOR(i, SHADE__BLOCK) { alpha[i] = 1; }
+        return;
+    }
+    SHADE__FOR(i, SHADE__BLOCK) {
+        alpha[i] = shade__bilinear(l, 3, above + 2 * i, below + 2 * i, x[i], y[i]);
+    }
+}
+
+/* Blends all channels of packed texels. */
+SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits texel, shade__out out)
+{
     const shade__layout l = *r->layout;
-    SHADE__EACH_BLOCK(i, r->blocks) {
-        const uint32_t *above = texel + 2 * i, *below = second + 2 * i;
-        const float x = r->x.f[i], y = r->y.f[i];
-        red[i] = shade__bilinear(&l, 0, above, below, x, y);
-        green[i] = shade__bilinear(&l, 1, above, below, x, y);
-        blue[i] = shade__bilinear(&l, 2, above, below, x, y);
-        alpha[i] = shade__bilinear(&l, 3, above, below, x, y);
+    for (int b = 0; b < r->blocks * SHADE__BLOCK; b += SHADE__BLOCK) {
+        const uint32_t *above = texel + 2 * b, *below = above + 2 * SHADE_LANES;
+        shade__blend_colors(&l, above, below, r->x.f + b, r->y.f + b, out + b);
+        shade__blend_alpha(&l, above, below, r->x.f + b, r->y.f + b, out + b + 3 * SHADE_LANES);
     }
 }
 
@@ -5578,8 +5645,7 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
     }
     shade__fetch(r, 1, 0, texel + 2 * SHADE_LANES);
     if (!encoded) {
-        shade__blend_packed(r, texel, to, to + SHADE_LANES, to + 2 * SHADE_LANES,
-                            to + 3 * SHADE_LANES);
+        shade__blend_packed(r, texel, to);
         return;
     }
     for (int i = 0; i < blocks * SHADE__BLOCK; i += SHADE__BLOCK)
@@ -5720,6 +5786,21 @@ SHADE__INLINE void shade__pack_channels(const shade__layout *layout, shade__in r
     }
 }
 
+/* Packs linear colours into bytes.  For BGRA8 red and blue change places instead of their shifts,
+   which so are constants: a flat fill in cache gains 3 to 6 %. */
+SHADE__INLINE void shade__pack_linear(const shade__layout *layout, shade__in rgba,
+                                      shade__out_bits packed, int blocks)
+{
+    const shade__layout *l = &shade__layouts[SHADE_FORMAT_RGBA8];
+    const int low = layout->shift[0] / 8 * SHADE_LANES, high = 2 * SHADE_LANES - low;
+    SHADE__EACH_BLOCK(i, blocks) {
+        packed[i] = shade__pack_channel(rgba[i + low], l, 0, 0.5f) |
+                    shade__pack_channel(rgba[i + SHADE_LANES], l, 1, 0.5f) |
+                    shade__pack_channel(rgba[i + high], l, 2, 0.5f) |
+                    shade__pack_channel(rgba[i + 3 * SHADE_LANES], l, 3, 0.5f);
+    }
+}
+
 /* Packs colours as sRGB, and alpha, into bytes. */
 SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba,
                                      shade__out_bits packed, int blocks)
@@ -5758,8 +5839,9 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, const fl
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (l->bytes == 16) return;
 
-    if (encoded && l->bytes == 4) {
-        shade__pack_bytes(l, rgba, packed, blocks);
+    if (l->bytes == 4) {
+        if (encoded) shade__pack_bytes(l, rgba, packed, blocks);
+        else shade__pack_linear(l, rgba, packed, blocks);
         return;
     }
     if (encoded)
@@ -6178,16 +6260,18 @@ static int shade__any_overlap(const shade__pieces *array, int outs, int n)
    each other, the positions, indices or chunks of the mesh, or itself. */
 static shade_result shade__check_outs(const shade_mesh *m, shade__pieces out, shade__pieces other)
 {
-    const size_t corners = (size_t)shade__corner_count(m), chunks = (size_t)m->chunk_count;
-    const size_t size = sizeof(shade_vec3);
-    const shade__pieces array[] = {
-        out, other, shade__array(m, sizeof *m),
-        { m->positions, (size_t)m->vertex_count, size,
-          m->position_stride ? (size_t)m->position_stride : size },
-        shade__array(m->indices, corners * sizeof *m->indices),
-        shade__array(m->indices16, corners * sizeof *m->indices16),
-        shade__array(m->chunks, chunks * sizeof *m->chunks)
-    };
+    const size_t corners = (size_t)shade__corner_count(m);
+    shade__pieces array[7];
+    array[0] = out;
+    array[1] = other;
+    array[2] = shade__array(m, sizeof *m);
+    array[3] = shade__array(m->indices, corners * sizeof *m->indices);
+    array[4] = shade__array(m->indices16, corners * sizeof *m->indices16);
+    array[5] = shade__array(m->chunks, (size_t)m->chunk_count * sizeof *m->chunks);
+    array[6].first = m->positions;
+    array[6].count = (size_t)m->vertex_count;
+    array[6].size = sizeof(shade_vec3);
+    array[6].stride = m->position_stride ? (size_t)m->position_stride : array[6].size;
     return shade__any_overlap(array, 2, 7) ? SHADE_ERROR_ARGUMENT : SHADE_OK;
 }
 
@@ -7194,24 +7278,35 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
 /*------------------------------------------------------------------------------------------ >>shape
    The shape of a mesh: normals of vertices and corners, edges, its box, and the view that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
-     way     mesh_normals: triangle_normal, corner_angle.  mesh_corner_normals: these, and
-             sort_corners.  mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
+     way     mesh_normals: sum_normals: load_faces; find_faces: find_edge, find_wedge,
+             find_angle; add_face.
+             mesh_corner_normals: sort_corners, triangle_normal, corner_angle.
+             mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
              box_visible: frustum_of and in_view of >>seen.
              mat4_fit: camera_of, frame_of, step_back
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
+
+#define SHADE__TAN 0.4142135623730951    /* of pi/8 */
+
+/* atan(s) for |s| <= tan(pi/8) */
+SHADE__INLINE double shade__arc(double s)
+{
+    double a = 0;
+    SHADE__UNROLL_16 for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
+    return a * s;
+}
 
 /* atan2(y, x) for y >= 0, within 1e-9.  atan q = pi/4 + atan((q - 1) / (q + 1)) keeps the argument
    of the series below tan(pi/8). */
 static double shade__angle(double y, double x)
 {
     const double quarter = 0.78539816339744830962;
-    double ax = x < 0 ? -x : x, t, s, a = 0;
+    double ax = x < 0 ? -x : x, t, s, a;
     if (!(ax + y > 0)) return 0;
     t = (y - ax) / (y + ax);
-    s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
-    for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
-    a = a * s + (t < -0.4142135623730951 ? 0 : t > 0.4142135623730951 ? 2 * quarter : quarter);
+    s = t < -SHADE__TAN ? y / ax : t > SHADE__TAN ? -ax / y : t;
+    a = shade__arc(s) + (t < -SHADE__TAN ? 0 : t > SHADE__TAN ? 2 * quarter : quarter);
     return x < 0 ? 4 * quarter - a : a;
 }
 
@@ -7299,6 +7394,160 @@ static shade_result shade__check_range(const shade_mesh *m, const shade_chunk *c
     return shade__check_indices(shade__indices_of(m), 3 * c->first, 3 * c->count, m->vertex_count);
 }
 
+/* Faces in lanes.  Edge k goes from corner k to the next, and wedge k lies between it and the edge
+   that comes to the corner.  Rows of vectors are x, y, z. */
+typedef struct shade__wedge {
+    float normal[3][SHADE__BLOCK];    /* unit */
+    float sine[SHADE__BLOCK], cosine[SHADE__BLOCK];
+    float angle[SHADE__BLOCK];        /* in radians */
+} shade__wedge;
+
+typedef struct shade__faces {
+    float corner[3][3][SHADE__BLOCK];
+    float edge[3][3][SHADE__BLOCK];    /* unit; zero where the lane is odd */
+    shade__wedge wedge[3];
+    uint32_t odd[SHADE__BLOCK];        /* all ones: too short, long or slim for these loops */
+} shade__faces;
+
+/* The square root, rounded to the nearest float as sqrtf does it.  One step of Newton for 1/sqrt(x)
+   and one for the root leave less than 2^-52; no root of a float is nearer than 2^-51 to the middle
+   between two floats.   pre: x is normal */
+SHADE__INLINE float shade__sqrt_normal(float x)
+{
+    const double d = (double)x;
+    double y = (double)shade__rsqrt_normal(x), root;
+    y *= 1.5 - 0.5 * d * y * y;
+    root = d * y;
+    return (float)(root + 0.5 * y * (d - root * root));
+}
+
+/* The length of a vector with this sum of squares.  Outside of least .. 1e38, and for NaN, it is 1,
+   and the lane is odd. */
+SHADE__INLINE float shade__length_of(float squares, float least, uint32_t *odd)
+{
+    *odd = shade__mask(squares < least) | shade__mask(!shade__within(squares, 1e38f));
+    return shade__sqrt_normal(shade__select(squares, 1, *odd));
+}
+
+/* The edge from p to q, by the roundings of shade_normalize. */
+SHADE__INLINE void shade__find_edge(float (*SHADE_RESTRICT p)[SHADE__BLOCK],
+                                    float (*SHADE_RESTRICT q)[SHADE__BLOCK],
+                                    float (*SHADE_RESTRICT edge)[SHADE__BLOCK],
+                                    shade__out_bits odd)
+{
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const float x = q[0][i] - p[0][i], y = q[1][i] - p[1][i], z = q[2][i] - p[2][i];
+        uint32_t bad;
+        const float scale = 1 / shade__length_of(x * x + y * y + z * z, 1e-36f, &bad);
+        edge[0][i] = shade__keep(x * scale, ~bad);
+        edge[1][i] = shade__keep(y * scale, ~bad);
+        edge[2][i] = shade__keep(z * scale, ~bad);
+        odd[i] |= bad;
+    }
+}
+
+/* The wedge at a corner: its normal by the roundings of shade_face_normal, sine and cosine by those
+   of shade__corner_angle, up to the signs of zeros. */
+SHADE__INLINE void shade__find_wedge(float (*SHADE_RESTRICT to)[SHADE__BLOCK],
+                                     float (*SHADE_RESTRICT from)[SHADE__BLOCK], float least,
+                                     shade__wedge *SHADE_RESTRICT w, shade__out_bits odd)
+{
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const float x = to[1][i] * from[2][i] - to[2][i] * from[1][i];
+        const float y = to[2][i] * from[0][i] - to[0][i] * from[2][i];
+        const float z = to[0][i] * from[1][i] - to[1][i] * from[0][i];
+        uint32_t bad;
+        const float length = shade__length_of(x * x + y * y + z * z, least, &bad);
+        const float scale = 1 / length;
+        w->normal[0][i] = x * scale;
+        w->normal[1][i] = y * scale;
+        w->normal[2][i] = z * scale;
+        w->sine[i] = length;
+        w->cosine[i] = -(to[0][i] * from[0][i] + to[1][i] * from[1][i] + to[2][i] * from[2][i]);
+        odd[i] |= bad;
+    }
+}
+
+/* b where x has its sign set, else a.  SSE2 compares no integers of 64 bits. */
+SHADE__INLINE double shade__by_sign(double a, double b, double x)
+{
+    const uint64_t mask = 0u - (shade__double_bits(x) >> 63), bits = shade__double_bits(a);
+    return shade__bits_double(bits ^ ((bits ^ shade__double_bits(b)) & mask));
+}
+
+/* shade__angle, by the same roundings. */
+SHADE__INLINE void shade__find_angle(shade__wedge *SHADE_RESTRICT w)
+{
+    const double quarter = 0.78539816339744830962;
+    SHADE__FOR(i, SHADE__BLOCK) {
+        const double x = (double)w->cosine[i], y = (double)w->sine[i], ax = shade__abs(x);
+        const double t = (y - ax) / (y + ax);
+        const double low = t + SHADE__TAN, high = SHADE__TAN - t;    /* < 0: t is low, high */
+        const double over = shade__by_sign(shade__by_sign(y - ax, y, low), -ax, high);
+        const double under = shade__by_sign(shade__by_sign(y + ax, ax, low), y, high);
+        const double from = shade__by_sign(shade__by_sign(quarter, 0, low), 2 * quarter, high);
+        const double a = shade__arc(over / under) + from;
+        w->angle[i] = (float)shade__by_sign(a, 4 * quarter - a, x);
+    }
+}
+
+/* Finds all of the faces from their corners.  A face whose sine at corner 0 is above 1e-5 has area,
+   because the roundings of edges turn them by less than 1e-6. */
+SHADE__INLINE void shade__find_faces_body(shade__faces *f)
+{
+    SHADE__FOR(i, SHADE__BLOCK) { f->odd[i] = 0; }
+    for (int k = 0; k < 3; k++)
+        shade__find_edge(f->corner[k], f->corner[k < 2 ? k + 1 : 0], f->edge[k], f->odd);
+    shade__find_wedge(f->edge[2], f->edge[0], 1e-10f, &f->wedge[0], f->odd);
+    shade__find_wedge(f->edge[0], f->edge[1], 1e-36f, &f->wedge[1], f->odd);
+    shade__find_wedge(f->edge[1], f->edge[2], 1e-36f, &f->wedge[2], f->odd);
+    for (int k = 0; k < 3; k++) shade__find_angle(&f->wedge[k]);
+}
+SHADE__DISPATCH_AVX2(shade__find_faces, (shade__faces *f), (f), shade__find_faces_body(f))
+
+/* Loads n faces from t on.  The other lanes repeat the first. */
+static void shade__load_faces(const shade_mesh *m, uint32_t t, int n, shade__faces *f)
+{
+    for (int i = 0; i < SHADE__BLOCK; i++) {
+        const uint32_t first = 3 * (t + (uint32_t)(i < n ? i : 0));
+        for (uint32_t k = 0; k < 3; k++) {
+            const shade_vec3 p = shade__corner(m, first + k);
+            f->corner[k][0][i] = p.x;
+            f->corner[k][1][i] = p.y;
+            f->corner[k][2][i] = p.z;
+        }
+    }
+}
+
+/* Adds face t, which is lane i, to the sums of its vertices. */
+static void shade__add_face(const shade_mesh *m, uint32_t t, const shade__faces *f, int i,
+                            shade_vec3 *normals)
+{
+    const shade__wedge *w = f->wedge;
+    shade_vec3 n = shade_v3(w->normal[0][i], w->normal[1][i], w->normal[2][i]);
+    if (f->odd[i]) n = shade__triangle_normal(m, t);
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t corner = 3 * t + k;
+        const float angle = f->odd[i] ? shade__corner_angle(m, corner) : w[k].angle[i];
+        shade_vec3 *sum = &normals[shade__corner_index(m, corner)];
+        *sum = shade_madd(*sum, angle, n);
+    }
+}
+
+/* Sums the faces around each vertex, weighted by their angles.  Lanes take a third of the time of
+   one face after another with SSE2, a fifth with AVX2. */
+static void shade__sum_normals(const shade_mesh *m, shade_vec3 *normals)
+{
+    const int count = shade__corner_count(m) / 3;
+    SHADE_ALIGNED shade__faces faces;
+    for (int t = 0; t < count; t += SHADE__BLOCK) {
+        const int n = shade__min(count - t, SHADE__BLOCK);
+        shade__load_faces(m, (uint32_t)t, n, &faces);
+        shade__find_faces(&faces);
+        for (int i = 0; i < n; i++) shade__add_face(m, (uint32_t)(t + i), &faces, i, normals);
+    }
+}
+
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
@@ -7308,15 +7557,10 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     bytes = (size_t)mesh->vertex_count * sizeof *normals;
     result = shade__check_outs(mesh, shade__array(normals, bytes), shade__array(NULL, 0));
     if (result) return result;
+
     SHADE_MEMSET(normals, 0, bytes);
-    for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
-        shade_vec3 n = shade__triangle_normal(mesh, t);
-        for (uint32_t k = 3 * t; k < 3 * t + 3; k++) {
-            shade_vec3 *sum = &normals[shade__corner_index(mesh, k)];
-            *sum = shade_madd(*sum, shade__corner_angle(mesh, k), n);
-        }
-    }
-    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade__unit_vector(normals[i]);
+    shade__sum_normals(mesh, normals);
+    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
     return SHADE_OK;
 }
 
@@ -11397,8 +11641,8 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md says
-   what each brought.
+   1.4 of 2026-11-29, 1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21;
+   CHANGELOG.md says what each brought.
    From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */
 

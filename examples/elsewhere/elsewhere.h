@@ -63,6 +63,8 @@ typedef struct elsewhere_look {
     float diffuse, specular;     /* multiply I_d and I_s of every lamp */
     float head_diffuse;          /* I_d and I_s of a white lamp that the program has at the */
     float head_specular;         /* camera, which shines along its axis; 0: none */
+    shade_vec3 own;              /* toward a white lamp at infinity that the program has; 0: none */
+    int own_turns;               /* non-zero: own is along the camera's axes, not the world's */
     int tilted;                  /* non-zero: I_d of a lamp toward unit L is 2 / (1 + z) as bright, */
                                  /* z along the camera's backward axis */
     elsewhere_law law;
@@ -89,6 +91,7 @@ typedef enum elsewhere_range { /* what distance r does to a lamp of reach d */
 typedef enum elsewhere_highlight { /* what is odd about the highlight of a lamp */
     ELSEWHERE_HIGHLIGHT_PLAIN = 0,
     ELSEWHERE_HIGHLIGHT_SQUARED,    /* it has 1 / (a + b r + c r^2) twice */
+    ELSEWHERE_HIGHLIGHT_WHOLE,      /* it is not dimmed at all, where any light arrives */
     ELSEWHERE_HIGHLIGHT_AIM         /* it stands where light along the lamp's aim would put it */
 } elsewhere_highlight;
 
@@ -103,7 +106,10 @@ typedef struct elsewhere_lamp {
     elsewhere_highlight highlight;
 } elsewhere_lamp;
 
-enum { ELSEWHERE_LAMPS = 8 };    /* elsewhere_lit_lanes takes no more lamps; the rest is dark */
+enum {
+    ELSEWHERE_LAMPS = 8,                       /* more lamps of yours than these are dark */
+    ELSEWHERE_ALL_LAMPS = ELSEWHERE_LAMPS + 2  /* with the program's own */
+};
 
 /* What elsewhere_lit_lanes and elsewhere_fragment read.  A zero view is the identity. */
 typedef struct elsewhere_scene {
@@ -182,7 +188,16 @@ static inline shade_vec3 elsewhere_eye(const elsewhere_scene *s)
                               c[2].x * t.x + c[2].y * t.y + c[2].z * t.z));
 }
 
-/* The lighting of a scene as shade_lit takes it, with room for ELSEWHERE_LAMPS + 1 lamps; *eye
+/* A white lamp at infinity */
+static inline shade_light elsewhere_white(shade_vec3 toward, float diffuse, float specular)
+{
+    shade_light light = shade_directional_light(shade_neg(toward), shade_v3(1, 1, 1));
+    light.diffuse = shade_scale(light.diffuse, diffuse);
+    light.specular = shade_scale(light.specular, specular);
+    return light;
+}
+
+/* The lighting of a scene as shade_lit takes it, with room for ELSEWHERE_ALL_LAMPS; *eye
    becomes the eye that goes with it. */
 static inline shade_lighting elsewhere_lighting(const elsewhere_scene *s, shade_light *lamps,
                                                 shade_vec3 *eye)
@@ -203,11 +218,15 @@ static inline shade_lighting elsewhere_lighting(const elsewhere_scene *s, shade_
         lamps[i].specular = shade_scale(lamps[i].specular, k->specular);
         out.light_count = i + 1;
     }
-    if (k->head_diffuse > 0 || k->head_specular > 0) {
-        shade_light *head = &lamps[out.light_count++];
-        *head = shade_directional_light(shade_neg(axis), shade_v3(1, 1, 1));
-        head->diffuse = shade_v3(k->head_diffuse, k->head_diffuse, k->head_diffuse);
-        head->specular = shade_v3(k->head_specular, k->head_specular, k->head_specular);
+    if (k->head_diffuse > 0 || k->head_specular > 0)
+        lamps[out.light_count++] = elsewhere_white(axis, k->head_diffuse, k->head_specular);
+    if (shade_dot(k->own, k->own) > 0) {
+        const shade_vec4 *c = s->view.col;
+        const shade_vec3 turned = { shade_dot(shade_v3(c[0].x, c[0].y, c[0].z), k->own),
+                                    shade_dot(shade_v3(c[1].x, c[1].y, c[1].z), k->own),
+                                    shade_dot(shade_v3(c[2].x, c[2].y, c[2].z), k->own) };
+        const int turns = k->own_turns && shade_dot(turned, turned) > 0;
+        lamps[out.light_count++] = elsewhere_white(turns ? turned : k->own, 1, 1);
     }
     out.lights = lamps;
     out.ambient = s->ambient;
@@ -270,7 +289,26 @@ static inline void elsewhere_amounts(const elsewhere_packet *k, const shade_ligh
     }
 }
 
-/* Adds the highlight of a lamp as if its light came along its aim everywhere. */
+/* Adds the highlight of a lamp as if neither distance nor cone dimmed it. */
+static inline void elsewhere_add_whole(const elsewhere_packet *k, const shade_light *lamp,
+                                       float *rgb)
+{
+    shade_light whole = *lamp;
+    shade_lighting single = k->all;
+    float any[SHADE_LANES], one[3 * SHADE_LANES];
+    shade_rows rows = k->rows;
+    whole.constant = whole.linear = whole.quadratic = 0;
+    whole.spot_exponent = 0;
+    single.lights = &whole;
+    single.light_count = 1;
+    single.terms = SHADE_TERM_SPECULAR;
+    for (int i = 0; i < SHADE_LANES; i++) any[i] = rows.visibility[i] > 0 ? 1.0f : 0.0f;
+    rows.visibility = any;
+    shade_lit_lanes(&single, &k->look->material, k->eye, &rows, one);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] += one[i];
+}
+
+/* Adds the highlight of a lamp as if its its light came along its aim everywhere. */
 static inline void elsewhere_add_aimed(const elsewhere_packet *k, const shade_light *lamp,
                                        float *rgb)
 {
@@ -345,6 +383,9 @@ static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_lig
     } else if (highlight == ELSEWHERE_HIGHLIGHT_SQUARED) {
         elsewhere_amounts(k, lamp, factor);
         rows.specular = factor;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_WHOLE) {
+        elsewhere_add_whole(k, lamp, rgb);
+        single.terms = SHADE_TERM_DIFFUSE;
     } else if (highlight == ELSEWHERE_HIGHLIGHT_AIM) {
         elsewhere_add_aimed(k, lamp, rgb);
         single.terms = SHADE_TERM_DIFFUSE;
@@ -397,8 +438,8 @@ static inline void elsewhere_bounded(const elsewhere_packet *k, float *rgb)
 static inline void elsewhere_lit_lanes(const elsewhere_scene *s, const float *P, const float *N,
                                        float *rgb)
 {
-    float visibility[(ELSEWHERE_LAMPS + 1) * SHADE_LANES];
-    shade_light lamps[ELSEWHERE_LAMPS + 1];
+    float visibility[ELSEWHERE_ALL_LAMPS * SHADE_LANES];
+    shade_light lamps[ELSEWHERE_ALL_LAMPS];
     elsewhere_packet k = { .look = s->look, .rows = { P, N, NULL, NULL, visibility } };
     int apart = s->look->law != ELSEWHERE_LAW_FOUR;
     k.all = elsewhere_lighting(s, lamps, &k.eye);
@@ -709,6 +750,81 @@ static inline elsewhere_look elsewhere_pymol(elsewhere_pymol_numbers v)
     return k;
 }
 
+/* gnuplot 5.4.4: set pm3d lighting primary p specular s, of a fill colour.  colour (1 - p + p N.L)
+   and a white s (R.V)^5, from a lamp of its own at the upper left of the screen.  primary 0 switches
+   the highlight off too.  Measured. */
+typedef struct elsewhere_gnuplot_numbers {
+    shade_vec3 color;
+    float primary, specular;
+} elsewhere_gnuplot_numbers;
+static inline elsewhere_look elsewhere_gnuplot(elsewhere_gnuplot_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, 1 - v.primary);
+    k.material.diffuse = shade_scale(v.color, v.primary);
+    k.material.specular = elsewhere_grey(v.primary > 0 ? v.specular : 0);
+    k.material.shininess = 5;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.own = shade_v3(-0.226f, 0.709f, 0.668f);
+    k.own_turns = 1;
+    return k;
+}
+
+/* matplotlib 3.6.3: mplot3d's shade, from a LightSource of azdeg and altdeg in degrees.  colour
+   (.65 + .35 N.L), also where N.L < 0; no highlight.  Measured. */
+typedef struct elsewhere_mplot3d_numbers {
+    shade_vec3 color;
+    float azdeg, altdeg;
+} elsewhere_mplot3d_numbers;
+static inline elsewhere_look elsewhere_mplot3d(elsewhere_mplot3d_numbers v)
+{
+    const float azimuth = shade_radians(90 - v.azdeg), altitude = shade_radians(v.altdeg);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.ambient = shade_scale(v.color, 0.65f);
+    k.material.diffuse = shade_scale(v.color, 0.35f);
+    k.law = ELSEWHERE_LAW_SIGNED;
+    k.own = shade_v3(cosf(azimuth) * cosf(altitude), sinf(azimuth) * cosf(altitude), sinf(altitude));
+    return k;
+}
+
+/* Octave 7.3: surfl with [ambient diffuse specular shine].  The sum over all is divided by ambient +
+   diffuse + specular, so that a highlight dims the rest.  Measured. */
+typedef struct elsewhere_surfl_numbers {
+    float ambient, diffuse, specular, shine;
+} elsewhere_surfl_numbers;
+static inline elsewhere_look elsewhere_surfl(elsewhere_surfl_numbers v)
+{
+    const float sum = fmaxf(v.ambient + v.diffuse + v.specular, 1e-6f);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = elsewhere_grey(v.ambient / sum);
+    k.material.diffuse = elsewhere_grey(v.diffuse / sum);
+    k.material.specular = elsewhere_grey(v.specular / sum);
+    k.material.shininess = v.shine;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/* OpenGL 1.0 to 2.1, fixed function: glMaterial and glLightModel.  (N.H)^n, lit at vertices; without
+   GL_LIGHT_MODEL_LOCAL_VIEWER V is the camera's axis everywhere.  Each lamp's own ambient light is
+   dimmed with it.  scene.ambient is GL_LIGHT_MODEL_AMBIENT, .2 by default.  Specified in OpenGL 2.1,
+   section 2.14.1, and measured. */
+typedef struct elsewhere_opengl_numbers {
+    shade_vec3 ambient, diffuse, specular, emission;
+    float shininess, local_viewer;
+} elsewhere_opengl_numbers;
+static inline elsewhere_look elsewhere_opengl(elsewhere_opengl_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emission;
+    k.material.ambient = v.ambient;
+    k.material.diffuse = v.diffuse;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.flags = SHADE_FLAG_ATTENUATED_AMBIENT;
+    k.viewer = v.local_viewer > 0 ? ELSEWHERE_VIEWER_POINT : ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
 /*------------------------------------------------------------------------------------------- lamps
    at is a position with w = 1, or with w = 0 the direction toward a lamp at infinity.  aim is where
    a lamp points; zero: no spot.  Angles are degrees, as all of these programs have them, unless
@@ -891,7 +1007,8 @@ static inline elsewhere_lamp elsewhere_vtkjs_lamp(elsewhere_vtkjs_lamp_numbers v
 }
 
 /* Tachyon 0.99: DIRECTIONAL_LIGHT, LIGHT, SPOTLIGHT.  A spot falls linearly in the angle from
-   Falloff_Start to Falloff_End, which are measured from the axis.  Measured. */
+   Falloff_Start to Falloff_End, which are measured from the axis.  Neither distance nor the rim dims
+   highlights: they are whole wherever any light arrives.  Measured. */
 typedef struct elsewhere_tachyon_lamp_numbers {
     shade_vec4 at;
     shade_vec3 color, attenuation, aim;
@@ -902,6 +1019,7 @@ static inline elsewhere_lamp elsewhere_tachyon_lamp(elsewhere_tachyon_lamp_numbe
     elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
     elsewhere_attenuate(&lamp, v.attenuation);
     if (shade_dot(v.aim, v.aim) > 0) lamp.rim = ELSEWHERE_RIM_ANGLE;
+    lamp.highlight = ELSEWHERE_HIGHLIGHT_WHOLE;
     lamp.inner = shade_radians(v.start);
     lamp.outer = shade_radians(v.end);
     lamp.light.spot_cos_cutoff = cosf(lamp.outer);

@@ -49,6 +49,10 @@ ELSEWHERE_ROW(tachyon, look)
 ELSEWHERE_ROW(raster3d, look)
 ELSEWHERE_ROW(pymol, look)
 ELSEWHERE_ROW(tachyon_lamp, lamp)
+ELSEWHERE_ROW(gnuplot, look)
+ELSEWHERE_ROW(mplot3d, look)
+ELSEWHERE_ROW(surfl, look)
+ELSEWHERE_ROW(opengl, look)
 
 static const elsewhere_row elsewhere_rows[] = {
     { "vtk", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
@@ -97,6 +101,14 @@ static const elsewhere_row elsewhere_rows[] = {
       elsewhere_row_pymol, NULL },
     { "tachyon_lamp", "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 start=20 end=40",
       NULL, elsewhere_row_tachyon_lamp },
+    { "gnuplot", "color=1,1,1 primary=.5 specular=0",
+      elsewhere_row_gnuplot, NULL },
+    { "mplot3d", "color=1,1,1 azdeg=225 altdeg=19.4712",
+      elsewhere_row_mplot3d, NULL },
+    { "surfl", "ambient=.55 diffuse=.6 specular=.4 shine=10",
+      elsewhere_row_surfl, NULL },
+    { "opengl", "ambient=.2,.2,.2 diffuse=.8,.8,.8 specular=0,0,0 emission=0,0,0 shininess=0 local_viewer=0",
+      elsewhere_row_opengl, NULL },
     { NULL, NULL, NULL, NULL }
 };
 
