@@ -79,11 +79,11 @@
        >>rays      7988  shade_pick            >>image     8179  smaller pictures, mipmaps
        >>files     8492  PPM and PNG           >>presets   8811  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8894  shaders, run again    >>survey    9163  experiments on a draw
-       >>numbers   9601  what makes no sense   >>doubts    9939  what is seldom right
-       >>unseen   10092  why nothing is in view
-       >>hidden   10374  why nothing is stored >>black    10538  why all is black
-       >>wrong    10920  what else is wrong    >>verdict  11301  the calls
+       >>replay    8894  shaders, run again    >>survey    9162  experiments on a draw
+       >>numbers   9600  what makes no sense   >>doubts    9938  what is seldom right
+       >>unseen   10091  why nothing is in view
+       >>hidden   10373  why nothing is stored >>black    10537  why all is black
+       >>wrong    10919  what else is wrong    >>verdict  11300  the calls
      Sources
        >>refs     11610                        >>history  11643
        >>license  11649
@@ -8969,10 +8969,10 @@ static int shade__is_stored_dark(const shade_target *t, int x, int y, int k)
 
 /* Counts the colour of lane i. */
 static void shade__count_color(const shade_target *t, const shade_fragments *in,
-                               const shade_colors *c, int i, shade_blend blend, float dim,
+                               const shade_colors *c, int i, shade_blend blend,
                                shade__shades *to)
 {
-    const float alpha = c->color[3][i];
+    const float alpha = c->color[3][i], dim = shade__dim_of(t);
     const int veiled = blend == SHADE_BLEND_OVER && alpha != alpha;
     const int x = (int)in->x[i], y = (int)in->y[i];
     float most = 0;
@@ -9003,15 +9003,14 @@ static void shade__count_colors(const shade_target *t, const shade_fragments *in
                                 const shade_colors *c, const shade_raster *raster,
                                 shade__tally *tally)
 {
-    const float dim = shade__dim_of(t);
     int clip[4];
     shade__clip_rectangle(t, clip);
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
         if (c->discard[i] || x < clip[0] || y < clip[1] || x >= clip[2] || y >= clip[3]) continue;
-        shade__count_color(t, in, c, i, raster->blend, dim, &tally->all);
+        shade__count_color(t, in, c, i, raster->blend, &tally->all);
         if (shade__has_stored_depth(t, in, i))
-            shade__count_color(t, in, c, i, raster->blend, dim, &tally->seen);
+            shade__count_color(t, in, c, i, raster->blend, &tally->seen);
     }
 }
 
@@ -9638,7 +9637,7 @@ static int shade__arrays_cross(const shade_mesh *m)
     return 0;
 }
 
-/* Are the indices those of 32 bits, read by halves?  The high halves of small indices are 0. */
+/* Are the indices 32-bit ones, read by halves?  The high halves of small indices are 0. */
 static int shade__indices_are_halves(const shade_mesh *m)
 {
     const int high = shade__low_byte_first();
@@ -11320,7 +11319,7 @@ static const shade__shades *shade__visible(const shade__survey *s, const shade__
 static const char *shade__why_faint(const shade__survey *s)
 {
     const shade_raster *raster = &s->given_state->raster;
-    const int lines = s->replay && s->replay->lines, cull = raster->cull;
+    const int lines = s->replay && s->replay->lines;
     const shade__tally t = shade__tally_of(s);
     const shade__shades *v = shade__visible(s, &t);
     if (!s->replay && t.fragments && t.discarded == t.fragments)
@@ -11352,7 +11351,8 @@ static const char *shade__why_faint(const shade__survey *s)
     if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && lines)
         return v->clear == v->count ? "state.color is not set: the lines are drawn in black."
                                     : SHADE__GO_ON;
-    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && cull != SHADE_CULL_FRONT)
+    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count &&
+        raster->cull != SHADE_CULL_FRONT)
         return "The fragment shader (state.fragment, pipeline.fragment) gives black everywhere: "
                "check out->color[0] to [2], which it must write in each lane, its uniforms, and "
                "the varyings.";    /* not of outlines */
