@@ -66,13 +66,13 @@ NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/
 # those of README, which read well when they are small
 POSTER   = 27_exponent 29_grazing 14_two_sided 04_interpolation 07_shaders 24_maps 39_bricks \
            40_fog 22_shadow 21_transparency 37_rays 12_edges
-ROOMS    = lessons shared pictures $(addprefix kit/,read scene draw image command) \
-           $(addprefix programs/,thumbnail view batch compare)
+ROOMS    = lessons shared pictures elsewhere elsewhere/test \
+           $(addprefix kit/,read scene draw image command) $(addprefix programs/,thumbnail view batch compare)
 HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
 vpath %.c $(ROOMS:%=examples/%)
 
 all: pictures programs
-pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm out/knot.ppm
+pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm out/knot.ppm out/elsewhere.ppm
 PROGRAMS = build/thumbnail build/compare $(POSIX)
 programs: $(PROGRAMS)
 
@@ -95,6 +95,11 @@ out/%.ppm: build/%
 	build/$* $@
 out/gallery.ppm: build/contact $(POSTER:%=out/%.ppm)
 	build/contact $@ $(POSTER:%=out/%.ppm)
+
+# other programs' balls beside shade.h's
+out/elsewhere.ppm: build/nine $(wildcard examples/elsewhere/tables/*)
+	@mkdir -p out
+	build/nine $@
 
 # README's program: its first block of C
 build/knot.c: README.md
