@@ -1,6 +1,7 @@
 #!/bin/sh
 # dist.sh [folder] [part ...] - writes a release into a folder, dist/: source, python, npm, pages, windows;
-# all of them where none is named.  Then notes, SBOM and SHA256SUMS.  Everything but the tarball is built in a
+# all of them where none is named.  Beside the tarball of the tree stands shade-core: the library, its
+# lessons, tests and bench, in which make and make test need gcc and make alone.  Then notes, SBOM and SHA256SUMS.  Everything but the tarball is built in a
 # copy that is taken out of the tarball, so that a file which is not in it is missed here, not by others.
 # The bytes depend on the tree alone: from git or from a tarball, today or tomorrow.
 set -e
@@ -41,8 +42,15 @@ tar -cf "$WORK/tree.tar" -T "$WORK/files"    # no pipe: a file that is missing e
 tar -C "$WORK/$NAME" -xf "$WORK/tree.tar"
 cp "$WORK/files" "$WORK/$NAME/.ci/files"
 packed "$NAME" "$out/$NAME.tar.gz"
+core=shade-core-$V
+mkdir "$WORK/$core"
+grep -xE '(shade\.h|README\.md|CHANGELOG\.md|LICENSE|Makefile|\.(clang-format|editorconfig|gitignore)|(tests|bench)/.*|examples/(README\.md|(lessons|shared|pictures|embed|microcontroller)/.*))' \
+    "$WORK/files" >"$WORK/core.files"
+tar -cf "$WORK/core.tar" -T "$WORK/core.files"
+tar -C "$WORK/$core" -xf "$WORK/core.tar"
+packed "$core" "$out/$core.tar.gz"
 cp shade.h "$out/shade.h"
-rm -rf "${WORK:?}/$NAME"
+rm -rf "${WORK:?}/$NAME" "${WORK:?}/$core"
 tar -C "$WORK" -xzf "$out/$NAME.tar.gz"
 cd "$WORK/$NAME"
 

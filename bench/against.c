@@ -1,6 +1,6 @@
 /* against.c - this shade.h against another revision of it, scene by scene, frames in turns.
 
-   against NEW.so OLD.so [--rounds N] [--only TEXT] [--level 0|1|2]
+   against NEW.so OLD.so [--rounds N] [--only TEXT] [--level 0|1|2|3]
 
    Fastest frames tell small gains from noise; the ratio of medians stands beside them. */
 #include "clock.h"

@@ -1,6 +1,6 @@
 /* compare.c - every scene by shade.h and its peers: the pictures compared, then timed in turns.
 
-   compare [--rounds N] [--only TEXT] [--mesh FILE.obj] [--level 0|1|2] [--pictures DIRECTORY]
+   compare [--rounds N] [--only TEXT] [--mesh FILE.obj] [--level 0|1|2|3] [--pictures DIRECTORY]
            [--tsv FILE] */
 #include "clock.h"
 #include "level.h"

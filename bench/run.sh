@@ -48,12 +48,12 @@ compare() {
     echo
 }
 
-# The library on processors with less, AVX2, then SSE2 as any x86-64 has it; Mesa's vectors have 256
-# and 128 bits.
+# The library on processors with less: AVX2, SSE4.1, and SSE2 as any x86-64 has it; Mesa's vectors
+# have 256 bits beside AVX2, else 128.
 levels() {
     build_with_peers compare
-    for level in 1 0; do
-        echo "## The same with narrower vectors: level $level of 2"
+    for level in 2 1 0; do
+        echo "## The same with narrower vectors: level $level of 3"
         echo
         $pin "$build/bench_compare" ${rounds:---rounds 11} ${MESH:+--mesh "$MESH"} --level $level \
             --tsv "$build/bench_level_$level.tsv"
@@ -66,22 +66,23 @@ together() {
     echo "## Together"
     echo
     awk -F'\t' '
-        FILENAME == ARGV[3] && NF == 1 { print }
+        FILENAME == ARGV[4] && NF == 1 { print }
         NF == 1 { next }
-        FILENAME != ARGV[3] {
+        FILENAME != ARGV[4] {
             narrow[FILENAME, $1] = $4 > 0 ? sprintf("%.2g, %s", $4, $5) : "-"
             next
         }
         !begun++ {
-            print "\n| scene | shade.h, ms | best peer, ms | times faster | with AVX2 | with SSE2 |"
-            print "|---|---|---|---|---|---|"
+            print "\n| scene | shade.h, ms | best peer, ms | times faster | with AVX2 | with SSE4.1 | with SSE2 |"
+            print "|---|---|---|---|---|---|---|"
         }
         {
             best = $4 > 0 ? sprintf("%s, %.3g", $5, $3) : "-"
-            printf "| %s | %.3g | %s | %.2g | %s | %s |\n", $1, $2, best, $4,
-                narrow[ARGV[1], $1], narrow[ARGV[2], $1]
+            printf "| %s | %.3g | %s | %.2g | %s | %s | %s |\n", $1, $2, best, $4,
+                narrow[ARGV[1], $1], narrow[ARGV[2], $1], narrow[ARGV[3], $1]
         }' \
-        "$build/bench_level_1.tsv" "$build/bench_level_0.tsv" "$build/bench_compare.tsv"
+        "$build/bench_level_2.tsv" "$build/bench_level_1.tsv" "$build/bench_level_0.tsv" \
+        "$build/bench_compare.tsv"
     echo
 }
 
@@ -206,13 +207,13 @@ against() {
     git show "$BASE:shade.h" >"$old/shade.h"
     cp bench/frames.c bench/level.h bench/scenes.h "$old/bench/"
     cp examples/shared/teapot.h "$old/examples/shared/"
-    for side in . "$old"; do
-        (cd "$side" && $cc $standard $flags -fPIC -shared bench/frames.c -o frames.so -lm)
-    done
-    mv frames.so "$build/frames.so"
+    before=
+    grep -q sse4.1 "$old/shade.h" || before=-DBENCH_WITHOUT_SSE41
+    $cc $standard $flags -fPIC -shared bench/frames.c -o "$build/frames.so" -lm
+    (cd "$old" && $cc $standard $flags $before -fPIC -shared bench/frames.c -o frames.so -lm)
     $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/against.c -o "$build/against" -ldl
-    for level in ${LEVELS:-2 1 0}; do
-        echo "## Against $BASE, level $level of 2"
+    for level in ${LEVELS:-3 2 1 0}; do
+        echo "## Against $BASE, level $level of 3"
         echo
         $pin "$build/against" "$build/frames.so" "$old/frames.so" $rounds --level "$level"
         echo

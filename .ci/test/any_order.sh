@@ -118,7 +118,7 @@ done
 # a minute; what it writes in build/ is size.* and stack*.
 others="all view batch explain compilers playground any_order assignments dist github windows"
 # course.sh packs what course-zip packs, and the step fuzz runs the script that make fuzz runs
-elsewhere="assignments clean conformance course-zip dist findings format format-check fuzz lint matrix programs
+elsewhere="assignments clean help install-header products conformance course-zip dist findings format format-check fuzz lint matrix programs
     vector-report"
 { there pnmenlarge && there pngquant; } || elsewhere="$elsewhere gallery"
 forgotten() {                   # scripts and targets that are neither a step nor named here
@@ -127,7 +127,8 @@ forgotten() {                   # scripts and targets that are neither a step no
         case " $(echo $apart) $others " in *" $name "*) continue ;; esac
         grep -qF "$script" "$T"/steps/* || echo "$script"
     done
-    for target in $(sed -n '/^\.PHONY:/,$s/^\.PHONY:\|^\.SECONDARY:\|\\$//gp' Makefile); do
+    for target in $(for file in Makefile examples/products.mk; do
+        sed -n '/^\.PHONY:/,$s/^\.PHONY:\|^\.SECONDARY:\|\\$//gp' $file; done); do
         case " $(echo $apart $elsewhere) " in *" $target "*) continue ;; esac
         grep -qE "(MAKE|make).* $target( |;|\$)" "$T"/steps/* || echo "make $target"
     done

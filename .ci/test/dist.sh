@@ -8,27 +8,10 @@ number=$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h)
 V=$((number / 10000)).$((number / 100 % 100)).$((number % 100))
 
 # ---- versions
-repeats() {                     # file, pattern of sed that gives the version
-    check "the version of $1" same "$(sed -n "$2" "$1" | head -n 1)" "$V"
-}
-repeats examples/packages/node/package.json 's/^ *"version": "\(.*\)",/\1/p'
-repeats examples/packages/python/pyproject.toml 's/^version = "\(.*\)"/\1/p'
-repeats examples/packages/python/shade_h/__init__.py 's/^__version__ = "\(.*\)"/\1/p'
-E=examples/embed P=examples/embed/packages
-repeats $E/README.md 's/.*and `v\([0-9.]*\)` by.*/\1/p'
-repeats $E/cmake/CMakeLists.txt 's/.*GIT_TAG v\([0-9.]*\)).*/\1/p'
-repeats $E/meson/subprojects/shade.wrap 's/^revision = v//p'
-repeats $E/meson/subprojects/packagefiles/shade/meson.build "s/.* version: '\(.*\)')/\1/p"
-repeats $P/vcpkg/vcpkg.json 's/^ *"version": "\(.*\)",/\1/p'
-repeats $P/conan/config.yml 's/^  "\(.*\)":/\1/p'
-repeats $P/conan/all/conandata.yml 's/^  "\(.*\)":/\1/p'
-repeats $P/conan/all/conandata.yml 's/.*shade-\(.*\)\.tar\.gz"/\1/p'
-repeats $P/README.md 's/.*conan\/all --version \([0-9.]*\)`.*/\1/p'
-repeats $P/esp-idf/idf_component.yml 's/^version: "\(.*\)"/\1/p'
-repeats $P/zig/build.zig.zon 's/^ *\.version = "\(.*\)",/\1/p'
-repeats $P/xmake/xmake.lua 's/.*add_versions("\([^"]*\)".*/\1/p'
-repeats $P/debian/changelog 's/^shade-h (\(.*\)-1).*/\1/p'
-repeats $P/README.md 's/.*tar -xzf shade-\(.*\)\.tar\.gz/\1/p'
+sh .ci/version.sh list >"$T/versions"
+while read -r file version; do
+    check "the version of $file" same "$version" "$V"
+done <"$T/versions"
 check "the version of CHANGELOG.md" grep -q "^## ${V%.*}, " CHANGELOG.md
 check "the version of >>history" grep -q "^   ${V%.*} of " shade.h
 
@@ -55,8 +38,9 @@ check "the same bytes from it" cmp "$A" "$T/third/shade-$V.tar.gz"
 check "checksums" sh -c "cd '$D' && sha256sum --quiet -c SHA256SUMS"
 check "notes" grep -q . "$D/NOTES.txt"
 clean="env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=$T/own"
-check "the tarball's own tests" $clean make -s -C "$T/own/shade-$V" build/test_main
-check "they pass" $clean sh -c "cd '$T/own/shade-$V' && build/test_main"
+tar -C "$T/own" -xzf "$D/shade-core-$V.tar.gz"
+check "make in the core" $clean make -s -C "$T/own/shade-core-$V"
+check "make test in the core" $clean make -s -C "$T/own/shade-core-$V" test
 
 # ---- shade.h alone, and each library: a triangle with the same bits everywhere
 mkdir "$T/alone" && cp "$D/shade.h" "$T/alone"

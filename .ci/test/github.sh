@@ -18,7 +18,7 @@ if there npm && npm install --silent --no-audit --no-fund --prefix "$T/npm" @act
         "$T/.github/workflows/wrong.yml"
 else left_out "the validator: npm cannot fetch it"; fi
 for target in $(grep -oh 'run: make [a-z]*' $W/*.yml | sed 's/.* //' | sort -u); do
-    check "make $target" grep -q "^$target:" Makefile
+    check "make $target" grep -q "^$target:" Makefile examples/products.mk
 done
 for page in .github/*.md; do
     for link in $(grep -oE '\]\([^)]*\)' "$page" | tr -d '])('); do

@@ -34,13 +34,13 @@ enum { VULKAN_LAVAPIPE, VULKAN_SWIFTSHADER };
    Mesa half as long again. */
 static inline const char *peer_open(peer *p, int level, int threads)
 {
-    static const char *const bits[] = { "128", "256" };
+    static const char *const bits[] = { "128", "128", "256" };
     char count[16];
     snprintf(count, sizeof count, "%d", threads > 1 ? threads : 0);    /* 0: the caller's own */
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     setenv("LP_NUM_THREADS", count, 1);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-    if (level == 0 || level == 1) setenv("LP_NATIVE_VECTOR_WIDTH", bits[level], 1);
+    if (level >= 0 && level < 3) setenv("LP_NATIVE_VECTOR_WIDTH", bits[level], 1);
 #ifdef __GLIBC__
     mallopt(M_TRIM_THRESHOLD, 1000000000);
     mallopt(M_TOP_PAD, 64 << 20);

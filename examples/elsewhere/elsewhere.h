@@ -29,29 +29,39 @@
 #include <math.h>
 #include <string.h>
 
-typedef enum elsewhere_viewer { /* where V points to */
-                                ELSEWHERE_VIEWER_RAY =
-                                    0, /* against the ray of the pixel; under parallel projection the */
-                                       /* camera's backward axis */
-                                ELSEWHERE_VIEWER_POINT, /* to the camera's position, under parallel projection too */
-                                ELSEWHERE_VIEWER_AXIS /* along the camera's backward axis, in perspective too */
+/* Where V points to: against the ray of the pixel, which under parallel projection is the camera's
+   backward axis; to the camera's position, under parallel projection too; along the camera's
+   backward axis, in perspective too */
+typedef enum elsewhere_viewer {
+    ELSEWHERE_VIEWER_RAY = 0,
+    ELSEWHERE_VIEWER_POINT,
+    ELSEWHERE_VIEWER_AXIS
 } elsewhere_viewer;
 
-typedef enum elsewhere_encoding { /* how light 0 .. 1 becomes a display value */
-                                  ELSEWHERE_ENCODING_NONE = 0, /* as it is */
-                                  ELSEWHERE_ENCODING_SRGB,
-                                  ELSEWHERE_ENCODING_GAMMA, /* light^(1/2.2) */
-                                  ELSEWHERE_ENCODING_ROOT   /* light^(1/2) */
+/* How light of 0 .. 1 becomes a display value: as it is, by sRGB's curve, light^(1/2.2),
+   light^(1/2) */
+typedef enum elsewhere_encoding {
+    ELSEWHERE_ENCODING_NONE = 0,
+    ELSEWHERE_ENCODING_SRGB,
+    ELSEWHERE_ENCODING_GAMMA,
+    ELSEWHERE_ENCODING_ROOT
 } elsewhere_encoding;
 
-typedef enum elsewhere_law { /* what lights a point; the number is elsewhere_look.number */
-                             ELSEWHERE_LAW_FOUR = 0, /* iteration four, as shade_lit_lanes */
-                             ELSEWHERE_LAW_SCHLICK, /* k_s becomes F = k_s + (1 - k_s) 2^((-5.55473 V.H - 6.98316) V.H) */
-                                                    /* and is multiplied by number */
-                             ELSEWHERE_LAW_POWER, /* N.L of the diffuse term becomes (N.L)^number */
-                             ELSEWHERE_LAW_STEPS, /* .7 where N.L < number, also behind, else 1; no highlight */
-                             ELSEWHERE_LAW_EXPONENT, /* k_a + k_s exp(-number (1 - R.V)); no N.L at all */
-                             ELSEWHERE_LAW_SIGNED /* k_a + k_d N.L, which is negative behind */
+/* What lights a point; number is elsewhere_look.number.
+     FOUR       iteration four, as shade_lit_lanes
+     SCHLICK    F times number is in the place of k_s, F = k_s + (1 - k_s) 2^((-5.55473 c - 6.98316) c)
+                with c = V.H
+     POWER      N.L of the diffuse term becomes (N.L)^number
+     STEPS      N.L becomes .7 where it is less than number, also behind, else 1; no highlight
+     EXPONENT   k_a + k_s exp(-number (1 - R.V)); no N.L at all
+     SIGNED     k_a + k_d N.L, which is negative behind */
+typedef enum elsewhere_law {
+    ELSEWHERE_LAW_FOUR = 0,
+    ELSEWHERE_LAW_SCHLICK,
+    ELSEWHERE_LAW_POWER,
+    ELSEWHERE_LAW_STEPS,
+    ELSEWHERE_LAW_EXPONENT,
+    ELSEWHERE_LAW_SIGNED
 } elsewhere_law;
 
 /* A material of another program */
@@ -75,27 +85,36 @@ typedef struct elsewhere_look {
     const char *refused; /* what cannot be said, or NULL */
 } elsewhere_look;
 
-typedef enum elsewhere_rim { /* how a cone ends, between inner and outer, off the axis */
-                             ELSEWHERE_RIM_HARD = 0, /* the cone of light.spot_cos_cutoff */
-                             ELSEWHERE_RIM_ANGLE, /* falls linearly in the angle; inner and outer are angles */
-                             ELSEWHERE_RIM_COSINE, /* smoothstep of the cosine; inner and outer are angles */
-                             ELSEWHERE_RIM_LINEAR /* falls linearly in the cosine; inner and outer are angles */
+/* How a cone ends between the angles inner and outer off its axis: not at all, but for the cone of
+   light.spot_cos_cutoff; linearly in the angle; by smoothstep of the cosine */
+typedef enum elsewhere_rim {
+    ELSEWHERE_RIM_HARD = 0,
+    ELSEWHERE_RIM_ANGLE,
+    ELSEWHERE_RIM_COSINE
 } elsewhere_rim;
 
-typedef enum elsewhere_range { /* what distance r does to a lamp of reach d */
-                               ELSEWHERE_RANGE_NONE =
-                                   0, /* nothing but light.constant, linear, quadratic */
-                               ELSEWHERE_RANGE_LINEAR, /* max(0, 1 - r/d) */
-                               ELSEWHERE_RANGE_CUT,    /* 1 up to d, 0 beyond */
-                               ELSEWHERE_RANGE_WINDOW, /* max(r, .1)^-power max(0, 1 - (r/d)^4)^2; d 0: no window */
-                               ELSEWHERE_RANGE_FADE /* 2 / (1 + (r/d)^power) */
+/* What distance r does to a lamp of reach d, besides light.constant, linear and quadratic.
+     LINEAR   max(0, 1 - r/d)
+     CUT      1 up to d, 0 beyond
+     WINDOW   1 / max(r^power, .01), times max(0, 1 - (r/d)^4)^2 where d is not 0
+     FADE     2 / (1 + (r/d)^power) */
+typedef enum elsewhere_range {
+    ELSEWHERE_RANGE_NONE = 0,
+    ELSEWHERE_RANGE_LINEAR,
+    ELSEWHERE_RANGE_CUT,
+    ELSEWHERE_RANGE_WINDOW,
+    ELSEWHERE_RANGE_FADE
 } elsewhere_range;
 
-typedef enum elsewhere_highlight { /* what is odd about the highlight of a lamp */
-                                   ELSEWHERE_HIGHLIGHT_PLAIN = 0,
-                                   ELSEWHERE_HIGHLIGHT_SQUARED, /* it has 1 / (a + b r + c r^2) twice */
-                                   ELSEWHERE_HIGHLIGHT_WHOLE, /* it is not dimmed at all, where any light arrives */
-                                   ELSEWHERE_HIGHLIGHT_AIM /* it stands where light along the lamp's aim would put it */
+/* What is odd about the highlight of a lamp.
+     SQUARED   it has 1 / (a + b r + c r^2) twice
+     WHOLE     it is not dimmed at all, where any light arrives
+     AIM       it stands where light along the lamp's aim would put it */
+typedef enum elsewhere_highlight {
+    ELSEWHERE_HIGHLIGHT_PLAIN = 0,
+    ELSEWHERE_HIGHLIGHT_SQUARED,
+    ELSEWHERE_HIGHLIGHT_WHOLE,
+    ELSEWHERE_HIGHLIGHT_AIM
 } elsewhere_highlight;
 
 /* A lamp of another program.  Rim and range become a row of visibility. */

@@ -194,8 +194,8 @@ static inline int elsewhere_read_number(const elsewhere_row *row, const char **t
     return 0;
 }
 
-/* Reads NAME or NAME(number=value, ...) at *text, which moves behind it, into look or lamp, of which
-   one is NULL.  Returns 0, or 1 with a sentence in said. */
+/* Reads NAME or NAME(number=value, ...) at *text, which moves behind it, into look or lamp, of
+   which one is NULL.  Returns 0, or 1 with a sentence in said. */
 static inline int elsewhere_read(const char **text, elsewhere_look *look, elsewhere_lamp *lamp,
                                  char *said, size_t room)
 {

@@ -908,7 +908,8 @@ void python_direction(double azimuth, double elevation, int up, double *out)
     core_direction(azimuth, elevation, up, out, out + 3);
 }
 
-SHADEDEF int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
+NATIVE(fit_points)
+int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
                         core_camera *out);
 int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
                core_camera *out)

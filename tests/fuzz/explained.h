@@ -805,6 +805,7 @@ SO(clip, TARGET->clip_width || TARGET->clip_x || TARGET->clip_height || TARGET->
 SO(too_wide, TARGET->clip_x + TARGET->clip_width > TARGET->width)
 SO(beyond_picture, so_too_wide(j) || TARGET->clip_y + TARGET->clip_height > TARGET->height)
 SO(shader, STATE->fragment != NULL)
+SO(model_projects, !ex_is_affine(STATE->model))
 SO(chunks, MESH->chunks != NULL)
 SO(other_stats, STAGE->other_stats)
 /* Is the eye of the view not the centre of projection, or does its axis look away? */
@@ -1119,6 +1120,7 @@ static const claim claims[] = {
     { "state.view looks transposed", so_view_by_rows, cure_view_by_rows, CHANGES },
     { "The last row of state.model", so_last_row, cure_nothing, STATED },
     { "that cameras return", so_degenerate, cure_camera, STATED },
+    { "state.model holds a projection", so_model_projects, cure_nothing, STATED },
     { "state.view holds a projection", so_not_rigid, cure_nothing, STATED },
     { "perspective_reversed, which", so_no_flag, cure_flag, STATED },
     { "light_count is negative", so_negative_count, cure_nothing, STATED },
@@ -1137,27 +1139,28 @@ static const claim claims[] = {
     { "raster.cull is SHADE_CULL_FRONT", so_front, cure_cull, SHOWS },
     { "raster.cull is SHADE_CULL_BACK", so_back, cure_cull, SHOWS },
     { "above every alpha", NULL, cure_cutoff, SHOWS },
-    { "has an area", NULL, cure_nothing, STATED },
     { "state.projection looks transposed", so_by_rows, cure_by_rows, INTO_VIEW },
     { "outside the cube", NULL, cure_camera, INTO_VIEW },
     { "beyond the far plane", so_beyond, cure_camera, INTO_VIEW },
     { "inverse of state.view would", NULL, cure_inverse, INTO_VIEW },
-    { "lies behind the eye", so_behind_eye, cure_camera, INTO_VIEW },
+    { "lies behind the eye, where", so_behind_eye, cure_camera, INTO_VIEW },
     { "nearer than the near plane", so_before, cure_camera, INTO_VIEW },
     { "beside the picture, before", NULL, cure_camera, INTO_VIEW },
-    { "covers no pixel centre", NULL, cure_camera, INTO_VIEW },
+    { "No pixel centre is covered", NULL, cure_camera, INTO_VIEW },
     /* no pixel passes */
     { "does not fit state.proj", so_far_wins, cure_depth, CHANGES },
     { "beside the clip rectangle", so_clip, cure_clip, SHOWS },
     { "state.fragment discards", so_shader, cure_shader, SHOWS },
     { "is SHADE_COMPARE_EQUAL", so_equal, cure_depth, SHOWS },
     { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
-    { "Every pixel of the mesh has the depth of the far plane", NULL, cure_near, SHOWS },
-    { "The mesh is hidden by depth", so_not_equal, cure_clear, SHOWS },
+    { "Every pixel has the depth of the far plane", NULL, cure_near, SHOWS },
+    { "is hidden by depth", so_not_equal, cure_clear, SHOWS },
     /* wrong pixels */
     { "inside out", so_inside_out, cure_winding, CHANGES },
     { "Triangles drawn later hide", so_order, cure_depth, CHANGES },
-    { "state.fragment leaves", so_shader, cure_shader, LIGHTS_UP },
+    { "fragment) gives black", so_shader, cure_shader, LIGHTS_UP },
+    { "adds nothing", so_shader, cure_shader, LIGHTS_UP },
+    { "Alpha is 0 everywhere", so_shader, cure_shader, LIGHTS_UP },
     { "lit is clipped", so_white, cure_255, DARKENS },
     { "mesh.normals point away from the eye", so_turned, cure_turned, CHANGES },
     /* darkness */

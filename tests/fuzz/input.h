@@ -222,7 +222,8 @@ static inline int fuzz_widest(void)
 {
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
     return __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-                   __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0;
+                   __builtin_cpu_supports("avx512dq") ? 3 : __builtin_cpu_supports("avx2") ? 2 :
+                   __builtin_cpu_supports("sse4.1") ? 1 : 0;
 #else
     return 0;
 #endif

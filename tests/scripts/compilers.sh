@@ -145,6 +145,27 @@ for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g+
 done
 
 # G12
+# What would draw other bits is refused: by one error, which names the remedy, and none behind it.
+refused() {                     # text, compiler and flags
+    text=$1; shift
+    "$@" -w -I. -c "$T/impl.c" -o "$T/impl.o" >"$T/said" 2>&1 && { echo "taken"; return 1; }
+    cat "$T/said"
+    grep -q "shade.h.*$text" "$T/said" && same "$(grep -c 'error' "$T/said")" "$lines"
+}
+refusal() {                     # lines that hold "error", text, compiler and flags
+    lines=$1; shift
+    if there "$2"; then check "refused: $2 $3" refused "$@"; else left_out "refused: $2"; fi
+}
+refusal 2 "int of 32 bits" avr-gcc -mmcu=atmega2560 -DSHADE_NO_LIBM
+refusal 2 "m68k: -msoft-float" m68k-linux-gnu-gcc -m68020
+refusal 2 "m68k: -msoft-float" m68k-linux-gnu-gcc -m68040
+refusal 2 "mno-altivec" powerpc-linux-gnu-gcc -maltivec
+refusal 2 "mno-altivec" powerpc64le-linux-gnu-gcc -mno-vsx
+refusal 2 "mfpmath=sse" gcc -m32 -mno-sse -DSHADE_NO_LIBM -ffreestanding
+refusal 1 "use gcc" i386-tcc -I/usr/i686-linux-gnu/include
+refusal 2 "use gcc" pcc
+
+# G12
 # README's program: in C as GNU's C17 behind headers that declare what it might; in C++20
 ${MAKE:-make} -s build/knot.c && cp build/knot.c "$T/program.c"
 { printf '#ifndef __TINYC__\n#include <complex.h>\n#endif\n'
@@ -214,7 +235,7 @@ program "zig cc" "" C "$zig" cc -ffp-contract=off
 program "zig cc, C++" "" C++ "$zig" cc -ffp-contract=off -fno-sanitize=function
 program "zig cc for Windows" "$wine" C "$zig" cc -target x86_64-windows-gnu
 
-# Each program runs the loops that are built for its processor: it tells the level of them, 0 to 2.
+# Each program runs the loops that are built for its processor: it tells the level of them, 0 to 3.
 # gcc's and clang's libraries answer as the processor itself does; qemu's and valgrind's processors
 # have less.  zig builds for this processor unless it is told.
 level= compiled=
@@ -243,10 +264,10 @@ if [ "$(uname -m)" = x86_64 ]; then
     processor "gcc" "" "" gcc $own
     processor "gcc, its library" "" "" gcc -DHAS_CPU_MODEL
     processor "clang" "" "" clang $own
-    for cpu in Nehalem:0 SandyBridge:0 Haswell:1; do
+    for cpu in Conroe:0 Penryn:1 Nehalem:1 SandyBridge:1 Haswell:2; do
         processor "${cpu%:*}" "qemu-x86_64 -cpu ${cpu%:*}" "level ${cpu#*:}" gcc -static $own
     done
-    processor "valgrind" "valgrind -q --error-exitcode=9" "level 1" gcc -g $own
+    processor "valgrind" "valgrind -q --error-exitcode=9" "level 2" gcc -g $own
     processor "zig cc" "" "" "$zig" cc
     processor "zig cc for musl" "" "" "$zig" cc -target x86_64-linux-musl
     processor "zig cc for old glibc" "" "" "$zig" cc -target x86_64-linux-gnu.2.17

@@ -38,7 +38,7 @@ examples() {
 }
 
 # every level of the dispatch in turn, whatever this processor has: the bodies are plain at -O0
-echo 'static int cover_level(void) { static int n; return n++ % 3; }' >"$T/level.h"
+echo 'static int cover_level(void) { static int n; return n++ % 4; }' >"$T/level.h"
 build plain -DSHADE_NO_DISPATCH ""
 build small \
     "-DSHADE_LANES=16 -DSHADE_MAX_VARYINGS=12 -DSHADE__LEVEL=cover_level() -include $T/level.h" \

@@ -2,7 +2,7 @@
 # dialects.sh - shade.h in every dialect and configuration it promises, without a warning; and what
 # its objects need and export.  CC and CXX choose the compilers; C++ is left out where there is
 # none.  What nothing links or reads is not compiled further than to its warnings, and one object
-# serves all programs.
+# serves all programs: OBJECT, where CC has compiled it with all warnings and -O2, or one made here.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 find_compilers
@@ -160,15 +160,22 @@ if [ -n "$CXX" ] && accepts "$CXX" -std=gnu++17 c++; then
     check "behind other headers, C++" $CXX -std=gnu++17 $WARN -I. -x c++ -fsyntax-only "$T/crowd.c"
 fi
 
+# Without position-independent code, constant tables of pointers lie with the other constants.
+fixed=-fno-pic pie=-no-pie
+quick="-O0 -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED"
+echo 'int main(void) { return 0; }' >"$T/fixed.c"
+$CC -Werror $fixed $pie "$T/fixed.c" -o "$T/fixed" >/dev/null 2>&1 || fixed= pie=
+
 # a * b + c behind the header is contracted as it would be without it; inside never (with clang
-# -ffp-contract=fast, which no pragma stops, as well)
+# -ffp-contract=fast, which no pragma stops, as well).  The freestanding build shows it.
 cat >"$T/behind.c" <<'END'
 float behind(float a, float b, float c);
 float behind(float a, float b, float c) { return a * b + c; }
 END
-cat "$T/impl.c" "$T/behind.c" >"$T/both.c"
+{ echo '#define SHADE_NO_LIBM'; cat "$T/impl.c" "$T/behind.c"; } >"$T/both.c"
 fma=; accepts "$CC" -mfma c && fma=-mfma
-assembly() { $CC -std=c99 -O2 $fma -ffp-contract=$2 -DSHADE_NO_DISPATCH -I. -S "$1" -o "$3"; }
+freestanding="$CC -std=c99 $fixed -ffreestanding $WARN -O1 -I."
+assembly() { $freestanding $fma -ffp-contract=$2 -S "$1" -o "$3"; }
 body() {                        # file: the instructions of behind()
     sed -n '/^_*behind:/,/^[[:space:]]*\.size\|^[[:space:]]*\.cfi_endproc/p' "$1" |
         grep '^[[:space:]][[:space:]]*[a-z]'
@@ -188,18 +195,16 @@ if accepts "$CC" -ffp-contract=fast c; then
     check "contraction behind the header" behind_as_alone
     # G12
     check "no contraction inside the header" inside_never
+    check "freestanding" $CC -c "$T/off.s" -o "$T/bare.o"
 else
     echo "compile: $CC has no -ffp-contract: left out"
+    check "freestanding" $freestanding -c "$T/both.c" -o "$T/bare.o"
 fi
 
-# programs of two files; C and C++ together.  Without position-independent code, constant tables of
-# pointers lie with the other constants; what SHADE_STATIC does not need leaves from -O1 on.
-fixed=-fno-pic pie=-no-pie
-quick="-O0 -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED"
-echo 'int main(void) { return 0; }' >"$T/fixed.c"
-$CC -Werror $fixed $pie "$T/fixed.c" -o "$T/fixed" >/dev/null 2>&1 || fixed= pie=
+# programs of two files; C and C++ together; what SHADE_STATIC does not need leaves from -O1 on
 run() { "$1"; }
-check "implementation, -O2" $CC -std=c99 $fixed $WARN -O2 -I. -c "$T/impl.c" -o "$T/impl.o"
+if [ "${OBJECT:-}" ]; then cp "$OBJECT" "$T/impl.o"
+else check "implementation, -O2" $CC -std=c99 $fixed $WARN -O2 -I. -c "$T/impl.c" -o "$T/impl.o"; fi
 check "two files" $CC -std=c99 $WARN -I. "$T/main.c" "$T/other.c" "$T/impl.o" -lm $pie -o "$T/two"
 check "two files run" run "$T/two"
 check "SHADE_STATIC in two files" $CC -std=c99 $WARN -O1 -I. "$T/static_main.c" \
@@ -279,7 +284,6 @@ done
 
 # a draw that needs more varyings than there are is a bad state; the same with enough is drawn
 cat >"$T/few.c" <<'END'
-#define SHADE_IMPLEMENTATION
 #include "shade.h"
 static void own(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                 shade_colors *SHADE_RESTRICT out)
@@ -321,9 +325,10 @@ int main(void)
     return 0;
 }
 END
+sized impl_16_6 16_6 $CC -std=c99 $fixed $quick "$T/impl.c"
 for n in 6 8; do
-    check "meshes with $n varyings" $CC -std=c99 $WARN $quick -DSHADE_LANES=16 \
-          -DSHADE_MAX_VARYINGS=$n -I. "$T/few.c" -lm -o "$T/few"
+    check "meshes with $n varyings" $CC -std=c99 $WARN -DSHADE_LANES=16 -DSHADE_MAX_VARYINGS=$n -I. \
+          "$T/few.c" "$T/impl_16_$n.o" -lm $pie -o "$T/few"
     check "meshes with $n varyings are drawn or refused" run "$T/few"
 done
 
@@ -348,9 +353,6 @@ option_check "own memory functions" '#include <string.h>' \
              '#define SHADE_MEMCPY(d, s, n) memcpy(d, s, n)' '#define SHADE_MEMSET(d, c, n) memset(d, c, n)'
 option_check "everything small" '#define SHADE_NO_LIBM' '#define SHADE_STATIC' \
              '#define SHADE_LANES 16' '#define SHADE_MAX_VARYINGS 4'
-option '#define SHADE_NO_LIBM'
-check "freestanding" $CC -std=c99 $fixed -ffreestanding $WARN -O1 -I. -c "$T/option.c" \
-      -o "$T/bare.o"
 refused() {
     printf '#define %s\n#include "shade.h"\n' "$1" >"$T/option.c"
     ! $CC -std=c99 -I. -fsyntax-only "$T/option.c"
@@ -397,8 +399,10 @@ only() {                        # object, allowed names
     done
     [ -z "$bad" ] || { echo "undefined:$bad"; return 1; }
 }
-no_mutable_globals() {
-    found=$(nm "$1" | awk '$2 ~ /^[DdBbCGgSs]$/')
+no_mutable_globals() {          # but tables of addresses, which position-independent code relocates
+    if nm -f sysv "$1" >"$T/sections" 2>/dev/null; then
+        found=$(awk -F'|' '$7 ~ /data|bss|COM/ && $7 !~ /rodata|\.rel\.ro/' "$T/sections")
+    else found=$(nm "$1" | awk '$2 ~ /^[DdBbCGgSs]$/'); fi
     [ -z "$found" ] || { echo "$found"; return 1; }
 }
 exports_only_shade() {

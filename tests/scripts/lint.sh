@@ -32,7 +32,7 @@ check() {                                    # what, the lines that offend
 
 C="examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] .ci/test/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/*/*.[ch]"
 check "lines within 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR ": " length " columns" }' \
-    $H Makefile $C)"
+    $H Makefile examples/products.mk $C)"
 check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H $C)"
 
 # contents table equals banners, in order
@@ -115,7 +115,7 @@ if command -v gcc >/dev/null && ctags --version 2>/dev/null | grep -q Universal;
     gcc -std=c99 -w -fsyntax-only -aux-info /tmp/lint_aux.$$ -DSHADE_IMPLEMENTATION -DSHADE__ASK_PROCESSOR -x c $H
     sed -n 's/ (.*//; s|^/\* shade.h:[0-9]*:.F .*[ *]||p' /tmp/lint_aux.$$ | sort -u >/tmp/lint_functions.$$
     ctags -x $H | awk '$2 == "function" { print $1 }' | sort -u | cat - /tmp/lint_functions.$$ | sort | uniq -u |
-        grep -vE '_(any|avx2|avx512)$' >/tmp/lint_missed.$$    # made by SHADE__DISPATCH of name_body
+        grep -vE '_(any|sse41|avx2|avx512)$' >/tmp/lint_missed.$$    # made by SHADE__DISPATCH of name_body
     check "ctags sees every function" "$(cat /tmp/lint_missed.$$)"
     rm -f /tmp/lint_aux.$$ /tmp/lint_functions.$$ /tmp/lint_missed.$$
 else echo "left out: ctags (no gcc or no Universal Ctags)"; fi
@@ -124,14 +124,15 @@ check "no heap, no exit, no print" "$(sed '1,/^#ifndef SHADE_H/s/.*//' $H | grep
 
 check "every file of tests stands in tests/README.md" "$(for file in tests/unit/*.c tests/scripts/*.sh; do
     grep -qF "\`${file##*/}\`" tests/README.md || echo "$file"; done)"
-check "tests/README.md speaks of files and names that are there, in 160 lines" "$(
-    grep -oE '`[a-z_/]+\.[a-z]+`' tests/README.md | tr -d '`' | sort -u | while read -r file; do
+P="tests/README.md tests/CALLS.md tests/CHANGING.md"
+check "the pages of tests speak of files and names that are there" "$(
+    grep -ohE '`[a-z_/]+\.[a-z]+`' $P | tr -d '`' | sort -u | while read -r file; do
         [ -e "tests/unit/$file" ] || [ -e "tests/scripts/$file" ] || [ -e "tests/$file" ] || [ -e "$file" ] || echo "$file"; done
-    grep -oE '`[A-Za-z0-9]+_[A-Za-z0-9_]*`' tests/README.md | tr -d '`' | sort -u | while read -r name; do
+    grep -ohE '`[A-Za-z0-9]+_[A-Za-z0-9_]*`' $P | tr -d '`' | sort -u | while read -r name; do
         grep -qwF "$name" $H tests/*/*.[ch] || echo "$name"; done
-    grep -oE '>>[a-z]+' tests/README.md | sort -u | while read -r place; do
-        grep -qE "^/\*-+ $place\$" $H || echo "$place"; done
-    awk 'END { if (NR > 160) print NR " lines" }' tests/README.md)"
+    grep -ohE '>>[a-z]+' $P | sort -u | while read -r place; do
+        grep -qE "^/\*-+ $place\$" $H || echo "$place"; done)"
+check "tests/README.md is one screen and a table" "$(sed '/^|/d' tests/README.md | awk 'END { if (NR > 30) print NR " lines" }')"
 
 # The guarantees of tests/GUARANTEES.md, and the numbers that tests carry: a comment above a TEST, a line of a script
 grep -oE '^\* \*\*G[0-9]+' tests/GUARANTEES.md | grep -oE 'G[0-9]+' | sort >/tmp/lint_promised.$$

@@ -30,8 +30,8 @@ build=builds
 for cc in gcc clang; do
     for o in -O0 -O1 -O2 -O3 -Os; do one "$cc $o" "" $cc $o; done
     for flags in "-std=c99 -O2" "-std=gnu17 -O2" "-O3 -march=native" "-O2 -mavx2 -mfma" \
-        "-O2 -DSHADE_NO_DISPATCH" "-O2 -DSHADE__LEVEL=0" "-O2 -DSHADE__LEVEL=1" "-O2 -DSHADE_NO_LIBM" \
-        "-O2 -DSHADE_NO_EXPLAIN" \
+        "-O2 -DSHADE_NO_DISPATCH" "-O2 -DSHADE__LEVEL=0" "-O2 -DSHADE__LEVEL=1" \
+        "-O2 -DSHADE__LEVEL=2" "-O2 -DSHADE_NO_LIBM" "-O2 -DSHADE_NO_EXPLAIN" \
         "-O2 -DSHADE_LANES=8" "-O2 -DSHADE_LANES=16" "-O2 -DSHADE_LANES=64" "-O2 -DSHADE_LANES=256"; do
         one "$cc $flags" "" $cc $flags
     done
@@ -39,8 +39,8 @@ done
 # clang's back end fuses whatever the source says under -ffp-contract=fast; gcc heeds the header
 one "gcc -ffp-contract=fast" "" gcc -O2 -ffp-contract=fast -march=native -DSHADE_NO_DISPATCH
 if grep -q avx512vl /proc/cpuinfo 2>/dev/null; then
-    one "gcc -O2, AVX-512 forced" "" gcc -O2 -DSHADE__LEVEL=2
-    one "clang -O2, AVX-512 forced" "" clang -O2 -DSHADE__LEVEL=2
+    one "gcc -O2, AVX-512 forced" "" gcc -O2 -DSHADE__LEVEL=3
+    one "clang -O2, AVX-512 forced" "" clang -O2 -DSHADE__LEVEL=3
 fi
 one "tcc" "" tcc
 find_i686
@@ -54,6 +54,16 @@ for std in "" "-std=c99"; do
     one "s390x, big-endian $std" qemu-s390x s390x-linux-gnu-gcc -static -O2 $std
 done
 one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static -O3 -ffp-contract=fast
+
+one "ppc64le" qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O2
+if [ "$LONG" ]; then
+    far_machines >"$T/far"
+    while read -r runner command <&3; do
+        one "$command" "$runner" $command -static
+    done 3<"$T/far"
+else
+    left_out "$(far_machines | wc -l) processors more, with LONG=1"
+fi
 
 # gcc heeds the header under -ffast-math too; clang is refused
 build=builds_fast static=

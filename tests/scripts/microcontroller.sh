@@ -13,6 +13,8 @@ below() {                       # most, value
 number() { sed -n "s/^$1 *\([0-9][0-9]*\).*/\1/p"; }
 
 mkdir -p build && rm -rf $B
+# an object that is there draws the same pictures as one without builds for other processors
+[ -z "${OBJECT:-}" ] || { mkdir $B && cp "$OBJECT" $B/shade.o; }
 make="make -s -C examples/microcontroller CC=$CC"
 check "strips are the picture drawn at once" $make ../../$B/picture.565
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then

@@ -1,10 +1,10 @@
 /* processor.c - the build of each loop that a program takes is the one that its processor runs:
-   prints its level, 0, 1 or 2.  Compile it with -finstrument-functions; with -DHAS_CPU_MODEL the
+   prints its level, 0 to 3.  Compile it with -finstrument-functions; with -DHAS_CPU_MODEL the
    compiler's library is asked as well. */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 
-static int entered[3];
+static int entered[4];
 #define OUTSIDE __attribute__((no_instrument_function))
 OUTSIDE void __cyg_profile_func_enter(void *function, void *caller);
 OUTSIDE void __cyg_profile_func_exit(void *function, void *caller);
@@ -14,8 +14,9 @@ void __cyg_profile_func_enter(void *function, void *caller)
 {
     (void)caller;
     entered[0] += (uintptr_t)function == (uintptr_t)&shade__push_any;
-    entered[1] += (uintptr_t)function == (uintptr_t)&shade__push_avx2;
-    entered[2] += (uintptr_t)function == (uintptr_t)&shade__push_avx512;
+    entered[1] += (uintptr_t)function == (uintptr_t)&shade__push_sse41;
+    entered[2] += (uintptr_t)function == (uintptr_t)&shade__push_avx2;
+    entered[3] += (uintptr_t)function == (uintptr_t)&shade__push_avx512;
 }
 
 void __cyg_profile_func_exit(void *function, void *caller) { (void)function, (void)caller; }
@@ -46,23 +47,30 @@ static void hold(int condition, const char *what)
     }
 }
 
-/* What systems and processors may say, by Intel's manual: bits 5, 16, 17, 30 and 31 of EBX are
-   AVX2, F, DQ, BW and VL; bits 1, 2 of XCR0 are SSE and AVX, 5, 6 and 7 the parts of AVX-512. */
+/* What systems and processors may say, by Intel's manual: bit 19 of leaf 1's ECX is SSE4.1; bits 5,
+   16, 17, 30 and 31 of leaf 7's EBX are AVX2, F, DQ, BW and VL; bits 1, 2 of XCR0 are SSE and AVX,
+   5, 6 and 7 the parts of AVX-512. */
 #ifdef SHADE__ASK_PROCESSOR
 static void levels(void)
 {
     static const unsigned parts[5] = { 5, 16, 17, 30, 31 }, states[5] = { 1, 2, 5, 6, 7 };
+    const uint32_t any = 0xFFF7FFFFu, sse41 = (uint32_t)1 << 19;
     uint32_t all = 0, saved = 0;
     for (int k = 0; k < 5; k++) all |= (uint32_t)1 << parts[k];
     for (int k = 0; k < 5; k++) saved |= (uint32_t)1 << states[k];
-    hold(shade__build_for(all, saved) == 2, "AVX-512");
-    hold(shade__build_for(0xFFFFFFFFu, 0xFFFFFFFFu) == 2, "everything");
-    hold(shade__build_for(0x20, 7) == 1, "AVX2");
-    hold(shade__build_for(0xFFFFFFFFu, 0) == 0, "a system that saves nothing");
-    hold(shade__build_for(0, 0xFFFFFFFFu) == 0, "a processor without AVX2");
+    hold(shade__build_for(sse41, all, saved) == 3, "AVX-512");
+    hold(shade__build_for(0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu) == 3, "everything");
+    hold(shade__build_for(sse41, 0x20, 7) == 2, "AVX2");
+    for (int k = 0; k < 2; k++) {
+        const uint32_t basic = k ? sse41 : any;
+        hold(shade__build_for(basic, 0xFFFFFFFFu, 0) == k, "a system that saves nothing");
+        hold(shade__build_for(basic, 0, 0xFFFFFFFFu) == k, "a processor without AVX2");
+    }
     for (int k = 0; k < 5; k++) {
-        hold(shade__build_for(all & ~((uint32_t)1 << parts[k]), saved) == (k > 0), "a part lacks");
-        hold(shade__build_for(all, saved & ~((uint32_t)1 << states[k])) == (k > 1), "unsaved");
+        hold(shade__build_for(sse41, all & ~((uint32_t)1 << parts[k]), saved) == 1 + (k > 0),
+             "a part lacks");
+        hold(shade__build_for(sse41, all, saved & ~((uint32_t)1 << states[k])) == 1 + (k > 1),
+             "unsaved");
     }
 }
 #endif
@@ -76,11 +84,12 @@ int main(void)
 #endif
 #ifdef HAS_CPU_MODEL
     hold(level == (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-                   __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0),
+                   __builtin_cpu_supports("avx512dq") ? 3 : __builtin_cpu_supports("avx2") ? 2 :
+                   __builtin_cpu_supports("sse4.1") ? 1 : 0),
          "the compiler's library sees another processor");
 #endif
     draw();
-    for (int k = 0; k < 3; k++) hold(!entered[k] == (k != level), "another build runs");
+    for (int k = 0; k < 4; k++) hold(!entered[k] == (k != level), "another build runs");
     printf("level %d\n", level);
     return faults != 0;
 }

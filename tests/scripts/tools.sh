@@ -45,6 +45,23 @@ find_python() {                 # modules, with commas between them
     done
     python=
 }
+# Processors that are emulated with LONG=1: runner, compiler and flags
+far_machines() {
+    cat <<'END'
+qemu-ppc64le powerpc64le-linux-gnu-gcc -O2
+qemu-ppc64 powerpc64-linux-gnu-gcc -O2
+qemu-ppc powerpc-linux-gnu-gcc -O2
+qemu-alpha alpha-linux-gnu-gcc -O2 -mieee -Wl,--no-relax
+qemu-hppa hppa-linux-gnu-gcc -O2
+qemu-sparc64 sparc64-linux-gnu-gcc -O2
+qemu-arm arm-linux-gnueabi-gcc -O2
+qemu-mips mips-linux-gnu-gcc -O2
+qemu-mipsel mipsel-linux-gnu-gcc -O2
+qemu-mips64 mips64-linux-gnuabi64-gcc -O2
+qemu-mips64el mips64el-linux-gnuabi64-gcc -O2
+qemu-mips mipsisa32r6-linux-gnu-gcc -O2
+END
+}
 # The inline functions of shade.h's public part, one a line
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 # Lessons draw with one sample a pixel where $one_sample is included before them, but for those that

@@ -146,11 +146,21 @@ machine 1 qemu-aarch64 "" aarch64-linux-gnu-gcc -static -O2
 machine 1 qemu-riscv64 "" riscv64-linux-gnu-gcc -static -O2
 machine 1 qemu-s390x "" s390x-linux-gnu-gcc -static -O2
 inline 1 qemu-arm arm-linux-gnueabihf-gcc -static -O2 -mfpu=neon-vfpv4
+inline 1 qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O2
+inline 1 qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O3
 inline 0 "" gcc -O2 -march=haswell -std=c99
 inline 1 "" gcc -O3 -march=haswell -ffp-contract=fast
 inline 1 "" g++ -x c++ -std=c++11 -O2 -march=haswell
 inline 0 "" clang -O2 -march=haswell
 inline 0 "" clang-19 -O3 -march=haswell
+if [ "$LONG" ]; then
+    far_machines >"$T/far"
+    while read -r runner command <&3; do
+        fuses=0
+        case $command in powerpc* | mipsisa32r6*) fuses=1 ;; esac
+        inline $fuses "$runner" $command -static
+    done 3<"$T/far"
+fi
 roots() { rows gcc -O2 -march=haswell -DSHADE_NO_LIBM && "$T/rows"; }
 check "square roots of SHADE_NO_LIBM" roots
 for name in $own; do

@@ -3,7 +3,8 @@
 # gcc at -O0, where the implementation asks for -O2 but the inline functions before it do not: none
 # but those in $known.  x86-64, aarch64, RISC-V with V (a clang since 16) and WebAssembly with simd128;
 # not armv7, whose NEON flushes denormal numbers, so that gcc leaves floats to its scalar unit.
-# And every function that gcc compiled for AVX2 or AVX-512 without using its registers: none.
+# And every function that gcc compiled for SSE4.1, AVX2 or AVX-512 without using its instructions or
+# registers: none.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/impl.c"
@@ -54,12 +55,14 @@ report "clang for riscv64 with V" clang clang-19 --target=riscv64-linux-gnu -mar
     -isystem /usr/riscv64-linux-gnu/include
 report "clang for wasm32" clang clang --target=wasm32-wasi -msimd128 -fno-math-errno -O2
 
-# A function that gcc takes for cold is not even looked at: its builds have no wide register.
+# A function that gcc takes for cold is not even looked at: its builds have no wide register.  What
+# SSE4.1 adds to loops over lanes are products, least and greatest of 32-bit integers, and selects.
 scalar() {
     gcc -std=c99 -O2 -I. -S "$T/impl.c" -o "$T/impl.s" && awk '
         /^shade__.*:$/ { name = $1; wide[name] += 0 }
         /%ymm/ { wide[name] += name ~ /_avx2/ } /%zmm/ { wide[name] += name ~ /_avx512/ }
-        END { for (name in wide) if (name ~ /_avx/ && name !~ /cold/ && !wide[name]) print name }' \
+        /^\tp(mulld|m(in|ax)[su]d|blendvb)\t/ { wide[name] += name ~ /_sse41/ }
+        END { for (name in wide) if (name ~ /_(avx|sse)/ && name !~ /cold/ && !wide[name]) print name }' \
         "$T/impl.s"
 }
 if command -v gcc >/dev/null && [ "$(uname -m)" = x86_64 ]; then

@@ -15,7 +15,7 @@ built="-std=c99 -Wall -Wextra -Werror -O1 -ffp-contract=off -I."
 check "the runner builds" $cc $built -w -static tests/unit/*.c -lm -o "$T/runner.exe"
 check "the runner" "$wine" "$T/runner.exe"
 # On any processor each build of the loops for vectors runs, by the section that calls them most.
-for level in $(awk '/^flags/ { print 0; if (/ avx2 /) print 1; if (/ avx512vl / && / avx512bw /) print 2; exit }' \
+for level in $(awk '/^flags/ { print 0; if (/ sse4_1 /) print 1; if (/ avx2 /) print 2; if (/ avx512vl / && / avx512bw /) print 3; exit }' \
                /proc/cpuinfo); do
     check "the runner of build $level builds" $cc $built -w -static -DSHADE__LEVEL=$level tests/unit/*.c \
         -lm -o "$T/level.exe"

@@ -1,5 +1,5 @@
 /* calls.h - every call of shade.h that takes memory, once, in a world of buffers: what it reads and
-   what it writes.  reads.c holds each row to page protection, and the table of tests/README.md to
+   what it writes.  reads.c holds each row to page protection, and the table of tests/CALLS.md to
    these rows; sharing.c runs them under ThreadSanitizer. */
 #ifndef CALLS_H
 #define CALLS_H

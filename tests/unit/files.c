@@ -476,6 +476,7 @@ static void check_png(int width, int height, int offset, int rows, shade_format 
 }
 
 /* All squares up to 300; all formats and contents up to 40, of any shape, and as strips */
+/* G20 */
 TEST(files, a_png_holds_the_pixels_of_the_ppm)
 {
     for (int n = 1; n <= FILES_SIDE; n++)
@@ -489,6 +490,7 @@ TEST(files, a_png_holds_the_pixels_of_the_ppm)
 }
 
 /* Bytes of 9 bits in rows of every width, which no filter shortens by much */
+/* G20 */
 TEST(files, a_png_of_noise_is_at_most_an_eighth_longer)
 {
     for (int i = 0; i < 20; i++)

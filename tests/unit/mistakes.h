@@ -880,7 +880,7 @@ MISTAKE(view_times_projection_as_projection, BOTH, "state.projection|state.view"
     s->state.projection = shade_mat4_mul(s->state.view, s->state.projection);
     memset(&s->state.view, 0, sizeof s->state.view);
 }
-MISTAKE(all_in_model, POT, "")
+MISTAKE(all_in_model, POT, "state.model holds a projection")
 {
     s->state.model = shade_mat4_mul(s->state.projection, s->state.view);
     memset(&s->state.view, 0, sizeof s->state.view);
@@ -1124,7 +1124,7 @@ MISTAKE(clip_beside, BALL, "clip_x")
     s->target.clip_x = STAGE_WIDTH;
     s->target.clip_width = s->target.clip_height = 20;
 }
-MISTAKE(smaller_than_a_pixel, BALL_STATS, "covers no pixel centre")
+MISTAKE(smaller_than_a_pixel, BALL_STATS, "No pixel centre")
 {
     s->state.model = shade_mat4_scaling(shade_v3(5e-3f, 5e-3f, 5e-3f));
 }
@@ -1278,7 +1278,7 @@ MISTAKE(all_discarded_of_depth, BALL_STATS, "state.fragment")
     s->state.alpha_cutoff = 0.5f;
     mistake_shader_discards_all(s);
 }
-MISTAKE(small_depth_of_a_shader, BALL_STATS, "covers no pixel centre")
+MISTAKE(small_depth_of_a_shader, BALL_STATS, "No pixel centre")
 {
     s->target.color = NULL;
     mistake_shader_discards_all(s);
@@ -1449,7 +1449,7 @@ MISTAKE(attenuation_of_far_lamps_with_a_map, BALL, "Attenuation")
     for (int k = 0; k < 16; k++) s->texel[k] = 140;
 }
 /* corners right of the picture, below it and far beyond: outside, but of no plane with all three */
-MISTAKE(around_a_corner_of_the_picture, BALL, "covers no pixel centre")
+MISTAKE(around_a_corner_of_the_picture, BALL, "No pixel centre")
 {
     stage_two_triangles(s, shade_v3(0, 0, 0), shade_v3(0, 0, 0));
     s->position[0] = shade_v3(5.4f, 0, -4);
@@ -1458,6 +1458,6 @@ MISTAKE(around_a_corner_of_the_picture, BALL, "covers no pixel centre")
     s->mesh.index_count = 3;
 }
 MISTAKE_IN(lamp_negative, lamp_negative_of_the_ball, BALL, "diffuse|several of them")
-MISTAKE_IN(all_in_model, all_in_model_of_the_ball, BALL, "behind|state.model")
+MISTAKE_IN(all_in_model, all_in_model_of_the_ball, BALL, "state.model holds a projection")
 
 #endif

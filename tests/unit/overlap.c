@@ -60,6 +60,7 @@ static shade_result call_of(int call, const shade_mesh *m, void *out, void *othe
 
 /* Positions with a stride of 12 to 76 bytes, then indices of 16 or 32 bits or none, then chunks or
    none; outputs anywhere. */
+/* G21 */
 TEST(overlap, meshes_are_not_written_over)
 {
     static block b, before;
@@ -148,6 +149,7 @@ static size_t row_bytes_of(const shade_target *t)
 
 /* Pictures of any strides, formats and clip rectangles, side by side in the same rows too.  In
    place means the same color and stride, and pixels of one size. */
+/* G21 */
 TEST(overlap, pictures_are_not_resolved_into_themselves)
 {
     static block b, before, own;
@@ -215,6 +217,7 @@ TEST(overlap, pictures_are_not_resolved_into_themselves)
 }
 
 /* Texels, levels, the memory for texels of mipmaps, and the texture itself */
+/* G21 */
 TEST(overlap, mipmaps_are_not_made_in_their_own_texels)
 {
     static block b, before, own;

@@ -290,7 +290,7 @@ static int reads_has_row(const char *name, size_t length)
 /* Every function of shade.h that takes a pointer has a row, and every row stands in the README. */
 TEST(reads, the_table_of_the_readme_has_every_call)
 {
-    char *readme = reads_file("tests/README.md"), *header = reads_file("shade.h");
+    char *readme = reads_file("tests/CALLS.md"), *header = reads_file("shade.h");
     char row[512];
     if (!readme || !header) {
         test_skip("not started where shade.h is");
@@ -302,7 +302,7 @@ TEST(reads, the_table_of_the_readme_has_every_call)
         const world_call *c = &world_calls[i];
         snprintf(row, sizeof row, "\n| `%s` | %s | %s | %s |\n", c->name, c->when, c->reads,
                  c->writes);
-        CHECK_SAY(strstr(readme, row), "tests/README.md has no line%s", row);
+        CHECK_SAY(strstr(readme, row), "tests/CALLS.md has no line%s", row);
     }
     for (char *p = header; (p = strstr(p, "\nSHADEDEF ")) != NULL;) {
         char *open = strchr(p, '('), *close = open ? strchr(open, ')') : NULL, *name = open;

@@ -866,6 +866,64 @@ TEST(shape, a_triangle_without_area_in_a_junction_turns_no_normal)
     }
 }
 
+/* Vertices anywhere between 1e-18 and 1e18; or on a grid and on lines, so that faces have no area,
+   or hardly any; some in one place, some no numbers. */
+static void shape_place_any(int kind, float *at)
+{
+    const double size = kind == 1 ? (double)rnd_log(1e-18, 1e18) : 1;
+    for (int k = 0; k < 3; k++) {
+        at[k] = (float)((rnd_unit() - 0.5) * size);
+        if (kind == 2) at[k] = (float)rnd_int(-2, 2) * (rnd_one_in(9) ? 1 : 1e-6f);
+        if (kind == 3 && rnd_one_in(20)) at[k] = rnd_one_in(2) ? NAN : INFINITY;
+        if (kind == 3 && rnd_one_in(20)) at[k] *= 1e-39f;
+    }
+    for (int k = 1; kind == 4 && k < 3; k++)
+        at[k] = (float)k * 0.3f * at[0] + rnd_float(-1e-6, 1e-6);
+}
+
+static int shape_equal(shade_vec3 a, shade_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/* 1 if a face at the vertex of a corner looks the other way: rounding may leave its cosine below -1,
+   so that the crease of corners parts them. */
+static int shape_opposed(const shape_mesh *s, const shade_vec3 *face, int corner)
+{
+    for (int i = 0; i < s->mesh.index_count; i++)
+        if (s->index[i] == s->index[corner] && shade_dot(face[i / 3], face[corner / 3]) < -0.99999f)
+            return 1;
+    return 0;
+}
+
+/* Normals of vertices are summed by blocks of faces, those of corners one by one.  G13 */
+TEST(shape, normals_of_vertices_have_the_bits_of_those_of_corners)
+{
+    static shape_mesh s;
+    static shade_vec3 vertex[SHAPE_VERTICES], corner[SHAPE_CORNERS], face[SHAPE_CORNERS / 3];
+    static uint32_t memory[16 * SHAPE_CORNERS];
+    int compared = 0;
+    for (int turn = 0; turn < 500; turn++) {
+        const int corners = 3 * rnd_int(1, SHAPE_CORNERS / 3), kind = turn % 5;
+        for (int i = 0; i < SHAPE_VERTICES; i++) shape_place_any(kind, &s.position[i].x);
+        for (int i = 0; i < SHAPE_VERTICES; i++) /* each has a place of its own */
+            for (int k = 0; k < i; k++)
+                if (shape_equal(s.position[i], s.position[k])) s.position[i].x += 8 + (float)i;
+        for (int i = 0; i < corners; i++) s.index[i] = (uint32_t)rnd_int(0, SHAPE_VERTICES - 1);
+        shape_close(&s, SHAPE_VERTICES, corners);
+        CHECK_INT(shade_mesh_normals(&s.mesh, vertex), SHADE_OK);
+        CHECK_INT(shade_mesh_corner_normals(&s.mesh, -1, corner, memory, sizeof memory), SHADE_OK);
+        for (int t = 0; t < corners / 3; t++)
+            face[t] = shade_face_normal(s.position[s.index[3 * t]], s.position[s.index[3 * t + 1]],
+                                        s.position[s.index[3 * t + 2]]);
+        for (int i = 0; i < corners; i++) {
+            const shade_vec3 *n = &vertex[s.index[i]];
+            if (shade_dot(corner[i], corner[i]) < 0.5f) continue; /* its face does not count */
+            if (shape_opposed(&s, face, i)) continue;
+            CHECK(!memcmp(n, &corner[i], sizeof *n));
+            compared++;
+        }
+    }
+    CHECK(compared > 50000);
+}
+
 /* ---------------------------------------------------------------------------- boxes and cameras */
 
 /* Some vertices belong to no triangle; some corners are NaN or infinite, or all of them. */

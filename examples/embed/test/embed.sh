@@ -87,7 +87,7 @@ if there git; then
         GIT_CONFIG_VALUE_4
     repository() {
         git init -q "$T/remote/shade.git" && cd "$T/remote/shade.git" && cp "$TOP/shade.h" . &&
-            git add shade.h && git commit -q -m "shade.h" && git tag v1.3.0
+            git add shade.h && git commit -q -m "shade.h" && git tag v1.4.0
     }
     (repository) >"$T/log" 2>&1 || { cat "$T/log"; failed=$((failed + 1)); }
 else left_out "git: FetchContent from a repository, submodule and wrap file"

@@ -1,5 +1,11 @@
-/* save.h - writes files that appear whole or not at all: under another name first, which a signal
-   that ends the program removes.
+/* save.h - writes files.  A new name appears whole or not at all: the file is written under another
+   name first, which a signal that ends the program removes.  A file that exists stays the same file,
+   with its mode, owner and links, as a file manager that holds it open wants it: what is to be in it
+   is made in memory and written over it at once (not on Windows, where it is replaced).
+
+       const int failed = save_bytes("a.ppm", writes, &data);       (a line on stderr has said why)
+
+   Frames of a film have a writer of many files, and are replaced:
 
        FILE *file = save_begin("a.ppm");                       (NULL: a line on stderr has said why)
        return save_end(file, "a.ppm", fwrite(bytes, 1, n, file) < n); */
@@ -36,6 +42,7 @@ static inline int save_failed(const char *name)
 
 #ifdef GUARD_POSIX
 #include <glob.h>
+#include <sys/file.h>
 
 /* 1: a device or a pipe has that name: what is written there replaces no file. */
 static inline int save_is_device(const char *name)
@@ -130,6 +137,74 @@ static inline int save_end(FILE *file, const char *path, int failed)
     if (failed) unlink(guard_part);
     guard_part[0] = 0;
     return failed != 0;
+}
+
+/* ---- files that exist ------------------------------------------------------------------------ */
+
+/* The name to which links lead, there or not; path itself where they go in circles. */
+static inline const char *save_target(const char *path, char *room, size_t size)
+{
+    const char *at = path;
+    for (int links = 0; links < 16; links++) {
+        char link[3000];
+        const ssize_t n = readlink(at, link, sizeof link - 1);
+        const char *slash = strrchr(at, '/');
+        const int folder = n > 0 && link[0] != '/' && slash ? (int)(slash - at) + 1 : 0;
+        char next[4096];
+        if (n < 0) return at;
+        link[n] = 0;
+        if (snprintf(next, sizeof next, "%.*s%s", folder, at, link) >= (int)sizeof next) break;
+        if (snprintf(room, size, "%s", next) >= (int)size) break;
+        at = room;
+    }
+    return path;
+}
+
+/* 1: a file has that name, which is written over. */
+static inline int save_is_there(const char *path)
+{
+    struct stat there;
+    return !stat(path, &there) && S_ISREG(there.st_mode);
+}
+
+/* Takes the room that a file will need, before anything in it changes: a disk that is full leaves
+   it as it was.  Non-zero: the reason is in errno */
+static inline int save_reserve(int at, size_t size)
+{
+#ifdef __linux__
+    const int error = size ? posix_fallocate(at, 0, (off_t)size) : 0;
+    if (error != ENOSPC && error != EFBIG && error != EDQUOT) return 0;
+    errno = error;
+    return 1;
+#else
+    return (void)at, (void)size, 0;
+#endif
+}
+
+/* Writes bytes over a file, one writer after the other, with no signal between.  Non-zero: the
+   reason is in errno */
+static inline int save_over(const char *path, const char *bytes, size_t size)
+{
+    const int at = open(path, O_WRONLY);
+    sigset_t all, before;
+    size_t done = 0;
+    int failed = at < 0, error;
+    if (failed) return 1;
+    flock(at, LOCK_EX);
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    failed = save_reserve(at, size);
+    while (done < size && !failed) {
+        const ssize_t n = write(at, bytes + done, size - done);
+        failed = n < 0 && errno != EINTR;
+        done += n > 0 ? (size_t)n : 0;
+    }
+    failed = failed || ftruncate(at, (off_t)size);
+    error = errno;
+    failed = close(at) || failed;
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    errno = error;
+    return failed;
 }
 #elif defined(GUARD_WINDOWS)
 static inline int save_is_device(const char *name) { return (void)name, 0; }
@@ -236,12 +311,33 @@ static inline int save_end(FILE *file, const char *path, int failed)
 /* Writes what data says: 0, SAVE_SAID, or 1 with the reason in errno, 0 where memory ran out. */
 typedef int save_writer(FILE *file, const void *data);
 
+#ifdef GUARD_POSIX
+/* Makes in memory what is to be in a file that exists, and writes it over that. */
+static inline int save_again(const char *path, save_writer *writes, const void *data)
+{
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&bytes, &size);
+    int failed = memory ? writes(memory, data) : 1;
+    if (memory && fclose(memory) && !failed) failed = 1;
+    if (!failed) failed = save_over(path, bytes, size);
+    if (failed == 1) save_failed(path);
+    free(bytes);
+    return failed != 0;
+}
+#endif
+
 /* Writes a file; - is standard output.  Returns 1 with a line on stderr. */
 static inline int save_bytes(const char *path, save_writer *writes, const void *data)
 {
     const int out = !strcmp(path, "-");
     FILE *file;
     int failed;
+#ifdef GUARD_POSIX
+    char room[4096];
+    if (!out) path = save_target(path, room, sizeof room);
+    if (!out && save_is_there(path)) return save_again(path, writes, data);
+#endif
     if (!out && !save_is_device(path)) {
         file = save_begin(path);
         return file ? save_end(file, path, writes(file, data)) : 1;

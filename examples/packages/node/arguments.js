@@ -139,24 +139,22 @@ export function indices(name, value, vertices, words) {
 /** The sRGB value of linear light, not clamped */
 export const encoded = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 
-/** Display colours, 0 .. 1; integers are bytes. */
+let core = null;
+
+/** Hands over what the core knows of colours: named(label, word) and shown(label, numbers, columns, whole, bytes). */
+export function useCore(functions) { core = functions; }
+
+/** Display colours, 0 .. 1, of numbers or of bytes: typed arrays of integers are bytes, but where all are 0 or 1 and
+ *  the type does not say so. */
 export function displayed(name, value, width) {
-    if (value instanceof Uint8Array || value instanceof Uint8ClampedArray) {
-        return Float32Array.from(value, (x) => x * Math.fround(1 / 255));
-    }
-    const got = rows(name, value, width);
-    if (!got.every((x) => x >= 0 && x <= 1)) throw new ShadeError(`${name} must be from 0 to 1`);
-    return got;
+    const got = numbers(name, value), bytes = got instanceof Uint8Array || got instanceof Uint8ClampedArray;
+    if (got.length % width) throw new ShadeError(`${name} must hold ${width} numbers a row, not ${got.length} in all`);
+    return core.shown(name, got, width, bytes || /^Int|^Uint/.test(got.constructor.name), bytes);
 }
-
-let named = null;
-
-/** How the core finds a colour by its name: index.js knows */
-export function nameColorsBy(find) { named = find; }
 
 /** One display colour: #RRGGBB, #RGB, a name of ours or of CSS, or three numbers. */
 export function color(label, value) {
-    return typeof value === "string" ? Float32Array.from(named(label, value)) : vector(label, displayed(label, value, 3), 3);
+    return typeof value === "string" ? Float32Array.from(core.named(label, value)) : vector(label, displayed(label, value, 3), 3);
 }
 
 /** Of shade_wrap, by number */

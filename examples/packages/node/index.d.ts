@@ -32,6 +32,8 @@ export interface MeshSource {
         out, and told. */
     positions: Numbers;
     /** Three a triangle, counter-clockwise from outside; default 0, 1, 2, ... */
+    /** In place of indices: rows of 3 corners, or of 4, which are cut in two. */
+    faces?: readonly Numbers[];
     indices?: Numbers;
     /** "auto", rounded where faces meet at less than 40 degrees (beyond 200,000 triangles "flat"),
         "smooth", "flat", or x, y, z of each vertex, of any length. */
@@ -185,6 +187,41 @@ export interface Looks {
 }
 export type ShapeName = "plane" | "sphere" | "ellipsoid" | "capsule" | "cylinder" | "box";
 
+/** A camera as WebGL has it: view from the world, projection to clip space, 16 numbers by columns each.  With a size
+    it serves pictures of that size alone. */
+export interface CameraMatrices { view: Float64Array; projection: Float64Array; size?: [number, number] }
+
+/** Cameras in double precision. */
+export const Camera: {
+    /** At eye, looking at target; fov is the vertical angle in degrees, aspect width by height. */
+    lookAt(eye: Numbers, target: Numbers | undefined,
+           options: { up?: Numbers; fov?: number; aspect: number; near?: number; far?: number }): CameraMatrices;
+    /** Of OpenCV: K, 3 x 3 row by row, in pixels whose centres are whole numbers; extrinsics, 3 x 4 or 4 x 4 row by
+        row, take the world to a camera that looks down +z with +y down. */
+    opencv(K: Numbers, extrinsics: Numbers, size: number | [number, number],
+           options?: { near?: number; far?: number }): CameraMatrices;
+    /** Of a projection and the place of the camera in the world, both by columns. */
+    opengl(projection: Numbers, pose: Numbers): CameraMatrices;
+    /** The nearest one that sees all positions from a side. */
+    fitted(positions: Numbers, options?: { view?: Viewpoint; size?: number | [number, number]; up?: "y" | "z";
+                                           ortho?: boolean; fov?: number; margin?: number }): CameraMatrices;
+};
+
+/** An object of a Renderer: every call that takes its number takes it. */
+export interface Solid {
+    readonly number: number;
+    readonly renderer: Renderer;
+    valueOf(): number;
+    /** 4 x 4 by columns; a place of three numbers may be assigned as well. */
+    get pose(): Float64Array;
+    set pose(value: Numbers);
+    color: Color;
+    change(options: Looks & { size?: number | Numbers }): void;
+    show(visible?: boolean): void;
+    /** Its number is not given again. */
+    remove(): void;
+}
+
 /** One scene and many cameras: colour, depth, ids and normals in one call, the bytes of the Python
     package's class of this name, whose names these are. */
 export class Renderer {
@@ -203,9 +240,11 @@ export class Renderer {
     add(shape: ShapeName | Shape, size?: number | Numbers, options?: Looks & { at?: Numbers; pose?: Numbers }): number;
     /** The numbers of all objects, in order. */
     readonly objects: number[];
+    /** An object by its number: ids hold numbers, and this has the rest. */
+    object(number: number | Solid): Solid;
     /** What is not given stays; undefined is as if add() had not been given it. */
     change(number: number, options: Looks & { size?: number | Numbers }): void;
-    pose(number: number, pose: Numbers): void;
+    pose(number: number | Solid, pose: Numbers): void;
     /** A matrix for each of numbers, or for all objects in order; nothing moves where one is refused. */
     poses(poses: readonly Numbers[], numbers?: readonly number[]): void;
     show(number: number, visible?: boolean): void;
@@ -213,7 +252,7 @@ export class Renderer {
     update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers): void;
     update_texture(number: number, picture: Texture & { faces?: 1 | 6 }): void;
     /** Takes away an object, whose number the next one may have, or a shape that no object shows. */
-    remove(what: number | Shape): void;
+    remove(what: number | Solid | Shape): void;
     remove_texture(number: number): void;
     /** Takes away all objects, shapes and textures. */
     clear(): void;

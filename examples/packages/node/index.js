@@ -98,7 +98,22 @@ function named(label, word) {
         return new Float64Array(library.memory.buffer, rgb, 3).slice();
     });
 }
-check.nameColorsBy(named);
+
+/** Display colours, 0 .. 1 */
+function shown(label, numbers, columns, whole, bytes) {
+    const count = numbers.length / columns;
+    return withMemory((room) => {
+        const [name, rows] = [put(room(label.length * 4 + 1), new TextEncoder().encode(`${label}\0`)),
+                              put(room(8 * numbers.length + 8), Float64Array.from(numbers))];
+        const [rgb, alpha] = [room(12 * count + 4), room(8)];
+        asked(library.colors, name, rows, count, columns, whole ? 1 : 0, bytes ? 1 : 0, rgb, alpha);
+        return floats(rgb, 3 * count).slice();
+    });
+}
+check.useCore({ named, shown });
+
+/** Cameras by an eye and a target, by OpenCV's and OpenGL's matrices, and fitted: see index.d.ts. */
+export const Camera = cameras.Camera;
 
 /** Linear light of display colours. */
 function linear(rgb) {
@@ -158,7 +173,20 @@ function gloss(color) {
 // ---- meshes
 
 const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
-const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
+/** Indices of faces, rows of 3 or 4 corners */
+function triangles(faces, vertices) {
+    const columns = faces?.[0]?.length ?? 3, flat = Array.isArray(faces) ? faces.flat() : [];
+    if (!Array.isArray(faces) || !faces.every((row) => row?.length === columns) || !flat.every((x) => typeof x === "number")) {
+        throw new ShadeError("faces must be an array of rows of 3 or of 4 numbers");
+    }
+    return withMemory((room) => {
+        const name = put(room(6), new TextEncoder().encode("faces\0"));
+        const at = put(room(8 * flat.length + 8), Float64Array.from(flat)), out = room(24 * faces.length + 4);
+        return words(out, asked(library.faces, name, at, faces.length, columns, vertices, out)).slice();
+    });
+}
+
+const MESH_OPTIONS = ["positions", "indices", "faces", "normals", "color", "colors", "uv", "texture",
                       "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff", "metal", "roughness",
                       "relief", "strength", "glow", "glowFactor", "unlit"];
 // What needs uv, in the order of asked_mesh
@@ -178,7 +206,8 @@ export class Mesh {
             for (let i = 0; i < exact.length; i++) this.positions[i] = exact[i] - this.origin[i % 3];
         }
         const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
-        this.indices = check.indices("indices", got.indices, vertices, sentence).slice();
+        this.indices = got.faces === undefined ? check.indices("indices", got.indices, vertices, sentence).slice()
+            : triangles(got.faces, vertices);
         warn(this);
         this.pose = got.pose === undefined ? IDENTITY : check.pose("pose", got.pose);
         this.edges = check.flag("edges", edges);

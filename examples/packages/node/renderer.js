@@ -619,6 +619,9 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const view = check.matrix(`${name}.view`, camera?.view);
             const projection = check.vector(`${name}.projection`, camera?.projection, 16);
             cameras.rigid(`${name}.view`, view);
+            if (camera.size && (camera.size[0] !== this.width || camera.size[1] !== this.height)) {
+                throw new ShadeError(`${name} was made for pictures of ${camera.size.join(" x ")} pixels, not of ${this.width} x ${this.height}`);
+            }
             return { view, projection, ...cameras.rangeOf(name, projection) };
         }
 

@@ -413,22 +413,41 @@ typedef struct terminal_size {
     int cell_width, cell_height, cell_known; /* pixels; 10 x 20 where nobody knows */
 } terminal_size;
 
-/* The size of a cell in pixels, by the best that is known: the terminal's own size, unless the
-   system's has changed since; the system's, which may include a border; what the terminal has said
-   of a cell */
+/* Takes the size of all cells for what they fill: the smaller one counts, for borders only add. */
+static inline void terminal_take_area(int area[2], int width, int height)
+{
+    if (width > 0 && (!area[0] || width < area[0])) area[0] = width;
+    if (height > 0 && (!area[1] || height < area[1])) area[1] = height;
+}
+
+/* 1: the largest sixels are as large as all cells: whole cells, and the same border all around lacks
+   to the system's size.  xterm answers so. */
+static inline int terminal_is_filled(const terminal_answers *said, const struct winsize *now)
+{
+    const int across = now->ws_xpixel - said->sixel_width, down = now->ws_ypixel - said->sixel_height;
+    return said->sixel_width > 0 && across >= 0 && across == down &&
+           said->sixel_width % now->ws_col == 0 && said->sixel_height % now->ws_row == 0;
+}
+
+/* The size of a cell in pixels.  The system's size of all cells has a border in xterm and Konsole,
+   what the terminal says one in rxvt; VTE gives the system none.  What it has said is old where the
+   system's has changed since. */
 static inline void terminal_measure_cell(terminal_size *s, const terminal_answers *said,
                                          const struct winsize *now)
 {
-    const struct winsize *at = &said->at;
-    const int pixels = now->ws_col && now->ws_row && now->ws_xpixel >= now->ws_col &&
-                       now->ws_ypixel >= now->ws_row;
-    if (said->area_width && at->ws_col && at->ws_row && (!pixels || !memcmp(now, at, sizeof *at))) {
-        s->cell_width = said->area_width / at->ws_col;
-        s->cell_height = said->area_height / at->ws_row;
-    } else if (pixels) {
-        s->cell_width = now->ws_xpixel / now->ws_col;
-        s->cell_height = now->ws_ypixel / now->ws_row;
-    }
+    const int pixels = now->ws_xpixel >= now->ws_col && now->ws_ypixel >= now->ws_row && now->ws_col &&
+                       now->ws_row;
+    const int fresh = !memcmp(now, &said->at, sizeof *now);
+    const struct winsize *cells = pixels || fresh ? now : &said->at;
+    int area[2] = { 0, 0 };
+    if (!cells->ws_col || !cells->ws_row) return;
+    if (pixels) terminal_take_area(area, now->ws_xpixel, now->ws_ypixel);
+    if (fresh || !pixels) terminal_take_area(area, said->area_width, said->area_height);
+    if (fresh && pixels && terminal_is_filled(said, now))
+        terminal_take_area(area, said->sixel_width, said->sixel_height);
+    if (!area[0] || !area[1]) return;
+    s->cell_width = area[0] / cells->ws_col;
+    s->cell_height = area[1] / cells->ws_row;
 }
 
 static inline terminal_size terminal_measure(const terminal_answers *said)

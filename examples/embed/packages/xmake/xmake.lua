@@ -7,7 +7,7 @@ package("shade-h")
     set_license("MIT OR Unlicense")
 
     add_urls("https://example.org/shade/releases/shade-$(version).tar.gz")
-    add_versions("1.3.0", "0000000000000000000000000000000000000000000000000000000000000000")
+    add_versions("1.4.0", "0000000000000000000000000000000000000000000000000000000000000000")
 
     if is_plat("linux", "bsd") then
         add_syslinks("m")

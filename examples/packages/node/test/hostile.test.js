@@ -48,7 +48,7 @@ test("errors begin with the name of the argument", () => {
     refused(/^normals must have a row for each of 8 vertices, not 1/, { ...box(), normals: [0, 0, 1] });
     refused(/^colors must have a row for each of 8 vertices or 12 faces, not 2/,
             { ...box(), colors: [0, 0, 0, 1, 1, 1] });
-    refused(/^color must be #RRGGBB.*"toString"/, { ...box(), color: "toString" });
+    refused(/^color must be #RRGGBB.*'toString'/, { ...box(), color: "toString" });
     refused(/^uv and texture belong together/, { ...box(), uv: new Float32Array(16) });
     refused(/^texture.data must hold 3 or 4 bytes a pixel, not 5/, { ...box(),
             uv: new Float32Array(16), texture: { data: [1, 2, 3, 4, 5], width: 1, height: 1 } });

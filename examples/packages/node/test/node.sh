@@ -85,6 +85,8 @@ if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco
         RECORDING="$T/tree/examples/packages/python/test/robots.json" \
         sh -c "cd '$T/use' && node --test test/robots.test.js"
 else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
+check "the cases that C and Python run too" env CASES="$PWD/examples/kit/test/cases.json" \
+    sh -c "cd '$T/use' && node --test test/cases.test.js"
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
 
 find_python "numpy, setuptools, wheel, PIL"

@@ -13,7 +13,7 @@ from .picture import Picture, assert_same
 from .renderer import Frame, Renderer, Shape
 from .scene import Part, Scene, export_png, render, sheet
 
-__version__ = "1.3.0"
+__version__ = "1.4.0"
 __all__ = ["Camera", "Error", "Flag", "Frame", "Light", "Lighting", "Material", "Mesh", "Model",
            "PRESETS", "Part", "Picture", "Renderer", "Scene", "Shape", "Surface", "Term", "VIEWS",
            "assert_same", "berkeley", "export_png", "fitted", "light_at", "lit", "load", "massey",

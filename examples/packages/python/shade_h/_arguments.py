@@ -136,6 +136,7 @@ def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Float
           got.shape[1], got.dtype.kind in "iu", got.dtype == np.uint8, rgb, ctypes.byref(alpha))
     if alpha.value < 1:
         warnings.warn(f"{name}: its alpha is left out", stacklevel=4)
+    library.python_linear(pointer(rgb), len(rgb))
     return rgb
 
 

@@ -1,12 +1,15 @@
 """Pictures: arrays, PNG files, and tests against golden ones."""
 from __future__ import annotations
 
+import errno
 import os
-import struct
-import zlib
 import stat
+import struct
+import threading
+import zlib
+from importlib import import_module
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, BinaryIO, Union
 
 import numpy as np
 
@@ -17,6 +20,47 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 File = Union[str, bytes, "os.PathLike[str]"]
 PICTURE_BYTES = 500_000_000
 PIXELS = 2**27
+
+
+_writing = threading.Lock()
+try:
+    fcntl: Any = import_module("fcntl")
+except ImportError:    # on Windows, where the lock of one process has to do
+    fcntl = None
+
+
+def _reserve(file: BinaryIO, size: int) -> None:
+    """Takes the room that a file will need, before anything in it changes: a disk that is full
+    leaves it as it was."""
+    try:
+        os.posix_fallocate(file.fileno(), 0, size)
+    except AttributeError:    # of some systems
+        pass
+    except OSError as why:
+        if why.errno in (errno.ENOSPC, errno.EFBIG, errno.EDQUOT):
+            raise
+
+
+def write_file(path: Path, data: bytes) -> None:
+    """Writes a file as the programs do (kit/command/save.h): a new name appears whole or not at
+    all; a file that exists is written over, one writer after the other."""
+    target = Path(os.path.realpath(path))
+    if target.exists():
+        with _writing, target.open("r+b" if target.is_file() else "wb") as file:
+            if target.is_file():
+                if fcntl:
+                    fcntl.flock(file, fcntl.LOCK_EX)
+                _reserve(file, len(data))
+            file.write(data)
+            if target.is_file():
+                file.truncate()
+        return
+    beside = target.with_name(f"{target.name}.{os.getpid()}.{threading.get_native_id()}.part")
+    try:
+        beside.write_bytes(data)
+        os.replace(beside, target)
+    finally:
+        beside.unlink(missing_ok=True)
 
 
 class Picture:
@@ -141,25 +185,20 @@ class Picture:
         return self.png()
 
     def save(self, path: Any) -> None:
-        """Writes a PNG or, where the path ends in .ppm, a PPM file, which appears whole or not at
-        all; or the bytes of a PNG file into a file that is open for them.  A path must end in .png
+        """Writes a PNG or, where the path ends in .ppm, a PPM file.  A new one appears whole or not
+        at all; one that exists stays the same file, with its mode and links.  Or writes the bytes of a PNG file into a file that is open for them.  A path must end in .png
         or .ppm, so that no model is taken for a picture."""
         if callable(getattr(path, "write", None)):
             path.write(self.png())
             return
         target = png_path("path", path, ".ppm")
         data = self.ppm() if target.suffix.lower() == ".ppm" else self.png()
-        beside = target.with_name(f"{target.name}.{os.getpid()}.part")
         try:
-            beside.write_bytes(data)
-            os.replace(beside, target)
+            write_file(target, data)
         except ValueError as why:
             raise Error(f"path: {why}") from None
         except OSError as why:
             raise type(why)(why.errno, why.strerror, str(target)) from None
-        finally:
-            if "\0" not in str(beside):
-                beside.unlink(missing_ok=True)
 
     @staticmethod
     def open(path: Any) -> Picture:

@@ -1,8 +1,11 @@
 """Depth, ids, normals, cameras and files of pictures, against geometry."""
+import errno
 import io
+import os
 import struct
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -102,6 +105,70 @@ def test_png_files_come_back_and_other_programs_read_them(tmp_path):
         other.save(tmp_path / "b.png", optimize=True)
         assert shade.Picture.open(tmp_path / "b.png") == got
     assert [p.name for p in tmp_path.iterdir() if p.name.endswith(".part")] == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="modes and links of POSIX")
+def test_a_file_that_exists_stays_the_same_file(tmp_path):
+    one, two = (shade.render(*box(), size=(w, 40)) for w in (90, 20))
+    one.save(tmp_path / "a.png")
+    os.chmod(tmp_path / "a.png", 0o640)
+    (tmp_path / "link.png").symlink_to("a.png")
+    (tmp_path / "new.png").symlink_to("b.png")
+    os.link(tmp_path / "a.png", tmp_path / "hard.png")
+    before, reader = (tmp_path / "a.png").stat(), (tmp_path / "a.png").open("rb")
+    two.save(tmp_path / "link.png")
+    after = (tmp_path / "a.png").stat()
+    assert (tmp_path / "link.png").is_symlink() and after.st_mode == before.st_mode
+    assert after.st_ino == before.st_ino and after.st_nlink == 2
+    assert shade.Picture.open(reader) == two == shade.Picture.open(tmp_path / "hard.png")
+    two.save(tmp_path / "new.png")
+    assert (tmp_path / "new.png").is_symlink() and shade.Picture.open(tmp_path / "b.png") == two
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.png", "b.png", "hard.png", "link.png", "new.png"]
+
+
+def test_threads_save_under_one_name(tmp_path):
+    """None fails, and the last one to write leaves its picture whole."""
+    pictures = [shade.render(*box(), size=(20 + 40 * i, 30)) for i in range(4)]
+    failed = []
+
+    def save(picture, names):
+        for name in names:
+            try:
+                picture.save(tmp_path / name)
+            except Exception as why:
+                failed.append(why)
+
+    names = [f"{i % 15}.png" for i in range(60)]
+    threads = [threading.Thread(target=save, args=(p, names)) for p in pictures]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert failed == []
+    for path in tmp_path.iterdir():
+        assert path.suffix == ".png" and shade.Picture.open(path) in pictures
+
+
+def test_a_full_disk_leaves_the_file(tmp_path):
+    resource, picture = pytest.importorskip("resource"), shade.render(*box(), size=(300, 300))
+    picture.save(tmp_path / "a.png")
+    run = f"""
+import resource, signal, shade_h
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+try:
+    shade_h.Picture.open({str(tmp_path / 'a.png')!r}).save({str(tmp_path / 'b.png')!r})
+except OSError as why:
+    print(why.errno)
+import numpy as np
+try:
+    shade_h.Picture(np.random.default_rng(1).integers(0, 255, (90, 90, 4), np.uint8)).save({str(tmp_path / 'a.png')!r})
+except OSError as why:
+    print(why.errno)
+"""
+    said = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True, check=True).stdout
+    assert said.split() == [str(errno.EFBIG)] * 2
+    assert shade.Picture.open(tmp_path / "a.png") == picture and len(list(tmp_path.iterdir())) == 1
 
 
 def test_assert_same_writes_the_difference(tmp_path):

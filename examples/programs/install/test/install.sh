@@ -427,6 +427,7 @@ done
 check "what is not ours stays" same "$(cd "$P" && find . -type f | sort | tr '\n' ' ')" \
     "./bin/thumbnail ./include/other.h "
 check "make uninstall with DESTDIR" $MAKE -s uninstall DESTDIR="$S" PREFIX=/usr
-check "nothing stays there" same "$(find "$S" -type f)" ""
+check "no file stays there" same "$(find "$S" -type f)" ""
+check "and no folder that make install made" same "$(cd "$S" && find . -mindepth 1 -type d | sort | tr '\n' ' ')" ""
 
 finish

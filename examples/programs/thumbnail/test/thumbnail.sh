@@ -338,6 +338,30 @@ bad_output() {
         grep 'File too large' '$T/err' && [ ! -e '$T/none.ppm' ] && ! ls '$T'/*.part"
     check "rights as others have" sh -c "umask 027; '$THUMBNAIL' '$T/flat.obj' '$T/r.ppm' $flat &&
         ls -l '$T/r.ppm' | grep '^-rw-r-----'"
+    # a file that exists stays the same file, as who holds it open wants it
+    mkdir -p "$T/kept"
+    check "a picture" draw flat.obj kept/a.ppm
+    chmod 640 "$T/kept/a.ppm"
+    ln -f "$T/kept/a.ppm" "$T/kept/hard.ppm"
+    ln -sf a.ppm "$T/kept/link.ppm"
+    ln -sf b.ppm "$T/kept/new.ppm"
+    exec 3<"$T/kept/a.ppm"
+    check "another one" draw torus.obj b.ppm
+    check "by a link" draw torus.obj kept/link.ppm
+    cat <&3 >"$T/c.ppm"
+    exec 3<&-
+    for k in c kept/a kept/hard; do check "is in $k" cmp "$T/b.ppm" "$T/$k.ppm"; done
+    check "rights stay" sh -c "ls -l '$T/kept/a.ppm' | grep '^-rw-r-----'"
+    check "the link stays" test -h "$T/kept/link.ppm"
+    check "by a link to nothing" draw torus.obj kept/new.ppm
+    check "makes what it names" cmp "$T/b.ppm" "$T/kept/b.ppm"
+    check "and stays" test -h "$T/kept/new.ppm"
+    check "smaller" "$THUMBNAIL" "$T/flat.obj" "$T/kept/a.ppm" --size 8x8
+    check "nothing of the old one is left" test "$(wc -c <"$T/kept/a.ppm")" -eq 203
+    check "a full disk leaves the old one" sh -c "ulimit -f 8; trap '' XFSZ
+        '$THUMBNAIL' '$T/torus.obj' '$T/kept/b.ppm' --size 300x300 2>'$T/err'; [ \$? -eq 1 ] &&
+        grep 'File too large' '$T/err' && cmp '$T/b.ppm' '$T/kept/b.ppm'"
+    check "and nothing beside it" test "$(ls "$T/kept" | wc -l)" -eq 5
 }
 
 bad_options() {

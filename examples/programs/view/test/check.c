@@ -435,23 +435,37 @@ static void test_answers(void)
     check(answered("\033P>|tmux 3.3a\033\\").inner, "tmux is inside of another", 0, 1);
 }
 
-/* The terminal's own size counts while the system's is as it was, or has no pixels. */
+/* Sizes of cells by what terminals of Debian 12 say, and what their fonts are: the answers that
+   pixels.py has */
 static void test_cells(void)
 {
-    const struct winsize bordered = { 24, 80, 840, 520 }, mute = { 24, 80, 0, 0 };
-    const struct winsize larger = { 24, 80, 960, 720 }, wider = { 24, 100, 0, 0 };
-    const struct {
+    static const struct {
+        const char *name, *area, *largest;
         struct winsize at, now;
         int width, height;
-    } row[] = { { bordered, bordered, 10, 19 }, { mute, mute, 10, 19 }, { mute, wider, 10, 19 },
-                { bordered, larger, 12, 30 } };
+    } row[] = {
+        { "VTE", "\033[4;456;800t", "", { 24, 80, 0, 0 }, { 24, 80, 0, 0 }, 10, 19 },
+        { "VTE, made wider", "\033[4;456;800t", "", { 24, 80, 0, 0 }, { 24, 100, 0, 0 }, 10, 19 },
+        { "mlterm", "\033[4;456;800t", "", { 24, 80, 800, 456 }, { 24, 80, 800, 456 }, 10, 19 },
+        { "xterm", "", "\033[?2;0;480;312S", { 24, 80, 520, 352 }, { 24, 80, 520, 352 }, 6, 13 },
+        { "xterm, larger since", "", "\033[?2;0;480;312S", { 24, 80, 520, 352 },
+          { 24, 80, 760, 640 }, 9, 26 },
+        { "xterm, bounded", "", "\033[?2;0;1000;1000S", { 60, 200, 1204, 1204 },
+          { 60, 200, 1204, 1204 }, 6, 20 },
+        { "rxvt", "\033[4;360;560t", "", { 24, 80, 480, 312 }, { 24, 80, 480, 312 }, 6, 13 },
+        { "Konsole", "\033[4;476;880t", "\033[?2;0;16384;16384S", { 28, 110, 1000, 600 },
+          { 28, 110, 1000, 600 }, 8, 17 },
+        { "st", "", "", { 24, 80, 560, 312 }, { 24, 80, 560, 312 }, 7, 13 },
+    };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-        terminal_answers said = answered("\033[4;456;800t");
+        terminal_answers said = answered(row[k].area), more = answered(row[k].largest);
         terminal_size s = { 80, 24, 1, 0, 0, 1 };
+        said.sixel_width = more.sixel_width;
+        said.sixel_height = more.sixel_height;
         said.at = row[k].at;
         terminal_measure_cell(&s, &said, &row[k].now);
-        check(s.cell_width == row[k].width, "width of a cell", s.cell_width, row[k].width);
-        check(s.cell_height == row[k].height, "height of a cell", s.cell_height, row[k].height);
+        check(s.cell_width == row[k].width, row[k].name, s.cell_width, row[k].width);
+        check(s.cell_height == row[k].height, row[k].name, s.cell_height, row[k].height);
     }
 }
 
@@ -688,12 +702,22 @@ static char *read_all(size_t *size)
     return text;
 }
 
+/* The size of a terminal whose cells have the pixels that CELL says, 10x20 where it is not set */
+static terminal_size size_of(int columns, int rows)
+{
+    terminal_size s = { columns, rows, 1, 10, 20, 1 };
+    const char *cell = getenv("CELL");
+    if (cell) sscanf(cell, "%dx%d", &s.cell_width, &s.cell_height);
+    s.shape = 2 * (float)s.cell_width / (float)s.cell_height;
+    return s;
+}
+
 /* The cells of a scene at rest after some keys; < > ^ v are the arrows, 8 2 4 6 those with shift */
 static void draw_wanted(display *d, const view_options *o, const char *keys)
 {
     static const char arrows[] = "^v<>8246";
     static scene s;
-    terminal_size size = { d->screen.columns, d->screen.rows, 1, 10, 20, 1 };
+    const terminal_size size = size_of(d->screen.columns, d->screen.rows);
     const scene_request request = view_request(o);
     if (scene_load(&s, &request, NULL, NULL)) exit(1);
     for (; *keys; keys++) {
@@ -752,14 +776,14 @@ static int check_pane(char **argv, const char *model)
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
-/* Writes the picture of pixels that view should send to a terminal of 10 x 20 pixels a cell, as a
-   PPM: WAY is that of --show. */
+/* Writes the picture of pixels that view should send to a terminal, as a PPM: WAY is that of
+   --show. */
 static int write_picture(char **argv)
 {
     static const char *const way[3] = { "kitty", "iterm2", "sixel" };
     view_options o = { .colors = VIEW_TRUE,
                        .scene = { .still = 1, .how = model_options_new() } };
-    const terminal_size size = { atoi(argv[1]), atoi(argv[2]), 1, 10, 20, 1 };
+    const terminal_size size = size_of(atoi(argv[1]), atoi(argv[2]));
     static display d;
     static scene s;
     const scene_request request = view_request(&o);

@@ -44,6 +44,50 @@ TERMINALS = {
     'plain': {'attributes': b'\x1b[?1;2c'},
     'silent': {},
 }
+# Terminals of Debian 12, what each answered when it was asked (under Xvfb, foot under weston), TERM,
+# COLORTERM, the system's pixels for 80 x 24 cells and those of a cell, and what is shown.  mlterm
+# answers another question than that for the largest sixels, rxvt and xterm count a border, xterm
+# unless it is made so tells no size, VTE tells no name.
+REAL = {
+    'xterm 379': ('xterm', '', (484, 316), (6, 13), 'quadrants', {
+        'name': b'\x1bP>|XTerm(379)\x1b\\', 'largest': b'\x1b[?2;3S', 'secondary': b'\x1b[>41;379;0c',
+        'attributes': b'\x1b[?64;1;2;6;9;15;16;17;18;21;22;28c'}),
+    'xterm 379 -ti vt340 -b 20': ('xterm', '', (520, 352), (6, 13), 'sixel', {
+        'name': b'\x1bP>|XTerm(379)\x1b\\', 'largest': b'\x1b[?2;0;480;312S',
+        'secondary': b'\x1b[>19;379;0c', 'attributes': b'\x1b[?63;1;2;4;6;9;15;16;22;28c'}),
+    'mlterm 3.9.0': ('mlterm', '', (800, 456), (10, 19), 'sixel', {
+        'cell': b'\x1b[6;19;10t', 'area': b'\x1b[4;456;800t', 'largest': b'\x1b[?1;3;0S',
+        'secondary': b'\x1b[>24;279;0c',
+        'attributes': b'\x1b[?63;1;2;3;4;6;7;15;18;22;29c'}),
+    'st 0.9': ('st-256color', '', (560, 312), (7, 13), '256', {'attributes': b'\x1b[?6c'}),
+    'rxvt-unicode 9.30': ('rxvt-unicode-256color', 'rxvt-xpm', (480, 312), (6, 13), '256', {
+        'area': b'\x1b[4;316;496t', 'secondary': b'\x1b[>85;95;0c', 'attributes': b'\x1b[?1;2c'}),
+    'kitty 0.26.5': ('xterm-kitty', 'truecolor', (720, 432), (9, 18), 'kitty', {
+        'kitty': b'\x1b_Gi=31;OK\x1b\\', 'name': b'\x1bP>|kitty(0.26.5)\x1b\\',
+        'cell': b'\x1b[6;18;9t', 'area': b'\x1b[4;432;720t', 'secondary': b'\x1b[>1;4000;26c',
+        'attributes': b'\x1b[?62;c'}),
+    'alacritty 0.11': ('alacritty', 'truecolor', (720, 432), (9, 18), 'true', {
+        'area': b'\x1b[4;432;720t', 'secondary': b'\x1b[>0;1700;1c', 'attributes': b'\x1b[?6c'}),
+    'Konsole 22.12.3': ('xterm-256color', 'truecolor', (642, 408), (8, 17), 'kitty', {
+        'kitty': b'\x1b_Gi=31;OK\x1b\\', 'name': b'\x1bP>|Konsole 22.12.3\x1b\\',
+        'cell': b'\x1b[6;17;8t', 'area': b'\x1b[4;408;640t', 'largest': b'\x1b[?2;0;16384;16384S',
+        'secondary': b'\x1b[>1;115;0c', 'attributes': b'\x1b[?62;1;4c'}),
+    'xfce4-terminal 1.0.4, VTE 0.70.6': ('xterm-256color', 'truecolor', (0, 0), (10, 19), 'sextants', {
+        'area': b'\x1b[4;456;800t', 'largest': b'\x1b[?2;1S', 'secondary': b'\x1b[>65;7006;1c',
+        'attributes': b'\x1b[?65;1;9c'}),
+    'gnome-terminal 3.46.8, VTE 0.70.6': ('xterm-256color', 'truecolor', (0, 0), (9, 18), 'sextants', {
+        'area': b'\x1b[4;432;720t', 'largest': b'\x1b[?2;1S', 'secondary': b'\x1b[>65;7006;1c',
+        'attributes': b'\x1b[?65;1;9c'}),
+    'tmux 3.3a': ('tmux-256color', '', (480, 312), (6, 13), '256', {
+        'name': b'\x1bP>|tmux 3.3a\x1b\\', 'secondary': b'\x1b[>84;0;0c',
+        'attributes': b'\x1b[?1;2c'}),
+    'GNU screen 4.9.0': ('screen', '', (484, 316), (6, 13), 'plain', {
+        'secondary': b'\x1b[>83;40900;0c', 'attributes': b'\x1b[?1;2c'}),
+    'foot 1.13.1': ('foot', 'truecolor', (560, 336), (7, 14), 'sixel', {
+        'name': b'\x1bP>|foot(1.13.1)\x1b\\', 'cell': b'\x1b[6;14;7t', 'area': b'\x1b[4;336;560t',
+        'largest': b'\x1b[?2;0;560;336S', 'secondary': b'\x1b[>1;011301;0c',
+        'attributes': b'\x1b[?62;4;22c'}),
+}
 
 
 def check(what, holds):
@@ -59,12 +103,16 @@ class Terminal:
 
     def __init__(self, kind, *options, late=0.0, piece=1000, gap=0.0, colors='truecolor',
                  cells=CELL):
-        self.answers, self.late, self.piece, self.gap = TERMINALS[kind], late, piece, gap
+        term, pixels, self.answers = 'xterm-256color', (COLUMNS * cells[0], ROWS * cells[1]), None
+        if kind in REAL:
+            term, colors, pixels, _, _, self.answers = REAL[kind]
+        self.answers = self.answers or TERMINALS[kind]
+        self.late, self.piece, self.gap = late, piece, gap
         self.out, self.looked, self.owed = bytearray(), 0, []
         self.master, self.slave = pty.openpty()
-        size = struct.pack('HHHH', ROWS, COLUMNS, COLUMNS * cells[0], ROWS * cells[1])
+        size = struct.pack('HHHH', ROWS, COLUMNS, *pixels)
         fcntl.ioctl(self.slave, termios.TIOCSWINSZ, size)
-        env = dict(os.environ, TERM='xterm-256color', LC_ALL='C.UTF-8', COLORTERM=colors)
+        env = dict(os.environ, TERM=term, LC_ALL='C.UTF-8', COLORTERM=colors)
         self.view = subprocess.Popen([VIEW, *options], stdin=self.slave, stdout=self.slave,
                                      stderr=subprocess.DEVNULL, env=env, start_new_session=True)
 
@@ -209,9 +257,14 @@ def sixel(data, percent=lambda p: p * 255 // 100):
     return width, height, bytes(rgb)
 
 
-def wanted(way):
+def with_cell(cell):
+    """The environment that tells CHECK how many pixels a cell has"""
+    return dict(os.environ, CELL='%dx%d' % cell)
+
+
+def wanted(way, cell=CELL):
     ppm = subprocess.run([CHECK, 'picture', way, str(COLUMNS), str(ROWS)], stdout=subprocess.PIPE,
-                         check=True).stdout
+                         check=True, env=with_cell(cell)).stdout
     _, size, _, rgb = ppm.split(b'\n', 3)
     return (*map(int, size.split()), rgb)
 
@@ -274,7 +327,7 @@ else:
 
 # ---- cells ---------------------------------------------------------------------------------------
 
-def cells(kind, form, *options, **how):
+def cells(kind, form, *options, cell=CELL, **how):
     """Whether the cells that view sends, as a small terminal shows them, are those of a form"""
     t = Terminal(kind, '--still', *options, **how)
     t.rest(rb'\x1b\[\?2026l')
@@ -284,7 +337,7 @@ def cells(kind, form, *options, **how):
     out = out[:out.index(b'\x1b[?1006l')] if b'\x1b[?1006l' in out else out
     out = re.sub(rb'\x1b\[\?2026[hl]|\x1b\[c', b'', out)
     return subprocess.run([CHECK, 'pane', form, str(COLUMNS), str(ROWS), ''], input=out,
-                          stdout=subprocess.DEVNULL).returncode == 0, out
+                          stdout=subprocess.DEVNULL, env=with_cell(cell)).returncode == 0, out
 
 
 for kind in ('sextants', 'quadrants'):
@@ -301,6 +354,56 @@ check('no answer: halves', cells('silent', 'true')[0])
 check('--show halves asks nothing', cells('kitty', 'true', '--show', 'halves')[0])
 check('--show sextants asks nothing', cells('kitty', 'sextants', '--show', 'sextants')[0])
 check('256 colors, dithered', cells('plain', '256', '--colors', '256')[0])
+
+# ---- terminals as they are -----------------------------------------------------------------------
+
+def near(picture, want):
+    """Sixels have some colours alone: means of 64 pixels, by the rule of mlterm for percents"""
+    off = [max(abs(a - b) for a, b in zip(p, q)) for p, q in zip(blocks(picture), blocks(want))]
+    return picture[:2] == want[:2] and sum(off) / len(off) < 4 and max(off) < 40
+
+
+def frames(kind):
+    """Seconds of 30 frames, and whether the modes, the colours and the cursor are as before"""
+    since = time.monotonic()
+    t = Terminal(kind, '--frames', '30')
+    while t.view.poll() is None and time.monotonic() < since + PATIENCE:
+        try:
+            t.pump(0.02)
+        except OSError:
+            break
+    seconds = time.monotonic() - since
+    while select.select([t.master], [], [], 0.2)[0]:
+        t.pump(0)
+    modes = dict(re.findall(rb'\x1b\[\?(\d+)([hl])', t.out))
+    out = bytes(t.out)
+    tidy = modes == {b'1049': b'l', b'25': b'h', b'1002': b'l', b'1006': b'l', b'2026': b'l'}
+    tidy = tidy and out.rindex(b'\x1b[m') > out.rfind(b'\x1b[48') and out.rindex(b'H') > out.rindex(b'\x1b[m')
+    return seconds, tidy and t.view.returncode == 0
+
+
+at_xterm = None
+for kind, (_, _, _, cell, way, _) in REAL.items():
+    if way == 'kitty':
+        out, picture = pictures(kind, KITTY, lambda m: kitty(m[0]))
+        check(f'{kind}: the picture, to the bit', picture == wanted(way, cell))
+    elif way == 'sixel' and b'needs a view built' not in version.stderr:
+        out, picture = pictures(kind, SIXEL, lambda m: sixel(m[1]))
+        check(f'{kind}: the picture, of this size', near(picture, wanted(way, cell)))
+    elif way != 'sixel':
+        check(f'{kind}: {way}, of this shape', cells(kind, way, cell=cell)[0])
+    seconds, tidy = frames(kind)
+    at_xterm = at_xterm or seconds
+    check(f'{kind}: 30 frames as soon as in xterm', seconds < 2 * at_xterm + 1.5)
+    check(f'{kind}: modes, colours and cursor as before', tidy)
+for kind, room in (('sixel', (100, 200)), ('sixel-small', CELL)):
+    t = Terminal(kind, '--show', 'sixel', '--still', cells=room)
+    end = time.monotonic() + PATIENCE
+    while t.view.poll() is None and time.monotonic() < end:
+        t.pump(0.05)
+    check(f'--show sixel is refused where {kind} has no room', t.view.poll() == 1)
+    check(f'--show sixel in {kind}: nothing else is shown', '\u2580' not in t.out.decode('utf8', 'replace'))
+    t.close()
 
 # ---- answers -------------------------------------------------------------------------------------
 

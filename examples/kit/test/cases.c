@@ -1,0 +1,291 @@
+/* cases.c - runs cases.json against the core: cases.c, then the table's path.  Prints how many hold. */
+#define _DEFAULT_SOURCE
+#define SHADE_IMPLEMENTATION
+#include "examples/kit/scene/renderer.h"
+#include "examples/kit/core/camera.h"
+#include "examples/kit/core/color.h"
+#include "examples/kit/read/json.h"
+
+enum { MOST = 64 };
+
+typedef struct asked {
+    const json_doc *j;
+    uint32_t at;      /* the case */
+    core_refusal why; /* what the core refuses of it */
+} asked;
+
+static uint32_t member(const asked *a, const char *name) { return json_member(a->j, a->at, name); }
+static double number(const asked *a, const char *name)
+{
+    return json_number_at(a->j, member(a, name), NAN);
+}
+
+/* All numbers below a place, however deep: at most room of them.  Returns how many there are. */
+static int numbers_at(const json_doc *j, uint32_t at, double *out, int room)
+{
+    int count = 0;
+    for (uint32_t i = at; i < j->value[at].end; i++)
+        if (j->value[i].kind == JSON_NUMBER && count < room) out[count++] = json_number_at(j, i, NAN);
+    return count;
+}
+
+static int numbers(const asked *a, const char *name, double *out, int room)
+{
+    return numbers_at(a->j, member(a, name), out, room);
+}
+
+/* Within so much of the largest of them */
+static int near(const double *got, const double *want, int count, double tolerance)
+{
+    double most = 0;
+    for (int k = 0; k < count; k++) most = fmax(most, fabs(want[k]));
+    for (int k = 0; k < count; k++)
+        if (!(fabs(got[k] - want[k]) <= tolerance * most)) return 0;
+    return 1;
+}
+
+static int near_camera(const asked *a, const core_camera *got)
+{
+    double view[MOST], projection[MOST];
+    const uint32_t want = member(a, "want");
+    numbers_at(a->j, json_member(a->j, want, "view"), view, MOST);
+    numbers_at(a->j, json_member(a->j, want, "projection"), projection, MOST);
+    return near(got->view, view, 12, 1e-9) && near(got->view + 12, view + 12, 4, 1e-9) &&
+           near(got->projection, projection, 16, 1e-6);
+}
+
+static int run_color(asked *a)
+{
+    char *word = json_copy(a->j, member(a, "word"));
+    double rgb[3], want[3] = { 0 };
+    const int refused = !word || core_color(&a->why, "color", word, rgb);
+    free(word);
+    numbers(a, "want", want, 3);
+    return !refused && near(rgb, want, 3, 1e-12);
+}
+
+static int run_colors(asked *a)
+{
+    double rows[MOST], want[MOST], got[MOST], alpha;
+    float out[MOST];
+    const int count = numbers(a, "rows", rows, MOST), whole = a->j->value[member(a, "whole")].kind == JSON_TRUE;
+    if (core_colors(&a->why, "colors", rows, (size_t)count / 3, 3, whole, 0, out, &alpha)) return 0;
+    for (int k = 0; k < count; k += 3) {
+        const shade_vec3 c = shade_linear_from_srgb(shade_v3(out[k], out[k + 1], out[k + 2]));
+        got[k] = (double)c.x;
+        got[k + 1] = (double)c.y;
+        got[k + 2] = (double)c.z;
+    }
+    return numbers(a, "want", want, MOST) == count && alpha == 1 && near(got, want, count, 2e-6);
+}
+
+static int run_look_at(asked *a)
+{
+    double eye[3], target[3], up[3];
+    core_camera got;
+    numbers(a, "eye", eye, 3);
+    numbers(a, "target", target, 3);
+    numbers(a, "up", up, 3);
+    return !core_look_at(&a->why, eye, target, up, number(a, "fov"), number(a, "aspect"),
+                         number(a, "near"), number(a, "far"), &got) && near_camera(a, &got);
+}
+
+static int run_opencv(asked *a)
+{
+    double K[9], extrinsics[16], size[2];
+    core_camera got;
+    numbers(a, "K", K, 9);
+    numbers(a, "extrinsics", extrinsics, 16);
+    numbers(a, "size", size, 2);
+    return !core_opencv(&a->why, K, extrinsics, (int)size[0], (int)size[1], number(a, "near"),
+                        number(a, "far"), &got) && near_camera(a, &got);
+}
+
+static int run_opengl(asked *a)
+{
+    double projection[16], pose[16];
+    core_camera got;
+    numbers(a, "projection", projection, 16);
+    numbers(a, "pose", pose, 16);
+    return !core_opengl(&a->why, projection, pose, &got) && near_camera(a, &got);
+}
+
+static int run_fit(asked *a)
+{
+    double points[MOST], view[2], size[2];
+    float at[MOST];
+    const int count = numbers(a, "points", points, MOST);
+    core_side side = { .up = 2, .fov = number(a, "fov"), .margin = number(a, "margin") };
+    core_cloud cloud;
+    core_camera got;
+    numbers(a, "view", view, 2);
+    numbers(a, "size", size, 2);
+    side.azimuth = view[0];
+    side.elevation = view[1];
+    side.width = (int)size[0];
+    side.height = (int)size[1];
+    side.ortho = a->j->value[member(a, "ortho")].kind == JSON_TRUE;
+    for (int k = 0; k < count; k++) at[k] = (float)points[k];
+    if (core_cloud_open(&a->why, &side, &cloud)) return 0;
+    core_cloud_add(&cloud, at, NULL, (size_t)count / 3, NULL);
+    core_fit(&cloud, &side, &got);
+    return near_camera(a, &got);
+}
+
+static int run_faces(asked *a)
+{
+    double rows[MOST], want[MOST];
+    uint32_t out[MOST];
+    const int count = numbers(a, "rows", rows, MOST), height = (int)a->j->value[member(a, "rows")].count;
+    const int64_t made = core_faces(&a->why, "faces", rows, (size_t)height, count / height,
+                                    number(a, "vertices"), out);
+    int same = numbers(a, "want", want, MOST) == made;
+    for (int64_t k = 0; k < made && same; k++) same = out[k] == want[k];
+    return same;
+}
+
+static int run_pose(asked *a)
+{
+    double m[16], want[3] = { 0 };
+    numbers(a, "matrix", m, 16);
+    numbers(a, "want", want, 3);
+    renderer_scene *s = renderer_scene_open();
+    renderer_object o = { .kind = RENDERER_SPHERE, .size = { 1, 1, 1 } };
+    int same = s && renderer_add(s, &o, 1) == 0;
+    if (!core_rigid(&a->why, "pose", m)) same = same && renderer_pose(s, NULL, m, 1) == -1;
+    else same = same && renderer_pose(s, NULL, m, 1) == 0;
+    same = same && renderer_records(s, 0, &o, 1) == 1 && !a->why.code && near(o.place, want, 3, 0);
+    renderer_scene_close(s);
+    return same;
+}
+
+/* One step: what is done, and a number that is wanted or meant */
+static int step_of(const asked *a, renderer_scene *s, uint32_t at)
+{
+    static const double still[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+    const renderer_object o = { .kind = RENDERER_SPHERE, .size = { 1, 1, 1 } };
+    renderer_object all[MOST];
+    double n[MOST];
+    const int count = numbers_at(a->j, at, n, MOST), number = count ? (int)n[0] : 0;
+    if (json_is(a->j, at + 1, "add")) return renderer_add(s, &o, 1) == number;
+    if (json_is(a->j, at + 1, "remove")) return renderer_put_object(s, number, NULL, 0) == 1;
+    if (json_is(a->j, at + 1, "pose")) return renderer_pose(s, &number, still, 1) == -1;
+    if (json_is(a->j, at + 1, "clear")) return renderer_put_all(s, NULL, 0);
+    if (json_is(a->j, at + 1, "stale"))
+        return renderer_pose(s, &number, still, 1) == -2 && renderer_put_object(s, number, &o, 1) == -1;
+    if (!json_is(a->j, at + 1, "objects") || renderer_records(s, -1, all, MOST) != count) return 0;
+    for (int k = 0; k < count; k++)
+        if (all[k].id != (int)n[k]) return 0;
+    return 1;
+}
+
+static int run_handles(asked *a)
+{
+    renderer_scene *s = renderer_scene_open();
+    const uint32_t steps = member(a, "steps");
+    int same = s != NULL;
+    for (uint32_t at = steps + 1; same && at < a->j->value[steps].end; at = a->j->value[at].end)
+        same = step_of(a, s, at);
+    renderer_scene_close(s);
+    return same;
+}
+
+static int run_scene(asked *a)
+{
+    static int32_t ids[2 * 64 * 64];
+    double balls[MOST], eye[3], target[3], far[3], want[MOST];
+    const double up[3] = { 0, 0, 1 };
+    const int count = numbers(a, "balls", balls, MOST) / 4, size = (int)number(a, "size");
+    renderer_picture p = { .width = size, .height = size, .samples = 1, .channels = 3 };
+    renderer_scene *s = renderer_scene_open();
+    renderer *r = renderer_open();
+    core_camera c;
+    int same = s && r, seen[MOST] = { 0 };
+    numbers(a, "eye", eye, 3);
+    numbers(a, "target", target, 3);
+    numbers(a, "far", far, 3);
+    numbers(a, "want", want, MOST);
+    for (int k = 0; k < 3; k++) {
+        eye[k] += far[k];
+        target[k] += far[k];
+    }
+    same = same && !core_look_at(&a->why, eye, target, up, number(a, "fov"), 1, 0.01, 1000, &c);
+    for (int i = 0; i < count && same; i++) {
+        renderer_object o = { .kind = RENDERER_SPHERE, .turn = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, .rgba = { 1, 1, 1, 1 } };
+        for (int k = 0; k < 3; k++) {
+            o.place[k] = balls[4 * i + k] + far[k];
+            o.size[k] = (float)balls[4 * i + 3];
+        }
+        same = renderer_add(s, &o, 1) == i;
+    }
+    p.near_z = 0.01f;
+    p.far_z = 1000;
+    p.tolerance = 0.25f;
+    p.ids = ids;
+    if (same) memcpy(p.view, c.view, sizeof p.view);
+    for (int k = 0; k < 16 && same; k++) (&p.projection.col[k / 4].x)[k % 4] = (float)c.projection[k];
+    same = same && !renderer_draw(&r, 1, s, &p, 1, NULL);
+    for (int i = 0; i < size * size && same; i++)
+        if (ids[2 * i] >= 0) seen[ids[2 * i]]++;
+    /* round shapes lie within a quarter of a pixel of the true ones, along 3.545 roots of the area */
+    for (int i = 0; i < count && same; i++) same = fabs(seen[i] - want[i]) <= 3 + 0.886 * sqrt(want[i]);
+    renderer_close(r);
+    renderer_scene_close(s);
+    return same;
+}
+
+typedef struct runner {
+    const char *call;
+    int (*run)(asked *a);
+} runner;
+
+static const runner runners[] = {
+    { "color", run_color },   { "colors", run_colors }, { "look_at", run_look_at },
+    { "opencv", run_opencv }, { "opengl", run_opengl }, { "fit", run_fit },
+    { "faces", run_faces },   { "pose", run_pose },     { "handles", run_handles },
+    { "scene", run_scene },
+};
+
+/* Whether the core refuses just what the case says, if it says so */
+static int holds(asked *a, int same)
+{
+    const uint32_t refused = member(a, "refused");
+    char *argument = json_copy(a->j, refused + 1), *text = json_copy(a->j, refused + 2);
+    int right = refused ? argument && text && a->why.code && !strcmp(argument, a->why.argument) &&
+                              !strncmp(text, a->why.text, strlen(text))
+                        : same && !a->why.code;
+    free(argument);
+    free(text);
+    return right;
+}
+
+static int run(const json_doc *j, uint32_t at)
+{
+    asked a = { .j = j, .at = at };
+    for (size_t k = 0; k < sizeof runners / sizeof *runners; k++) {
+        if (!json_is(j, member(&a, "call"), runners[k].call)) continue;
+        return holds(&a, runners[k].run(&a));
+    }
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    static char bytes[1 << 20], error[200];
+    FILE *file = argc > 1 ? fopen(argv[1], "rb") : NULL;
+    const size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+    mesh_reader r = mesh_of((const unsigned char *)bytes, size, "cases.json", error, sizeof error);
+    json_doc j = { 0 };
+    int good = 0, all = 0;
+    if (!size || json_read(&r, &j)) return printf("cases: no table %s\n", error), 1;
+    const uint32_t list = json_member(&j, JSON_ROOT, "cases");
+    for (uint32_t at = list + 1; at < j.value[list].end; at = j.value[at].end, all++) {
+        const int right = run(&j, at);
+        good += right;
+        if (!right) printf("case %d: %.*s\n", all, 160, bytes + j.value[at].from);
+    }
+    printf("cases: %d of %d hold in C\n", good, all);
+    fclose(file);
+    free(j.value);
+    return good != all || all < 400;
+}

@@ -1,0 +1,117 @@
+"""The table of cases that C, Python and JavaScript run alike: examples/kit/test/cases.json."""
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shade_h as shade
+from shade_h import _arguments as arguments
+
+HERE = Path(__file__).resolve()
+TABLE = next((top / "examples/kit/test/cases.json" for top in HERE.parents
+              if (top / "examples/kit/test/cases.json").is_file()), None)
+CASES = json.loads(TABLE.read_text())["cases"] if TABLE else []
+
+
+def near(got, want, tolerance):
+    got, want = np.asarray(got, float).ravel(), np.asarray(want, float).ravel()
+    assert got.shape == want.shape and np.abs(got - want).max() <= tolerance * np.abs(want).max()
+
+
+def same_camera(camera, want):
+    view = camera.view.T.ravel()
+    near(view[:12], want["view"][:12], 1e-9)
+    near(view[12:], want["view"][12:], 1e-9)
+    near(camera.projection.T, want["projection"], 1e-6)
+
+
+def rows(columns):
+    return np.reshape(columns, (4, 4))
+
+
+def color(case):
+    near(arguments.hexadecimal("color", case["word"]), case["want"], 1e-12)
+
+
+def colors(case):
+    kind = np.int64 if case["whole"] else np.float64
+    got = arguments.linear("colors", np.array(case["rows"], kind))
+    near(got, case["want"], 2e-6)
+
+
+def look_at(case):
+    names = ("eye", "target", "up", "fov", "aspect", "near", "far")
+    same_camera(shade.Camera.look_at(**{name: case[name] for name in names}), case["want"])
+
+
+def opencv(case):
+    camera = shade.Camera.opencv(rows3(case["K"]), rows(case["extrinsics"]), case["size"], case["near"], case["far"])
+    same_camera(camera, case["want"])
+
+
+def rows3(numbers):
+    return np.reshape(numbers, (3, 3))
+
+
+def opengl(case):
+    same_camera(shade.Camera.opengl(rows(case["projection"]).T, rows(case["pose"])), case["want"])
+
+
+def fit(case):
+    options = {name: case[name] for name in ("ortho", "fov", "margin")}
+    same_camera(shade.fitted(np.array(case["points"]), case["view"], tuple(case["size"]), **options), case["want"])
+
+
+def faces(case):
+    got = arguments.faces("faces", case["rows"], case["vertices"])
+    assert got.ravel().tolist() == case["want"]
+
+
+def pose(case):
+    made = shade.Renderer(8, 8)
+    ball = made.add("sphere", 1, pose=rows(case["matrix"]))
+    near(ball.pose[:3, 3], case["want"], 0)
+
+
+def handles(case):
+    made = shade.Renderer(8, 8)
+    for step, *given in case["steps"]:
+        if step == "add":
+            assert made.add("sphere", 1) == given[0]
+        elif step == "stale":
+            for call in (lambda: made.pose(given[0], np.eye(4)), lambda: made.remove(given[0])):
+                with pytest.raises(shade.Error, match=f"there is no object {given[0]}"):
+                    call()
+        elif step == "objects":
+            assert made.objects == given[0]
+        else:
+            {"remove": made.remove, "pose": lambda n: made.pose(n, np.eye(4)), "clear": made.clear}[step](*given)
+
+
+def scene(case):
+    made, far = shade.Renderer(case["size"], case["size"]), np.array(case["far"], float)
+    for *at, radius in case["balls"]:
+        made.add("sphere", radius, at=far + at)
+    eye = shade.Camera.look_at(far + case["eye"], far + case["target"], fov=case["fov"])
+    ids = made.render(eye).ids[..., 0]
+    for i, want in enumerate(case["want"]):
+        # round shapes lie within a quarter of a pixel of the true ones, along 3.545 roots of the area
+        assert abs((ids == i).sum() - want) <= 3 + 0.886 * want ** 0.5
+
+
+@pytest.mark.skipif(TABLE is None, reason="the table is beside the tree")
+def test_the_table_is_whole():
+    assert len(CASES) >= 400
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case["call"])
+def test_a_case(case):
+    run = {"color": color, "colors": colors, "look_at": look_at, "opencv": opencv, "opengl": opengl, "fit": fit,
+           "faces": faces, "pose": pose, "handles": handles, "scene": scene}[case["call"]]
+    if "refused" not in case:
+        run(case)
+        return
+    argument, words = case["refused"]
+    with pytest.raises(shade.Error) as error:
+        run(case)
+    assert str(error.value).startswith(f"{argument} {words}")
