@@ -526,11 +526,11 @@ static inline void elsewhere_fragment(const void *uniforms,
    The struct of a program holds shade_vec3 and float alone, in the order of its row in
    elsewhere_rows, where its defaults stand. */
 
-static inline elsewhere_look elsewhere_plain(shade_model model)
+static inline elsewhere_look elsewhere_plain(shade_model kind)
 {
     elsewhere_look k;
     memset(&k, 0, sizeof k);
-    k.model = model;
+    k.model = kind;
     k.diffuse = k.specular = 1;
     return k;
 }

@@ -219,4 +219,39 @@ static inline int elsewhere_read(const char **text, elsewhere_look *look, elsewh
     *text = t;
     return 0;
 }
+/* What a scene with lamps and a camera of its own can say of a look: its material, model and flags.
+   Lamps of intensity 1 stand for those that give the program's colour; F of ELSEWHERE_LAW_SCHLICK
+   is that of light from the viewer; encoding and viewer stay the scene's.  Returns NULL, or what it
+   cannot say. */
+static inline const char *elsewhere_apply(const elsewhere_look *k, shade_material *material,
+                                          shade_model *kind, unsigned *flags)
+{
+    const float d = k->diffuse + k->head_diffuse, s = k->specular + k->head_specular;
+    if (k->refused) return k->refused;
+    if (k->law != ELSEWHERE_LAW_FOUR && k->law != ELSEWHERE_LAW_SCHLICK)
+        return "its law of light is not iteration four: elsewhere_fragment draws it";
+    *material = k->material;
+    if (d < s || d > s) {
+        material->diffuse = shade_scale(material->diffuse, d);
+        material->specular = shade_scale(material->specular, s);
+    }
+    if (k->law == ELSEWHERE_LAW_SCHLICK)
+        material->specular = shade_scale(material->specular, k->number);
+    *kind = k->model;
+    *flags = k->flags & ~(unsigned)SHADE_FLAG_TWO_SIDED;
+    return NULL;
+}
+
+/* The same for text such as "vtk(specular=.5, power=30)".  Returns 0, or 1 with a sentence in
+   said. */
+static inline int elsewhere_apply_text(const char *text, shade_material *material,
+                                       shade_model *kind, unsigned *flags, char *said, size_t room)
+{
+    elsewhere_look look;
+    const char *why;
+    if (elsewhere_read(&text, &look, NULL, said, room)) return 1;
+    why = *text ? "something stands behind it" : elsewhere_apply(&look, material, kind, flags);
+    if (why) snprintf(said, room, "%s", why);
+    return why != NULL;
+}
 #endif
