@@ -116,8 +116,7 @@ vector-report:
 	@sh tests/scripts/vector_report.sh
 help:
 	@sed -n '/^#/!q; s/^# \{0,1\}//p' Makefile
-	@[ ! -f examples/products.mk ] || echo
-	@sed -n '/^#/!q; s/^# \{0,1\}//p' examples/products.mk 2>/dev/null
+	@f=examples/products.mk; [ ! -f $$f ] || { echo; sed -n '/^#/!q; s/^# \{0,1\}//p' $$f; }
 lint:
 	@sh tests/scripts/lint.sh
 findings:

@@ -969,7 +969,8 @@ SHADE__CLOSE
 #undef SHADE__EVAL_FLOAT
 #define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
 #elif defined(__m68k__) && defined(__HAVE_68881__)
-#error "shade.h: the registers of this FPU are wider than floats; for m68k: -msoft-float"
+#error "shade.h: the registers of this FPU are wider than floats; for m68k: -msoft-float and \
+libraries made for it"
 #undef SHADE_IMPLEMENTATION
 #elif defined(__ALTIVEC__) && !defined(__VSX__)
 #error "shade.h: AltiVec takes denormal floats for 0; for POWER: -mno-altivec, or -mvsx"

@@ -285,6 +285,7 @@ done
 # a draw that needs more varyings than there are is a bad state; the same with enough is drawn
 cat >"$T/few.c" <<'END'
 #include "shade.h"
+#include <string.h>
 static void own(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                 shade_colors *SHADE_RESTRICT out)
 {
@@ -307,9 +308,9 @@ int main(void)
         shade_result want = need > SHADE_MAX_VARYINGS ? SHADE_ERROR_STATE : SHADE_OK;
         shade_mesh mesh;
         shade_draw_state state;
-        SHADE_MEMSET(&mesh, 0, sizeof mesh);
-        SHADE_MEMSET(&state, 0, sizeof state);
-        SHADE_MEMSET(pixels, 7, sizeof pixels);
+        memset(&mesh, 0, sizeof mesh);
+        memset(&state, 0, sizeof state);
+        memset(pixels, 7, sizeof pixels);
         mesh.positions = corner;
         mesh.vertex_count = 3;
         mesh.colors = color ? corner : 0;

@@ -530,8 +530,7 @@ static shade_result draw_opaque(const shade_target *target, look *k, const model
    map. */
 static int part_is_clear(const model *m, const model_options *o, int part)
 {
-    const model_surface *s =
-        surface_choose(m, m->part[part].surface, &o->material, o->plain).own;
+    const model_surface *s = surface_choose(m, m->part[part].surface, &o->material, o->plain).own;
     if (!s) return 0;
     return s->transparency > 0 || (s->blended && s->picture >= 0);
 }

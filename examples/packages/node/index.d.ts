@@ -87,7 +87,8 @@ export class Mesh {
 }
 
 /** Matrices of WebGL, 4 x 4 by columns.  view is a rotation and a translation. */
-export interface Camera { view: Numbers; projection: Numbers; }
+/** With a size it serves pictures of that size alone. */
+export interface Camera { view: Numbers; projection: Numbers; size?: [number, number]; }
 
 /** A lamp, in linear light. */
 export interface Light {
@@ -148,13 +149,13 @@ export class Picture {
     readonly width: number;
     readonly height: number;
     /** R, G, B, A bytes: what ImageData takes. */
-    readonly data: Uint8ClampedArray;
+    readonly data: ReturnType<Uint8ClampedArrayConstructor["from"]>;
     /** Along the axis of view at the centre of each pixel; Infinity where there is nothing. */
     readonly depth: Float32Array | null;
     /** The number of the mesh at the centre of each pixel; -1 where there is none. */
     readonly ids: Int32Array | null;
     /** The bytes of a PNG file. */
-    png(): Promise<Uint8Array>;
+    png(): Promise<ReturnType<Uint8ArrayConstructor["from"]>>;
 }
 
 /** What is thrown for a bad argument; the message begins with its name. */
@@ -197,7 +198,7 @@ export type ShapeName = "plane" | "sphere" | "ellipsoid" | "capsule" | "cylinder
 
 /** A camera as WebGL has it: view from the world, projection to clip space, 16 numbers by columns each.  With a size
     it serves pictures of that size alone. */
-export interface CameraMatrices { view: Float64Array; projection: Float64Array; size?: [number, number] }
+export interface CameraMatrices extends Camera { view: Float64Array; projection: Float64Array; }
 
 /** Cameras in double precision. */
 export const Camera: {
@@ -251,11 +252,11 @@ export class Renderer {
     /** An object by its number: ids hold numbers, and this has the rest. */
     object(number: number | Solid): Solid;
     /** What is not given stays; undefined is as if add() had not been given it. */
-    change(number: number, options: Looks & { size?: number | Numbers }): void;
+    change(number: number | Solid, options: Looks & { size?: number | Numbers }): void;
     pose(number: number | Solid, pose: Numbers): void;
     /** A matrix for each of numbers, or for all objects in order; nothing moves where one is refused. */
-    poses(poses: readonly Numbers[], numbers?: readonly number[]): void;
-    show(number: number, visible?: boolean): void;
+    poses(poses: readonly Numbers[], numbers?: readonly (number | Solid)[]): void;
+    show(number: number | Solid, visible?: boolean): void;
     /** Gives a shape other vertices, as mesh() takes them, or heights.  Its objects show it. */
     update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers): void;
     update_texture(number: number, picture: Texture & { faces?: 1 | 6 }): void;

@@ -182,6 +182,12 @@ class Range(Structure):
     _fields_ = [("near", c_double), ("far", c_double), ("parallel", c_int)]
 
 
+class Moved(Structure):
+    """renderer_moved"""
+    _fields_ = [("positions", c_void_p), ("given", c_void_p), ("faces", c_void_p), ("vertex_count", c_int),
+                ("index_count", c_int), ("normals", c_int), ("unused", c_int), ("origin", c_double * 3)]
+
+
 #: zip_inflate
 INFLATE = ctypes.CFUNCTYPE(c_int, c_void_p, c_size_t, c_void_p, c_size_t)
 
@@ -234,6 +240,7 @@ def _open() -> Any:
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
             ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
+            ("python_scene_deform", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
             ("python_scene_put", c_int, [c_void_p, c_int, c_void_p, c_int]),

@@ -14,7 +14,8 @@ Viewpoint = Union[str, Sequence[float]]
 
 
 def _views() -> dict[str, tuple[float, float]]:
-    angles, views = np.zeros(2), {}
+    views: dict[str, tuple[float, float]] = {}
+    angles = np.zeros(2)
     while name := library.python_view_name(len(views), pointer(angles)):
         views[name.decode()] = float(angles[0]), float(angles[1])
     return views
