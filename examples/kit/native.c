@@ -16,6 +16,7 @@
 #include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/kit/scene/renderer.h"
+#include "examples/elsewhere/words.h"
 #include "examples/kit/scene/deform.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
@@ -873,6 +874,34 @@ int python_part_of(const model *m, int i, python_part *part)
     part->relief = s->relief.picture;
     part->glow = s->glow_picture;
     return m->part_count;
+}
+
+/* ---- materials of other programs, of elsewhere/words.h --------------------------------------- */
+
+/* Row i: "name(numbers)" of a program that has a material, in name and numbers; NULL: no more */
+NATIVE(look_name) const char *python_look_name(int i, const char **numbers);
+const char *python_look_name(int i, const char **numbers)
+{
+    for (const elsewhere_row *row = elsewhere_rows; row->name; row++) {
+        if (!row->look || i--) continue;
+        if (numbers) *numbers = row->numbers;
+        return row->name;
+    }
+    return NULL;
+}
+
+/* The material of text such as "vtk(specular=.5, power=30)", with the model and flags of its light
+   in lit.  Returns 0, or 1 with a sentence in said, of room bytes. */
+NATIVE(look) int python_look(const char *text, shade_material *material, uint32_t *lit, char *said,
+                             int room);
+int python_look(const char *text, shade_material *material, uint32_t *lit, char *said, int room)
+{
+    shade_model kind = SHADE_MODEL_BLINN_PHONG;
+    unsigned flags = 0;
+    const int failed = elsewhere_apply_text(text, material, &kind, &flags, said, (size_t)room);
+    lit[0] = kind;
+    lit[1] = flags;
+    return failed;
 }
 
 /* ---- arguments and cameras, of core/ --------------------------------------------------------- */

@@ -271,6 +271,8 @@ def _open() -> Any:
             ("shade_mesh_edges", c_int, [c_void_p, c_void_p, c_int, c_void_p]),
             ("shade_mipmap_count", c_int, [c_int, c_int]),
             ("shade_mipmap_bytes", c_size_t, [c_int, c_int, c_int]),
+            ("python_look_name", c_char_p, [c_int, c_void_p]),
+            ("python_look", c_int, [c_char_p, c_void_p, c_void_p, c_char_p, c_int]),
             ("shade_preset_material", Material, [c_int]),
             ("shade_preset_name", c_char_p, [c_int]),
             ("shade_linear_material", Material, [Material])):
