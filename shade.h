@@ -54,38 +54,38 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     134  options               >>types      268  materials, targets, states
-       >>light      453  the equation, colour  >>draw       562  shaders, meshes, pixels
-       >>tools      721  explain, lines, rays  >>plumbing   934  compilers, flags and bits
-       >>math      1101  vectors and matrices
+       >>light      454  the equation, colour  >>draw       563  shaders, meshes, pixels
+       >>tools      722  explain, lines, rays  >>plumbing   935  compilers, flags and bits
+       >>math      1102  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1469  processors            >>base      1716  bits, masks, rows of vectors
-       >>matrix    1913  cameras, inverses     >>power     2201  x^n
-       >>pixels    2267  formats, sRGB
+       >>machine   1470  processors            >>base      1717  bits, masks, rows of vectors
+       >>matrix    1915  cameras, inverses     >>power     2203  x^n
+       >>pixels    2269  formats, sRGB
      Inside: light
-       >>lamps     2578  attenuation, cones    >>terms     2830  one term at one point
-       >>surface   2905  material and lights   >>lit       3022  the whole sum, at many points
+       >>lamps     2580  attenuation, cones    >>terms     2832  one term at one point
+       >>surface   2907  material and lights   >>lit       3024  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3412  fields by owner       >>vertices  3625  shading, projection
-       >>triangles 3827  culling, edge setup   >>clip      4181  near, far, guard band
-       >>tiles     4368  edges and depth test  >>cover     4730  triangles, tile by tile
-       >>fragments 4998  interpolation, lod    >>texture   5273  texels, filters
-       >>store     5747  blending, packing
+       >>state     3414  fields by owner       >>vertices  3627  shading, projection
+       >>triangles 3829  culling, edge setup   >>clip      4183  near, far, guard band
+       >>tiles     4370  edges and depth test  >>cover     4732  triangles, tile by tile
+       >>fragments 5000  interpolation, lod    >>texture   5275  texels, filters
+       >>store     5749  blending, packing
      Inside: calls of the renderer
-       >>check     6030  refusals              >>seen      6290  view volume, chunks
-       >>drive     6410  shade_draw            >>mesh      6600  shade_draw_mesh
+       >>check     6032  refusals              >>seen      6292  view volume, chunks
+       >>drive     6412  shade_draw            >>mesh      6602  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7004  shade_draw_lines      >>camera    7196  eye and line of sight
-       >>shape     7290  normals, edges        >>chunks    7837  sorting and boxes
-       >>rays      8000  shade_pick            >>image     8191  smaller pictures, mipmaps
-       >>files     8504  PPM and PNG           >>presets   8822  classic materials
+       >>lines     7006  shade_draw_lines      >>camera    7198  eye and line of sight
+       >>shape     7292  normals, edges        >>chunks    7839  sorting and boxes
+       >>rays      8002  shade_pick            >>image     8193  smaller pictures, mipmaps
+       >>files     8506  PPM and PNG           >>presets   8824  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8905  shaders, run again    >>survey    9174  experiments on a draw
-       >>numbers   9593  what makes no sense   >>unseen   10077  why nothing is in view
-       >>hidden   10359  why nothing is stored >>black    10540  why all is black
-       >>wrong    10922  what else is wrong    >>verdict  11302  the calls
+       >>replay    8907  shaders, run again    >>survey    9176  experiments on a draw
+       >>numbers   9595  what makes no sense   >>unseen   10079  why nothing is in view
+       >>hidden   10361  why nothing is stored >>black    10542  why all is black
+       >>wrong    10924  what else is wrong    >>verdict  11304  the calls
      Sources
-       >>refs     11609                        >>history  11642
-       >>license  11648
+       >>refs     11611                        >>history  11644
+       >>license  11650
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -145,7 +145,7 @@
      SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
                               both 11; with a fragment shader of your own 11
-     SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
+     SHADE_NO_STDIO           leaves out shade_write_ppm, shade_write_png and <stdio.h>
      SHADE_NO_EXPLAIN         leaves out the explanations, a fifth of the code: shade_explain,
                               shade_explain_lines and shade_explain_draw return ""
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
@@ -276,7 +276,8 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4 */
+    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4,
+                                an output that overlaps an input */
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
@@ -1887,7 +1888,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT:
-        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match";
+        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match, "
+               "an output that overlaps an input";
     case SHADE_ERROR_TARGET:
         return "bad target: width, height, stride, format, color and depth both NULL, "
                "clip_width, clip_height, row_offset, row_count";
