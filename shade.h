@@ -54,39 +54,39 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     135  options               >>types      269  materials, targets, states
-       >>light      454  the equation, colour  >>draw       563  shaders, meshes, pixels
-       >>tools      722  explain, lines, rays  >>plumbing   935  compilers, flags and bits
-       >>math      1102  vectors and matrices
+       >>light      455  the equation, colour  >>draw       564  shaders, meshes, pixels
+       >>tools      723  explain, lines, rays  >>plumbing   936  compilers, flags and bits
+       >>math      1103  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1470  processors            >>base      1717  bits, masks, rows of vectors
-       >>matrix    1914  cameras, inverses     >>power     2202  x^n
-       >>pixels    2268  formats, sRGB
+       >>machine   1471  processors            >>base      1718  bits, masks, rows of vectors
+       >>matrix    1916  cameras, inverses     >>power     2204  x^n
+       >>pixels    2270  formats, sRGB
      Inside: light
-       >>lamps     2579  attenuation, cones    >>terms     2831  one term at one point
-       >>surface   2906  material and lights   >>lit       3023  the whole sum, at many points
+       >>lamps     2581  attenuation, cones    >>terms     2833  one term at one point
+       >>surface   2908  material and lights   >>lit       3025  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3413  fields by owner       >>vertices  3626  shading, projection
-       >>triangles 3829  culling, edge setup   >>clip      4183  near, far, guard band
-       >>tiles     4370  edges and depth test  >>cover     4734  triangles, tile by tile
-       >>fragments 5002  interpolation, lod    >>texture   5277  texels, filters
-       >>store     5752  blending, packing
+       >>state     3415  fields by owner       >>vertices  3628  shading, projection
+       >>triangles 3831  culling, edge setup   >>clip      4185  near, far, guard band
+       >>tiles     4372  edges and depth test  >>cover     4736  triangles, tile by tile
+       >>fragments 5004  interpolation, lod    >>texture   5279  texels, filters
+       >>store     5754  blending, packing
      Inside: calls of the renderer
-       >>check     6035  refusals              >>seen      6295  view volume, chunks
-       >>drive     6415  shade_draw            >>mesh      6605  shade_draw_mesh
+       >>check     6037  refusals              >>seen      6297  view volume, chunks
+       >>drive     6417  shade_draw            >>mesh      6607  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7009  shade_draw_lines      >>camera    7201  eye and line of sight
-       >>shape     7295  normals, edges        >>chunks    7842  sorting and boxes
-       >>rays      8005  shade_pick            >>image     8196  smaller pictures, mipmaps
-       >>files     8509  PPM and PNG           >>presets   8827  classic materials
+       >>lines     7011  shade_draw_lines      >>camera    7203  eye and line of sight
+       >>shape     7297  normals, edges        >>chunks    7844  sorting and boxes
+       >>rays      8007  shade_pick            >>image     8198  smaller pictures, mipmaps
+       >>files     8511  PPM and PNG           >>presets   8829  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8910  shaders, run again    >>survey    9178  experiments on a draw
-       >>numbers   9616  what makes no sense   >>doubts    9954  what is seldom right
-       >>unseen   10107  why nothing is in view
-       >>hidden   10389  why nothing is stored >>black    10553  why all is black
-       >>wrong    10935  what else is wrong    >>verdict  11316  the calls
+       >>replay    8912  shaders, run again    >>survey    9180  experiments on a draw
+       >>numbers   9618  what makes no sense   >>doubts    9956  what is seldom right
+       >>unseen   10109  why nothing is in view
+       >>hidden   10391  why nothing is stored >>black    10555  why all is black
+       >>wrong    10937  what else is wrong    >>verdict  11318  the calls
      Sources
-       >>refs     11626                        >>history  11659
-       >>license  11665
+       >>refs     11628                        >>history  11661
+       >>license  11667
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -146,7 +146,7 @@
      SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
                               both 11; with a fragment shader of your own 11
-     SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
+     SHADE_NO_STDIO           leaves out shade_write_ppm, shade_write_png and <stdio.h>
      SHADE_NO_EXPLAIN         leaves out the explanations, a fifth of the code: shade_explain,
                               shade_explain_lines and shade_explain_draw return ""
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
@@ -277,7 +277,8 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4 */
+    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4,
+                                an output that overlaps an input */
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
@@ -1888,7 +1889,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT:
-        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match";
+        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match, "
+               "an output that overlaps an input";
     case SHADE_ERROR_TARGET:
         return "bad target: width, height, stride, format, color and depth both NULL, "
                "clip_width, clip_height, row_offset, row_count";
