@@ -82,7 +82,8 @@ static const char *picture_decode_pnm(model_picture *p, pnm *from)
 {
     const size_t pixels = (size_t)from->width * (size_t)from->height;
     uint8_t *rgba, *to;
-    if ((double)from->width * from->height > 1e8) return "a picture of more than 100 million pixels";
+    if ((double)from->width * from->height > 1e8)
+        return "a picture of more than 100 million pixels";
     rgba = to = (uint8_t *)malloc(4 * pixels);
     if (!rgba) return "out of memory";
     for (size_t i = 0; i < pixels; i++, to += 4) {

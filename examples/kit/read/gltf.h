@@ -1,6 +1,7 @@
 /* gltf.h - reads glTF 2.0: GLB, and JSON with buffers and pictures inside or beside it.  Nodes with
    their instances, skins and morph targets as they are at rest, triangles, strips and fans,
-   accessors of every type, sparse ones too, materials in the terms of shade.h.
+   accessors of every type, sparse ones too, views packed by meshopt, materials in the terms of
+   shade.h.
 
    An extension is drawn, or it changes nothing that a picture of shade.h has, or a file that
    requires it is refused by its name (gltf_known).  A picture that only an extension could decode
@@ -10,6 +11,7 @@
 
 #include "gather.h"
 #include "json.h"
+#include "meshopt.h"
 
 enum { GLTF_NODES = 100000, GLTF_DEPTH = 500, GLTF_TRIANGLES = 20000000, GLTF_BARE = 10000000 };
 enum {
@@ -54,7 +56,8 @@ static const known_name gltf_known[] = { { "KHR_mesh_quantization", KNOWN_DRAWN 
                                          { "KHR_materials_sheen", KNOWN_TOLD },
                                          { "KHR_materials_transmission", KNOWN_TOLD },
                                          { "KHR_materials_iridescence", KNOWN_TOLD },
-                                         { "EXT_meshopt_compression", KNOWN_TOLD },
+                                         { "EXT_meshopt_compression", KNOWN_DRAWN },
+                                         { "KHR_meshopt_compression", KNOWN_DRAWN },
                                          { "EXT_texture_webp", KNOWN_TOLD },
                                          { "KHR_texture_basisu", KNOWN_TOLD },
                                          { "EXT_texture_avif", KNOWN_TOLD },
@@ -89,8 +92,9 @@ typedef struct gltf {
     uint32_t count[GLTF_LISTS];
     const unsigned char *binary; /* of GLB */
     size_t binary_size;
-    gltf_bytes *buffer;
-    uint32_t *parent; /* of each node, + 1 */
+    gltf_bytes *buffer, *unpacked; /* unpacked: by view */
+    double left;                   /* bytes that may be unpacked */
+    uint32_t *parent;              /* of each node, + 1 */
     gltf_place *place;
     int plain; /* the surface of faces without a material; -1: not yet */
     gather all;
@@ -235,22 +239,85 @@ static inline int gltf_buffer(gltf *g, uint32_t number, gltf_bytes *out)
     return 0;
 }
 
-/* The bytes of a view, and its stride or 0 */
-static inline int gltf_view(gltf *g, uint32_t at, gltf_bytes *out, double *stride)
+/* The bytes of a buffer that a view, or the packed form of one, names */
+static inline int gltf_range(gltf *g, uint32_t view, gltf_bytes *out)
 {
-    uint32_t view, buffer;
+    uint32_t buffer;
     double start, size;
-    if (gltf_item(g, GLTF_VIEWS, at, &view)) return 1;
     if (gltf_item(g, GLTF_BUFFERS, json_member(&g->j, view, "buffer"), &buffer)) return 1;
     if (gltf_whole(g, view, "byteOffset", 0, &start) ||
-        gltf_whole(g, view, "byteLength", -1, &size) ||
-        gltf_whole(g, view, "byteStride", 0, stride))
+        gltf_whole(g, view, "byteLength", -1, &size))
         return 1;
-    buffer = (uint32_t)json_number_of(&g->j, view, "buffer", 0);
+    buffer = (uint32_t)json_number_of(&g->j, view, "buffer", 0); /* gltf_item has checked it */
     if (gltf_buffer(g, buffer, out)) return 1;
     if (start + size > (double)out->size) return mesh_fail(g->r, "a view ends behind its buffer");
     out->at += (size_t)start;
     out->size = (size_t)size;
+    return 0;
+}
+
+/* What a packed view is said to hold */
+static inline int gltf_packed_view(gltf *g, uint32_t packed, meshopt_view *v)
+{
+    static const char *const modes[] = { "ATTRIBUTES", "TRIANGLES", "INDICES" };
+    static const char *const filters[] = { "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL",
+                                           "COLOR" };
+    const uint32_t filter = json_member(&g->j, packed, "filter");
+    int mode = -1, how = filter ? -1 : MESHOPT_NONE;
+    double count, stride;
+    if (gltf_whole(g, packed, "count", -1, &count) ||
+        gltf_whole(g, packed, "byteStride", -1, &stride))
+        return 1;
+    for (int k = 0; k < 3; k++)
+        if (json_is(&g->j, json_member(&g->j, packed, "mode"), modes[k])) mode = k;
+    for (int k = 0; k < 5 && filter; k++)
+        if (json_is(&g->j, filter, filters[k])) how = k;
+    v->mode = (meshopt_mode)mode;
+    v->filter = (meshopt_filter)how;
+    v->count = count < INT_MAX ? (size_t)count : 0;
+    v->stride = stride < 1000 ? (size_t)stride : 0;
+    if (mode >= 0 && how >= 0 && count < INT_MAX && !meshopt_is_wrong(v)) return 0;
+    return mesh_fail(g->r, "a view is packed in a way that is not read");
+}
+
+/* Unpacks a view, once. */
+static inline int gltf_unpack(gltf *g, uint32_t packed, gltf_bytes *to)
+{
+    meshopt_view v;
+    gltf_bytes from;
+    double size;
+    if (to->owned) return 0;
+    if (gltf_packed_view(g, packed, &v) || gltf_range(g, packed, &from)) return 1;
+    size = (double)v.count * (double)v.stride;
+    if (meshopt_least(&v) > (double)from.size) return mesh_fail(g->r, "a packed view is cut off");
+    if (size > g->left)
+        return mesh_fail(g->r, "its views unpack to more than %.0f bytes", ZIP_BYTES);
+    g->left -= size;
+    to->owned = (unsigned char *)calloc((size_t)size + 1, 1);
+    if (!to->owned) return mesh_fail(g->r, "out of memory");
+    to->at = to->owned;
+    to->size = (size_t)size;
+    if (!meshopt_unpack(&v, from.at, from.size, to->owned)) return 0;
+    free(to->owned);
+    to->owned = NULL;
+    return mesh_fail(g->r, "a packed view is damaged");
+}
+
+/* The bytes of a view, and its stride or 0 */
+static inline int gltf_view(gltf *g, uint32_t at, gltf_bytes *out, double *stride)
+{
+    uint32_t view, packed;
+    gltf_bytes *own;
+    double size;
+    if (gltf_item(g, GLTF_VIEWS, at, &view) || gltf_whole(g, view, "byteStride", 0, stride))
+        return 1;
+    packed = gltf_extended(g, view, "EXT_meshopt_compression");
+    if (!packed) packed = gltf_extended(g, view, "KHR_meshopt_compression");
+    if (!packed) return gltf_range(g, view, out);
+    own = &g->unpacked[(size_t)json_number_at(&g->j, at, 0)];
+    if (gltf_unpack(g, packed, own) || gltf_whole(g, view, "byteLength", -1, &size)) return 1;
+    if (size > (double)own->size) return mesh_fail(g->r, "a view ends behind its unpacked bytes");
+    *out = (gltf_bytes){ own->at, (size_t)size, NULL };
     return 0;
 }
 
@@ -1286,7 +1353,8 @@ static inline int gltf_build(gltf *g)
     int plain, points;
     if (gltf_version(g) || gltf_extensions(g, "extensionsRequired", 1) || gltf_index(g)) return 1;
     g->buffer = (gltf_bytes *)calloc((size_t)g->count[GLTF_BUFFERS] + 1, sizeof *g->buffer);
-    if (!g->buffer) return mesh_fail(g->r, "out of memory");
+    g->unpacked = (gltf_bytes *)calloc((size_t)g->count[GLTF_VIEWS] + 1, sizeof *g->unpacked);
+    if (!g->buffer || !g->unpacked) return mesh_fail(g->r, "out of memory");
     if (gltf_parents(g) || gltf_scene(g, 1)) return 1;
     g->cloud = g->triangles <= 0 && g->points > 0;
     if (g->triangles <= 0 && !g->cloud && g->segments <= 0)
@@ -1328,6 +1396,7 @@ static inline int gltf_read(mesh_reader *r, model *m)
     g.r = r;
     g.m = m;
     g.plain = -1;
+    g.left = ZIP_BYTES;
     model_place(m, &g.all.origin);
     if (r->end - r->begin >= 4 && !memcmp(r->begin, "glTF", 4))
         failed = gltf_chunks(&g);
@@ -1339,7 +1408,9 @@ static inline int gltf_read(mesh_reader *r, model *m)
     m->up_told = m->physical = 1;
     for (int k = 0; k < GLTF_LISTS; k++) free(g.item[k]);
     for (uint32_t i = 0; g.buffer && i < g.count[GLTF_BUFFERS]; i++) free(g.buffer[i].owned);
+    for (uint32_t i = 0; g.unpacked && i < g.count[GLTF_VIEWS]; i++) free(g.unpacked[i].owned);
     free(g.buffer);
+    free(g.unpacked);
     free(g.parent);
     free(g.place);
     free(g.j.value);

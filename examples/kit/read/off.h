@@ -21,10 +21,10 @@ typedef struct off_data {
     mesh_origin origin;
     faces faces;
     int has_color, has_normal, tinted;
-    int guessed;                 /* the header has no C, and the first vertex a colour */
-    int others;      /* there are numbers behind vertices or faces that are no colours */
-    float brightest; /* of all colours: those to 1 are fractions */
-    int fractions;   /* some have a point: to 2 they are fractions */
+    int guessed;             /* the header has no C, and the first vertex a colour */
+    int others;              /* there are numbers behind vertices or faces that are no colours */
+    float brightest;         /* of all colours: those to 1 are fractions */
+    int fractions;           /* some have a point: to 2 they are fractions */
     float clearest, fullest; /* the least alpha, and the greatest */
 } off_data;
 
@@ -269,7 +269,8 @@ static inline int off_finish(mesh_reader *r, off_data *o, model *out)
     if (failed) return mesh_fail(r, "out of memory");
     if (o->others && !out->unread[0])
         model_leave_out(out, r->name, "numbers behind its vertices or faces that are no colours");
-    if (o->clearest < off_white(o) && (o->fullest > 0 || !o->guessed)) known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
+    if (o->clearest < off_white(o) && (o->fullest > 0 || !o->guessed))
+        known_take(r, out, KNOWN_TOLD, 0, "alpha", 5);
     if (faces_finish(r, &o->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     model_placed(out, &o->origin);

@@ -12,9 +12,8 @@
 /* Formats of our own readers, of which ast is FreeCAD's name for STL of text, and those that assimp
    reads as another reader does, which examples/programs/thumbnail/test/compared.txt names.  assimp
    is asked for no other. */
-static const char *const model_by_kit[] = {
-    "obj", "stl", "ast", "ply", "off", "gltf", "glb", "3mf", NULL
-};
+static const char *const model_by_kit[] = { "obj",  "stl", "ast", "ply", "off",
+                                            "gltf", "glb", "3mf", NULL };
 static const char *const model_by_assimp[] = { "3ds", "ac",  "acc",  "amf",  "ase", "b3d",
                                                "cob", "dae", "dxf",  "fbx",  "lwo", "lxo",
                                                "md2", "mdc", "ms3d", "ogex", "q3o", "smd",

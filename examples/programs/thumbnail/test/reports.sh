@@ -73,11 +73,31 @@ f 1 3 4\nf 2 3 4\n" >"$T/hole.obj"
 # glTF as text; the fourth corner is moved by what a file adds
 gltf_head='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]'
 gltf_reports() {
-    for k in KHR_draco_mesh_compression EXT_meshopt_compression KHR_texture_basisu \
-        EXT_texture_webp EXT_made_up; do
+    for k in KHR_draco_mesh_compression KHR_texture_basisu EXT_texture_webp EXT_made_up; do
         printf '%s,"extensionsRequired":["%s"]}' "$gltf_head" $k >"$T/needs.gltf"
         bad_model "$k is needed" needs.gltf "needs.gltf: it needs $k, which is not read"
     done
+    # wedge.obj as gltfpack would pack it
+    for k in EXT KHR; do
+        printf '%s,"extensionsRequired":["%s_meshopt_compression"],"meshes":[{"primitives":[{
+            "attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"count":4,"type":"VEC3",
+            "componentType":5126,"bufferView":0},{"count":12,"type":"SCALAR","componentType":5123,
+            "bufferView":1}],"bufferViews":[{"buffer":1,"byteLength":48,"byteStride":12,"extensions":{
+            "%s_meshopt_compression":{"buffer":0,"byteLength":73,"byteStride":12,"count":4,
+            "mode":"ATTRIBUTES"}}},{"buffer":1,"byteOffset":48,"byteLength":24,"extensions":{
+            "%s_meshopt_compression":{"buffer":0,"byteOffset":73,"byteLength":23,"byteStride":2,
+            "count":12,"mode":"TRIANGLES"}}}],"buffers":[{"byteLength":96,"uri":"data:;base64,oAAAAAE8AA
+AAgH8AAAEPAAAAf4ABDwAAAH59AAABAwAAAP8BAwAAAH4AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAOH+DhID8AQAdod
+WZ3iphmWJaJgBaQAA"},{"byteLength":72}]}' "$gltf_head" $k $k $k | tr -d '\n' | sed 's/  *//g' >"$T/packed.gltf"
+        same "views packed by ${k}_meshopt_compression" wedge.obj packed.gltf 0 "--up y"
+        check "without a word" test ! -s "$T/err"
+    done
+    sed 's/oAAAAAE8/pAAAAAE8/' "$T/packed.gltf" >"$T/wrong.gltf"
+    bad_model "a packed view that is damaged" wrong.gltf "wrong.gltf: a packed view is damaged"
+    sed 's/"count":4,"mode"/"count":400000,"mode"/' "$T/packed.gltf" >"$T/wrong.gltf"
+    bad_model "one of more than it has bytes for" wrong.gltf "wrong.gltf: a packed view is cut off"
+    sed 's/"mode":"TRIANGLES"/"mode":"STRIPS"/' "$T/packed.gltf" >"$T/wrong.gltf"
+    bad_model "another kind of packing" wrong.gltf "packed in a way that is not read"
     cp "$T/needs.gltf" "$T/needs"
     bad_model "nor is it drawn under another name" needs "it needs EXT_made_up, which is not read"
     sed "1s/^/$(printf "$mark")/; s/{/ {\n/" "$T/torus.gltf" >"$T/mark.gltf"
