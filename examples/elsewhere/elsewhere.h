@@ -49,8 +49,8 @@ typedef enum elsewhere_encoding {
 
 /* What lights a point; number is elsewhere_look.number.
      FOUR       iteration four, as shade_lit_lanes
-     SCHLICK    F times number is in the place of k_s, F = k_s + (1 - k_s) 2^((-5.55473 c - 6.98316) c)
-                with c = V.H
+     SCHLICK    F times number is in the place of k_s; with c = V.H,
+                F = k_s + (1 - k_s) 2^((-5.55473 c - 6.98316) c)
      POWER      N.L of the diffuse term becomes (N.L)^number
      STEPS      N.L becomes .7 where it is less than number, also behind, else 1; no highlight
      EXPONENT   k_a + k_s exp(-number (1 - R.V)); no N.L at all
@@ -877,6 +877,72 @@ static inline elsewhere_look elsewhere_opengl(elsewhere_opengl_numbers v)
     k.material.shininess = v.shininess;
     k.flags = SHADE_FLAG_ATTENUATED_AMBIENT;
     k.viewer = v.local_viewer > 0 ? ELSEWHERE_VIEWER_POINT : ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/* Open Inventor and Coin: SoMaterial, (N.H)^(128 shininess) by OpenGL's fixed function, at
+   vertices.  By its specification (SoMaterial of Coin 4.0, OpenGL 2.1), not measured. */
+typedef struct elsewhere_inventor_numbers {
+    shade_vec3 ambientColor, diffuseColor, specularColor, emissiveColor;
+    float shininess;
+} elsewhere_inventor_numbers;
+static inline elsewhere_look elsewhere_inventor(elsewhere_inventor_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissiveColor;
+    k.material.ambient = v.ambientColor;
+    k.material.diffuse = v.diffuseColor;
+    k.material.specular = v.specularColor;
+    k.material.shininess = 128 * v.shininess;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/* Wavefront's MTL: Ka, Kd, Ks, Ke, Ns, illum; (N.H)^Ns.  illum 0 is Kd alone, without light, 1 has
+   no highlight.  By its specification ("Object Files", Alias Wavefront, version 4.2), not measured: no
+   program is the reference.  Blender 3.4 reads it as roughness 1 - sqrt(Ns/1000). */
+typedef struct elsewhere_mtl_numbers {
+    shade_vec3 Ka, Kd, Ks, Ke;
+    float Ns, illum;
+} elsewhere_mtl_numbers;
+static inline elsewhere_look elsewhere_mtl(elsewhere_mtl_numbers v)
+{
+    const shade_vec3 none = { 0, 0, 0 };
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.illum < 1 ? v.Kd : v.Ke;
+    k.material.ambient = v.illum < 1 ? none : v.Ka;
+    k.material.diffuse = v.illum < 1 ? none : v.Kd;
+    k.material.specular = v.illum < 2 ? none : v.Ks;
+    k.material.shininess = v.Ns;
+    return k;
+}
+
+/* Irrlicht 1.8.5, Burning's Video: directional lamps alone, N.L exact, no highlight whatever the
+   Shininess; its point lamps follow a law that was not found.  Measured once, without a table. */
+typedef struct elsewhere_irrlicht_numbers {
+    shade_vec3 DiffuseColor, EmissiveColor;
+} elsewhere_irrlicht_numbers;
+static inline elsewhere_look elsewhere_irrlicht(elsewhere_irrlicht_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = v.EmissiveColor;
+    k.material.diffuse = v.DiffuseColor;
+    return k;
+}
+
+/* MathGL 8.0.1: ambient light (.5) and exp(-3 (1 - R.V)) of white; no N.L at all.  Measured once,
+   without a table. */
+typedef struct elsewhere_mathgl_numbers {
+    shade_vec3 color;
+    float ambient;
+} elsewhere_mathgl_numbers;
+static inline elsewhere_look elsewhere_mathgl(elsewhere_mathgl_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.specular = elsewhere_grey(1);
+    k.law = ELSEWHERE_LAW_EXPONENT;
+    k.number = 3;
     return k;
 }
 

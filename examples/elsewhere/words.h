@@ -53,6 +53,10 @@ ELSEWHERE_ROW(gnuplot, look)
 ELSEWHERE_ROW(mplot3d, look)
 ELSEWHERE_ROW(surfl, look)
 ELSEWHERE_ROW(opengl, look)
+ELSEWHERE_ROW(inventor, look)
+ELSEWHERE_ROW(mtl, look)
+ELSEWHERE_ROW(irrlicht, look)
+ELSEWHERE_ROW(mathgl, look)
 
 static const elsewhere_row elsewhere_rows[] = {
     { "vtk", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
@@ -115,6 +119,13 @@ static const elsewhere_row elsewhere_rows[] = {
       "ambient=.2,.2,.2 diffuse=.8,.8,.8 specular=0,0,0 emission=0,0,0 shininess=0 "
       "local_viewer=0",
       elsewhere_row_opengl, NULL },
+    { "inventor",
+      "ambientColor=.2,.2,.2 diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 "
+      "shininess=.2",
+      elsewhere_row_inventor, NULL },
+    { "mtl", "Ka=0,0,0 Kd=.8,.8,.8 Ks=0,0,0 Ke=0,0,0 Ns=0 illum=2", elsewhere_row_mtl, NULL },
+    { "irrlicht", "DiffuseColor=1,1,1 EmissiveColor=0,0,0", elsewhere_row_irrlicht, NULL },
+    { "mathgl", "color=1,1,1 ambient=.5", elsewhere_row_mathgl, NULL },
     { NULL, NULL, NULL, NULL }
 };
 
