@@ -124,5 +124,5 @@ uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 	@! cd "$(PLACE)" 2>/dev/null || rmdir $(FOLDERS) 2>/dev/null; rmdir "$(PLACE)" 2>/dev/null; true
 
-.PHONY: products programs install uninstall gallery playground course course-zip assignments project questions \
-        format format-check
+.PHONY: products programs install uninstall gallery playground course course-zip assignments \
+        project questions format format-check

@@ -8,12 +8,15 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
+#include "examples/kit/image/apart.h"
 #include "examples/kit/image/pictures.h"
+#include "examples/kit/image/png.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
 #include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/kit/scene/renderer.h"
+#include "examples/elsewhere/words.h"
 #include "examples/kit/scene/deform.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
@@ -775,6 +778,40 @@ void python_heed_pictures(model *m)
     relief_prepare(m, 1);
 }
 
+/* ---- PNG files and their comparison ---------------------------------------------------------- */
+
+/* room for a png, which Python does not look into */
+typedef char python_png_room[sizeof(png) <= 256 ? 1 : -1];
+
+/* Finds what a PNG has; facts: width, height, the bytes that are packed and those that they unpack
+   to.  Returns what is wrong, or NULL. */
+SHADEDEF const char *python_png_open(png *p, const unsigned char *bytes, size_t size,
+                                     double facts[4]);
+const char *python_png_open(png *p, const unsigned char *bytes, size_t size, double facts[4])
+{
+    const char *wrong = png_open(p, bytes, size);
+    facts[0] = p->width;
+    facts[1] = p->height;
+    facts[2] = (double)p->packed;
+    facts[3] = wrong ? 0 : (double)png_bytes(p);
+    return wrong;
+}
+
+SHADEDEF void python_png_gather(const png *p, unsigned char *out);
+void python_png_gather(const png *p, unsigned char *out) { png_gather(p, out); }
+
+SHADEDEF const char *python_png_rgba(const png *p, unsigned char *raw, uint8_t *rgba);
+const char *python_png_rgba(const png *p, unsigned char *raw, uint8_t *rgba)
+{
+    return png_rgba(p, raw, rgba);
+}
+
+SHADEDEF void python_apart(const uint8_t *a, const uint8_t *b, size_t n, int32_t *out);
+void python_apart(const uint8_t *a, const uint8_t *b, size_t n, int32_t *out)
+{
+    apart_bytes(a, b, n, out);
+}
+
 SHADEDEF int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory,
                                    size_t bytes, int squares);
 int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory, size_t bytes,
@@ -837,6 +874,34 @@ int python_part_of(const model *m, int i, python_part *part)
     part->relief = s->relief.picture;
     part->glow = s->glow_picture;
     return m->part_count;
+}
+
+/* ---- materials of other programs, of elsewhere/words.h --------------------------------------- */
+
+/* Row i: "name(numbers)" of a program that has a material, in name and numbers; NULL: no more */
+NATIVE(look_name) const char *python_look_name(int i, const char **numbers);
+const char *python_look_name(int i, const char **numbers)
+{
+    for (const elsewhere_row *row = elsewhere_rows; row->name; row++) {
+        if (!row->look || i--) continue;
+        if (numbers) *numbers = row->numbers;
+        return row->name;
+    }
+    return NULL;
+}
+
+/* The material of text such as "vtk(specular=.5, power=30)", with the model and flags of its light
+   in lit.  Returns 0, or 1 with a sentence in said, of room bytes. */
+NATIVE(look) int python_look(const char *text, shade_material *material, uint32_t *lit, char *said,
+                             int room);
+int python_look(const char *text, shade_material *material, uint32_t *lit, char *said, int room)
+{
+    shade_model kind = SHADE_MODEL_BLINN_PHONG;
+    unsigned flags = 0;
+    const int failed = elsewhere_apply_text(text, material, &kind, &flags, said, (size_t)room);
+    lit[0] = kind;
+    lit[1] = flags;
+    return failed;
 }
 
 /* ---- arguments and cameras, of core/ --------------------------------------------------------- */

@@ -126,6 +126,8 @@ export interface Options {
     /** "quick", three lamps that stay with the camera; "studio", a large lamp and a sky that throw soft
         shadows, also on a ground below; or lamps of your own.  default "quick" */
     light?: "quick" | "studio" | Lighting;
+    /** Another program's material for all meshes, with its model of light: elsewhere.vtk({ power: 30 }). */
+    look?: string;
     /** Where it is seen from: a camera that is fitted to the meshes, or your own; default "iso". */
     view?: Viewpoint | Camera;
     /** [width, height], or one number for both, 1 .. 16384; default [640, 480]. */
@@ -161,6 +163,12 @@ export class ShadeError extends TypeError {}
 
 /** The names of the 24 classic materials. */
 export const PRESETS: readonly string[];
+
+/** Materials of other programs by their own names, as text for the option look:
+    elsewhere.vtk({ specular: 0.5, power: 30 }).  What is left out has the program's default. */
+export const elsewhere: { readonly [program: string]: (numbers?: { [name: string]: number | readonly number[] }) => string };
+/** The programs of elsewhere, each with its numbers and their defaults. */
+export const PROGRAMS: { readonly [program: string]: string };
 
 /** Draws one mesh or several.  Throws ShadeError for a bad
     argument and RangeError where memory is not enough. */

@@ -153,8 +153,12 @@ local function aspect_of(path)
     return (((a * 256 + b) * 256 + c) * 256 + d) / (((e * 256 + f) * 256 + g) * 256 + h)
 end
 local function alt_of(image) return escaped(pandoc.utils.stringify(image.caption)) end
+-- Links to other rooms lead somewhere in the sources alone: in pages and slides they are words.
 local function with_links(blocks, change)
-    return pandoc.walk_block(pandoc.Div(blocks), { Link = change }).content
+    return pandoc.walk_block(pandoc.Div(blocks), { Link = function(link)
+        if link.target:match('^%.%./%.%./') then return link.content end
+        return change(link)
+    end }).content
 end
 
 -- ---- a page
