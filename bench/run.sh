@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
-#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size] [copies] [read] [thumbnails]
+#   run.sh [compare] [levels] [maths] [kernel] [scaling] [normals] [size] [copies] [read] [thumbnails]
 #                            all where none is named
 #   BASE=revision run.sh     this shade.h against that of another revision, frames in turns
 #
@@ -162,6 +162,20 @@ thumbnails() {
     echo
 }
 
+# Normals of vertices; beside those of $BASE where it is set.
+normals_by() {                  # the folder of a shade.h, more flags, what it is called
+    $cc $standard $flags $2 -I"$1" -iquote bench bench/normals.c -o "$build/normals" -lm
+    echo "| $3, a million triangles | ms | bits |"
+    echo "|---|---|---|"
+    $pin "$build/normals" $rounds
+    echo
+}
+normals() {
+    echo "## shade_mesh_normals"
+    echo
+    normals_by . "" "this shade.h"
+}
+
 size_of() {
     echo "## Size"
     echo
@@ -212,6 +226,8 @@ against() {
     $cc $standard $flags -fPIC -shared bench/frames.c -o "$build/frames.so" -lm
     (cd "$old" && $cc $standard $flags $before -fPIC -shared bench/frames.c -o frames.so -lm)
     $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/against.c -o "$build/against" -ldl
+    normals
+    standard=-std=c99 normals_by "$old" "$before" "$BASE"
     for level in ${LEVELS:-3 2 1 0}; do
         echo "## Against $BASE, level $level of 3"
         echo
@@ -224,9 +240,9 @@ if [ -n "${BASE:-}" ]; then
     exit
 fi
 
-for part in ${*:-compare levels maths kernel scaling size copies read thumbnails}; do
+for part in ${*:-compare levels maths kernel scaling normals size copies read thumbnails}; do
     case $part in
-    compare | levels | maths | kernel | scaling | copies | thumbnails) $part ;;
+    compare | levels | maths | kernel | scaling | normals | copies | thumbnails) $part ;;
     size) size_of ;;
     read) read_files ;;
     *)
