@@ -8,7 +8,9 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
+#include "examples/kit/image/apart.h"
 #include "examples/kit/image/pictures.h"
+#include "examples/kit/image/png.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
 #include "examples/kit/scene/stand.h"
@@ -774,6 +776,40 @@ void python_heed_pictures(model *m)
 {
     heed_pictures(m);
     relief_prepare(m, 1);
+}
+
+/* ---- PNG files and their comparison ---------------------------------------------------------- */
+
+/* room for a png, which Python does not look into */
+typedef char python_png_room[sizeof(png) <= 256 ? 1 : -1];
+
+/* Finds what a PNG has; facts: width, height, the bytes that are packed and those that they unpack
+   to.  Returns what is wrong, or NULL. */
+SHADEDEF const char *python_png_open(png *p, const unsigned char *bytes, size_t size,
+                                     double facts[4]);
+const char *python_png_open(png *p, const unsigned char *bytes, size_t size, double facts[4])
+{
+    const char *wrong = png_open(p, bytes, size);
+    facts[0] = p->width;
+    facts[1] = p->height;
+    facts[2] = (double)p->packed;
+    facts[3] = wrong ? 0 : (double)png_bytes(p);
+    return wrong;
+}
+
+SHADEDEF void python_png_gather(const png *p, unsigned char *out);
+void python_png_gather(const png *p, unsigned char *out) { png_gather(p, out); }
+
+SHADEDEF const char *python_png_rgba(const png *p, unsigned char *raw, uint8_t *rgba);
+const char *python_png_rgba(const png *p, unsigned char *raw, uint8_t *rgba)
+{
+    return png_rgba(p, raw, rgba);
+}
+
+SHADEDEF void python_apart(const uint8_t *a, const uint8_t *b, size_t n, int32_t *out);
+void python_apart(const uint8_t *a, const uint8_t *b, size_t n, int32_t *out)
+{
+    apart_bytes(a, b, n, out);
 }
 
 SHADEDEF int python_texture_levels(shade_texture *map, shade_texture *levels, void *memory,

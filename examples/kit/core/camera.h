@@ -221,17 +221,11 @@ typedef struct core_cloud {
 /* From the frame with z upright and -y in front to that of another upright axis */
 static inline void core_upright(int up, const double v[3], double out[3])
 {
-    const int axis = up % 3, one = up < 3;
-    const double p[3] = { v[0], one ? v[1] : -v[1], one ? v[2] : -v[2] };
-    if (axis == 2) memcpy(out, p, sizeof p);
-    if (axis == 1) {
-        const double y[3] = { p[0], p[2], -p[1] };
-        memcpy(out, y, sizeof y);
-    }
-    if (axis == 0) {
-        const double x[3] = { p[2], p[0], p[1] };
-        memcpy(out, x, sizeof x);
-    }
+    const double side = up < 3 ? 1 : -1, p[3] = { v[0], side * v[1], side * v[2] };
+    const int from = up % 3 == 0 ? 2 : 0; /* the place in p that x of out has */
+    out[0] = p[from];
+    out[1] = up % 3 == 0 ? p[0] : up % 3 == 1 ? p[2] : p[1];
+    out[2] = up % 3 == 0 ? p[1] : up % 3 == 1 ? -p[1] : p[2];
 }
 
 /* The way toward the eye, and the way up */

@@ -213,8 +213,8 @@ static inline int core_preset(const char *word)
 {
     for (int i = 0; i < 24; i++) {
         const char *name = shade_preset_name((shade_preset)i), *at = word;
-        while (*name && (*at == *name || ((*at == '_' || *at == '-') && *name == ' ')))
-            at++, name++;
+        for (; *name && (*at == *name || ((*at == '_' || *at == '-') && *name == ' ')); name++)
+            at++;
         if (!*name && !*at) return i;
     }
     return -1;

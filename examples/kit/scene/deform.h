@@ -1,7 +1,7 @@
-/* deform.h - moves the vertices of a mesh of a scene, whose faces stay: nothing is checked, welded,
-   cut into chunks or sorted again, and the bits are those of a new mesh.
+/* deform.h - moves the vertices of a mesh of a scene, whose faces stay: nothing is checked,
+   welded, cut into chunks or sorted again, and the bits are those of a new mesh.
 
-       renderer_moved m = { .positions = p, .vertex_count = n, .faces = f, .index_count = 3 * count };
+       renderer_moved m = { .positions = p, .vertex_count = n, .faces = f, .index_count = 3 * k };
        renderer_deform(scene, number, &m);
 
    Pictures that are being drawn keep the vertices that they began with: two copies of a mesh that
@@ -101,8 +101,8 @@ static inline int renderer_shape_like(renderer_shape *s, const renderer_shape *o
     return 0;
 }
 
-/* Takes the copy that rests, or else makes one of what is drawn, which is held until then.  1: done, 0:
-   out of memory, -1: the mesh has other counts */
+/* Takes the copy that rests, or else makes one of what is drawn, which is held until then.  1:
+   done, 0: out of memory, -1: the mesh has other counts */
 static inline int renderer_take_spare(renderer_scene *scene, int number, const renderer_moved *m,
                                       renderer_shape *s)
 {
@@ -153,8 +153,8 @@ static inline int renderer_put_moved(renderer_scene *scene, int number, renderer
     return 1;
 }
 
-/* Moves the vertices of a mesh.  1: done, 0: out of memory, -1: it has other counts, -2: a position is
-   not finite; but for 1 nothing has changed */
+/* Moves the vertices of a mesh.  1: done, 0: out of memory, -1: it has other counts, -2: a
+   position is not finite; but for 1 nothing has changed */
 static inline int renderer_deform(renderer_scene *scene, int number, const renderer_moved *m)
 {
     renderer_shape s;

@@ -291,7 +291,10 @@ int main(int argc, char **argv)
     mesh_reader r = mesh_of((const unsigned char *)bytes, size, "cases.json", error, sizeof error);
     json_doc j = { 0 };
     int good = 0, all = 0;
-    if (!size || json_read(&r, &j)) return printf("cases: no table %s\n", error), 1;
+    if (!size || json_read(&r, &j)) {
+        printf("cases: no table %s\n", error);
+        return 1;
+    }
     const uint32_t list = json_member(&j, JSON_ROOT, "cases");
     for (uint32_t at = list + 1; at < j.value[list].end; at = j.value[at].end, all++) {
         const int right = run(&j, at);

@@ -13,6 +13,7 @@
 #define SHADE_IMPLEMENTATION
 #define STBI_FAILURE_USERMSG
 #include "shade.h"
+#include "../../kit/image/apart.h"
 #include "../../kit/scene/portrait.h"
 
 static const char usage[] =
@@ -133,7 +134,7 @@ static int read_row(picture *p, int y)
 /* ---- comparing ------------------------------------------------------------------------------ */
 
 typedef struct result {
-    double most, sum, squares, beyond;
+    double most, sums[2], beyond; /* sums: of differences, and of their squares */
     int x, y;
 } result;
 
@@ -158,19 +159,6 @@ typedef struct comparison {
     int png;
 } comparison;
 
-/* How far two pixels are apart */
-static double compare_pixel(result *r, const double *a, const double *b)
-{
-    double most = 0;
-    for (int k = 0; k < 4; k++) {
-        const double d = fabs(a[k] - b[k]);
-        r->sum += d;
-        r->squares += d * d;
-        if (d > most) most = d;
-    }
-    return most;
-}
-
 /* A save_writer: writes the rows of a difference picture, which may be NULL. */
 static int compare_rows(FILE *difference, const void *data)
 {
@@ -187,7 +175,7 @@ static int compare_rows(FILE *difference, const void *data)
             const double *one = x < a->width && y < a->height ? a->row + 4 * x : NULL;
             const double *other = x < b->width && y < b->height ? b->row + 4 * x : NULL;
             const int both = one && other;
-            const double most = both ? compare_pixel(r, one, other) : 255;
+            const double most = both ? apart_pixel(one, other, r->sums) : 255;
             if (most > r->most) {
                 r->most = most;
                 r->x = x;
@@ -349,8 +337,8 @@ static int print(const comparison *c, const options *o)
     const result *r = c->result;
     const int sized = a->width == b->width && a->height == b->height;
     const int channels = a->channels % 2 && b->channels % 2 ? 3 : 4; /* 2 or 4: with alpha */
-    const double pixels = (double)c->width * c->height, square = r->squares / (channels * pixels);
-    const double mean = r->sum / (channels * pixels);
+    const double pixels = (double)c->width * c->height, square = r->sums[1] / (channels * pixels);
+    const double mean = r->sums[0] / (channels * pixels);
     const double allowed = o->percent ? floor(o->count * pixels / 100) : floor(o->count);
     const int status = sized && r->beyond <= allowed ? SAME : DIFFERENT;
     const char *word = status == SAME ? "same" : "different";

@@ -160,7 +160,7 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     room is how much deeper than the points the picture reaches, as a part of their extent.  Points
     with NaN or infinity do not count.
     """
-    side = Side(*_angles(view, up), *size, arguments.flag("ortho", ortho),
+    side = Side(*_angles(view, up), *arguments.size("size", size), arguments.flag("ortho", ortho),
                 *(arguments.number(name, value) for name, value in (("fov", fov), ("margin", margin), ("room", room))))
     at = arguments.floats("points", points, (None, 3))
     return _moved(_made(library.python_fit, ctypes.byref(side), at, len(at)), origin)

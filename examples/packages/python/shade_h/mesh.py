@@ -215,6 +215,7 @@ class Mesh:
         order, runs, looks = self._sorted(surfaces, np.asarray(_listed(faces)), texture)
         if order is not None:
             self.faces = np.ascontiguousarray(self.faces[order])
+            arguments.dimensions("color", color)
             tints = None if isinstance(color, str) else np.asarray(color)
             if tints is not None and tints.ndim == 2 and len(tints) == len(order) and \
                     len(order) != len(self.local):
@@ -319,8 +320,7 @@ class Mesh:
         if color is None or isinstance(color, str):
             self.color = None if color is None else arguments.color("color", color)
             return False
-        got = np.asarray(color)
-        if got.ndim == 1:
+        if arguments.dimensions("color", color) == 1:
             self.color = arguments.color("color", color)
             return False
         self.colors = arguments.linear("color", color)

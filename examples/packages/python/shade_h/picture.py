@@ -1,6 +1,7 @@
 """Pictures: arrays, PNG files, and tests against golden ones."""
 from __future__ import annotations
 
+import ctypes
 import errno
 import os
 import stat
@@ -14,7 +15,7 @@ from typing import Any, BinaryIO, Union
 import numpy as np
 
 from ._arguments import array, integer, shown
-from ._native import Bytes, Doubles, Error, Floats, Integers
+from ._native import Bytes, Doubles, Error, Floats, Integers, library, pointer
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 File = Union[str, bytes, "os.PathLike[str]"]
@@ -202,26 +203,31 @@ class Picture:
 
     @staticmethod
     def open(path: Any) -> Picture:
-        """Reads a PNG file of 8-bit RGB or RGBA that is not interlaced: a path, or an open file."""
+        """Reads a PNG file, a path or an open file: grey, palette, RGB and RGBA of every depth, of
+        which 16 bits are rounded to 8."""
         if callable(getattr(path, "read", None)):
             return Picture(_decode(path.read(), "the file"))
         return Picture(_decode(read_file(path, PICTURE_BYTES), os.fsdecode(path)))
 
     def __eq__(self, other: object) -> bool:
-        """Are all pixels the same?"""
+        """Are all bytes the same, those of pixels that cannot be seen too?"""
         return isinstance(other, Picture) and np.array_equal(self.rgba, other.rgba)
 
     __hash__ = None  # type: ignore[assignment]
 
     def difference(self, other: Picture) -> Integers:
-        """The greatest difference of the channels of each pixel, (H, W), 0 .. 255."""
+        """The greatest difference of the channels of each pixel, (H, W), 0 .. 255, rounded upward.
+        Colours count as much as they cover, as shade-compare has it: with alpha 0 any two are the
+        same."""
         if not isinstance(other, Picture):
             raise Error(f"other must be a Picture, not {shown(other)}")
         if self.size != other.size:
             raise Error(f"other must be {self.size[0]} x {self.size[1]}, "
                         f"not {other.size[0]} x {other.size[1]}")
-        apart = np.abs(self.rgba.astype(np.int32) - other.rgba.astype(np.int32))
-        return np.asarray(apart.max(2), np.int32)
+        one, two = (np.ascontiguousarray(picture.rgba) for picture in (self, other))
+        apart = np.empty(one.shape[:2], np.int32)
+        library.python_apart(pointer(one), pointer(two), apart.size, pointer(apart))
+        return apart
 
 
 def _percent(part: float) -> str:
@@ -296,68 +302,32 @@ def _encode(rows: Bytes, opaque: bool) -> bytes:
 
 def _decode(data: bytes, name: str) -> Bytes:
     """The pixels of a PNG file."""
-    if not data.startswith(SIGNATURE):
-        raise Error(f"{name} is no PNG file")
-    place, packed, head = len(SIGNATURE), [], b""
-    while place + 12 <= len(data):
-        length = int.from_bytes(data[place:place + 4], "big")
-        kind, body = data[place + 4:place + 8], data[place + 8:place + 8 + length]
-        head = body if kind == b"IHDR" else head
-        packed += [body] if kind == b"IDAT" else []
-        place += 12 + length
-    if len(head) != 13:
-        raise Error(f"{name} has no header")
-    width, height, bits, kind_of, _, _, interlaced = struct.unpack(">IIBBBBB", head)
-    channels = {2: 3, 6: 4}.get(kind_of, 0)
-    if bits != 8 or not channels or interlaced or not 0 < width <= 16384 >= height > 0:
-        raise Error(f"{name} must be RGB or RGBA of 8 bits, not interlaced")
-    if width * height > PIXELS:
-        raise Error(f"{name} has {width} x {height} pixels; at most {PIXELS} are read")
-    wanted = height * (1 + width * channels)
+    file, facts = ctypes.create_string_buffer(256), np.zeros(4)
+
+    def refuse(wrong: Any) -> None:
+        if wrong:
+            raise Error(f"{name} {wrong.decode()}")
+
+    refuse(library.python_png_open(file, data, len(data), pointer(facts)))
+    width, height, packed, wanted = (int(fact) for fact in facts)
+    if max(width, height) > 16384 or width * height > PIXELS:
+        raise Error(f"{name} has {width} x {height} pixels; at most {PIXELS} are read, and 16384 a side")
+    parts = np.empty(packed, np.uint8)
+    library.python_png_gather(file, pointer(parts))
     try:
-        lines = zlib.decompressobj().decompress(b"".join(packed), wanted)
+        lines = np.frombuffer(bytearray(zlib.decompressobj().decompress(parts, wanted)), np.uint8)
     except zlib.error as why:
         raise Error(f"{name}: {why}") from None
     if len(lines) != wanted:
         raise Error(f"{name} ends early")
-    rows = _unfilter(np.frombuffer(lines, np.uint8).reshape(height, -1), channels, name)
-    rgba = np.full((height, width, 4), 255, np.uint8)
-    rgba[:, :, :channels] = rows.reshape(height, width, channels)
+    rgba = np.empty((height, width, 4), np.uint8)
+    refuse(library.python_png_rgba(file, pointer(lines), pointer(rgba)))
     return rgba
 
 
-def _unfilter(lines: Bytes, step: int, name: str) -> Bytes:
-    rows = np.zeros((lines.shape[0], lines.shape[1] - 1), np.uint8)
-    above = np.zeros(lines.shape[1] - 1, np.uint8)
-    for y, line in enumerate(lines):
-        if line[0] > 4:
-            raise Error(f"{name} has an unknown filter")
-        if line[0] in (0, 2):
-            rows[y] = line[1:] + (above if line[0] else 0)
-        elif line[0] == 1:
-            rows[y] = np.cumsum(line[1:].reshape(-1, step), 0, dtype=np.uint8).reshape(-1)
-        else:
-            rows[y] = _predicted(line, above, step)
-        above = rows[y]
-    return rows
-
-
-def _predicted(line: Bytes, above: Bytes, step: int) -> Bytes:
-    """A row that is stored as the difference from a mean, or from Paeth's choice."""
-    row, up, source = [0] * step, [0] * step + above.tolist(), line[1:].tolist()
-    for i, value in enumerate(source):
-        a, b, c = row[i], up[i + step], up[i]
-        guess = (a + b) // 2
-        if line[0] == 4:
-            p = a + b - c
-            near = (abs(p - a), abs(p - b), abs(p - c))
-            guess = (a, b, c)[near.index(min(near))]
-        row.append(value + guess & 255)
-    return np.array(row[step:], np.uint8)
-
-
 def assert_same(picture: Picture, golden: File, limit: int = 0) -> None:
-    """Raises AssertionError where a picture differs from a golden file by more than limit.
+    """Raises AssertionError where a picture differs from a golden file by more than limit, as
+    difference has it: what cannot be seen does not count.
 
     Then NAME.got.png and NAME.difference.png appear beside the golden file.  Where there is no
     golden file, the picture is written as NAME.got.png: look at it, and rename it.

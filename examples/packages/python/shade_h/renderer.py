@@ -459,6 +459,7 @@ class Renderer:
 
     def _make_texture(self, picture: object, wrap: tuple[str, str], squares: bool,
                       number: int | None, colors: bool = True) -> int:
+        arguments.dimensions("picture", picture)
         given = np.asarray(picture)
         faces = 6 if given.ndim == 4 else 1
         if faces == 6:
@@ -490,7 +491,7 @@ class Renderer:
         """Puts another picture in the place of a texture, as texture() takes it; objects and a sky that
         have the texture show it."""
         self._texture_number("number", number)
-        if (np.asarray(picture).ndim == 4) != (self._textures[number][2] == 6):
+        if (arguments.dimensions("picture", picture) == 4) != (self._textures[number][2] == 6):
             raise Error(f"picture: texture {number} is {'' if self._textures[number][2] == 6 else 'no '}"
                         "cube, and the picture is not")
         self._make_texture(picture, wrap, squares, number)
@@ -510,7 +511,8 @@ class Renderer:
         """A texture of 2 x 2 squares, which repeats."""
         squares = np.zeros((64, 64, 3), np.uint8)
         odd = (np.arange(64)[:, None] < 32) ^ (np.arange(64)[None] < 32)
-        for color, where in ((one, odd), (other, ~odd)):
+        for name, color, where in (("one", one, odd), ("other", other, ~odd)):
+            arguments.color(name, color)    # refuses what is none
             shown = arguments.displayed("color", color)[:3]
             squares[where] = shown if shown.dtype.kind in "iu" else np.round(255 * shown)
         return self.texture(squares)
@@ -605,7 +607,7 @@ class Renderer:
         records["rgba"][:, 3] *= own * arguments.number("alpha", options.get("alpha", 1), 0, 1)
         for name in ("specular", "shininess", "emission"):
             value: Any = options.get(name)
-            if name == "specular" and (np.ndim(value) == 1 or isinstance(value, str)):
+            if name == "specular" and (arguments.dimensions(name, value) == 1 or isinstance(value, str)):
                 records[name] = self._color(name, value)
             elif value is not None:
                 records[name] = arguments.number(name, value, 0, 1e6)
@@ -631,13 +633,17 @@ class Renderer:
 
     @staticmethod
     def _size(shape: str | Shape, size: object) -> Floats:
+        given: object = size if isinstance(size, (list, tuple, range)) or isinstance(size, np.ndarray) and size.ndim else [size]
         if isinstance(shape, Shape):
-            scale = np.ones(3) if size is None else np.broadcast_to(np.asarray(size, float), 3)
-            return arguments.floats("size", scale, (3,), True)
+            scale: Floats = np.ones(1, np.float32) if size is None else \
+                arguments.floats("size", given, (None,), True)
+            return arguments.floats("size", np.repeat(scale, 3) if len(scale) == 1 else scale, (3,), True)
         wanted = SHAPES[shape]
         if size is None and shape == "plane":
             return np.zeros(3, np.float32)
-        got = arguments.floats("size", np.atleast_1d(np.asarray(size, float)), (wanted,), True)
+        if size is None:
+            raise Error(f"size of a {shape} is missing")
+        got = arguments.floats("size", given, (wanted,), True)
         if not (got > 0).all():
             raise Error(f"size of a {shape} must be positive, not {arguments.shown(size)}")
         full = {"sphere": [0, 0, 0], "capsule": [0, 0, 1], "cylinder": [0, 0, 1],
@@ -677,7 +683,7 @@ class Renderer:
     def poses(self, poses: object, numbers: Sequence[int] | None = None) -> None:
         """Moves the objects of numbers, or all in the order of their numbers: (n, 4, 4), a row for each;
         nothing moves where one is refused."""
-        which = None if numbers is None else list(numbers)
+        which = None if numbers is None else arguments.several("numbers", numbers)
         for i, number in enumerate(which or ()):
             self._options(f"numbers[{i}]", number)
         count = len(self._shown) if which is None else len(which)
@@ -819,7 +825,8 @@ class Renderer:
         """New arrays for render(out=), or for so many pictures of render_batch(out=)."""
         for name, wanted in (("color", color), ("depth", depth), ("ids", ids), ("normals", normals)):
             arguments.flag(name, wanted)
-        size = (*(() if pictures is None else (pictures,)), self.height, self.width)
+        count = () if pictures is None else (arguments.integer("pictures", pictures, 0, 2**31 - 1),)
+        size = (*count, self.height, self.width)
         return Frame(np.empty((*size, 3), np.uint8) if color else None,
                      np.empty(size, np.float32) if depth else None,
                      np.empty((*size, 2), np.int32) if ids else None,
@@ -856,7 +863,7 @@ class Renderer:
         if poses is not None:
             moved = arguments.doubles("poses", poses, (None, len(self._shown), 4, 4))
         seen = [cameras] * (1 if moved is None else len(moved)) if isinstance(cameras, Camera) \
-            else list(cameras)
+            else arguments.several("cameras", cameras)
         if moved is not None and len(moved) != len(seen):
             raise Error(f"poses must have a row for each of {len(seen)} cameras, not {len(moved)}")
         shots = [self._seen(f"cameras[{i}]", camera) for i, camera in enumerate(seen)]
@@ -964,7 +971,7 @@ def _float(name: str, value: object) -> float:
     """Any number, infinity and NaN too, as a float has it."""
     try:
         return ctypes.c_float(value).value    # type: ignore[arg-type]
-    except TypeError:
+    except (TypeError, ValueError, OverflowError):
         raise Error(f"{name} must be a number, not {arguments.shown(value)}") from None
 
 

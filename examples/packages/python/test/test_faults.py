@@ -105,7 +105,8 @@ def test_a_picture_that_unpacks_to_more_than_it_says_takes_no_memory(tmp_path):
     small = shade.Picture(np.zeros((4, 4, 4), np.uint8)).png()
     at = small.index(b"IDAT") - 4
     bomb = zlib.compress(bytes(300_000_000), 9)
-    forged = small[:at] + len(bomb).to_bytes(4, "big") + b"IDAT" + bomb + bytes(4) + small[-12:]
+    forged = small[:at] + len(bomb).to_bytes(4, "big") + b"IDAT" + bomb + \
+        zlib.crc32(b"IDAT" + bomb).to_bytes(4, "big") + small[-12:]
     (tmp_path / "b.png").write_bytes(forged)
     program = "import resource, sys, shade_h\n" \
         "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n" \
@@ -115,6 +116,7 @@ def test_a_picture_that_unpacks_to_more_than_it_says_takes_no_memory(tmp_path):
     subprocess.run([sys.executable, "-c", program, tmp_path / "b.png"], check=True)
     wide = bytearray(small)
     wide[16:24] = (16384).to_bytes(4, "big") * 2
+    wide[29:33] = zlib.crc32(wide[12:29]).to_bytes(4, "big")
     with pytest.raises(shade.Error, match="at most"):
         shade.Picture.open(io.BytesIO(bytes(wide)))
 

@@ -6,6 +6,7 @@ import struct
 import subprocess
 import sys
 import threading
+import zlib
 
 import numpy as np
 import pytest
@@ -345,3 +346,92 @@ def test_edges_of_a_box_are_dark_lines():
     rows = np.argwhere(got[:, 50] < 400).reshape(-1)
     assert bare[:, 50].min() > 400 and len(rows) >= 2
     assert (np.minimum(np.abs(rows - 3), np.abs(rows - 96)) <= 3).all()
+
+
+KINDS = {"L": (1, 2, 4, 8, 16), "RGB": (8, 16), "P": (1, 2, 4, 8), "LA": (8, 16), "RGBA": (8, 16)}
+
+
+def png_of(rng, kind, depth, interlaced, width=13, height=11, clear=False, filters=range(5)):
+    """A PNG of random samples, with all filters, and its samples (H, W, channels)."""
+    channels = {"L": 1, "RGB": 3, "P": 1, "LA": 2, "RGBA": 4}[kind]
+    samples = rng.integers(0, 1 << depth, (height, width, channels))
+    passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
+    raw, step = b"", max(1, channels * depth // 8)
+    for x, y, right, down in passes if interlaced else [(0, 0, 1, 1)]:
+        part = samples[y::down, x::right]
+        above = None
+        for i, row in enumerate(part if part.shape[1] else []):
+            bits = "".join(f"{v:0{depth}b}" for v in row.reshape(-1))
+            bits += "0" * (-len(bits) % 8)
+            own = np.array([int(bits[k:k + 8], 2) for k in range(0, len(bits), 8)])
+            up = np.zeros_like(own) if above is None else above
+            left, corner = (np.concatenate([np.zeros(step, int), line])[:len(own)] for line in (own, up))
+            near = left + up - corner
+            away = np.stack([abs(near - left), abs(near - up), abs(near - corner)])
+            paeth = np.choose(away.argmin(0), [left, up, corner])
+            which = list(filters)[i % len(list(filters))]
+            guess = [0 * own, left, up, (left + up) // 2, paeth][which]
+            raw += bytes([which]) + ((own - guess) % 256).astype(np.uint8).tobytes()
+            above = own
+
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    palette = rng.integers(0, 256, (1 << depth, 3), np.uint8) if kind == "P" else None
+    more = chunk(b"PLTE", palette.tobytes()) if kind == "P" else b""
+    more += chunk(b"tRNS", bytes(range(min(256, 1 << depth))) if kind == "P" else
+                  b"".join(struct.pack(">H", v) for v in samples[0, 0])) if clear else b""
+    head = struct.pack(">IIBBBBB", width, height, depth, {"L": 0, "RGB": 2, "P": 3, "LA": 4, "RGBA": 6}[kind],
+                       0, 0, int(interlaced))
+    packed = zlib.compress(raw)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + more + chunk(b"IDAT", packed[:50]) + \
+        chunk(b"IDAT", packed[50:]) + chunk(b"IEND", b""), samples, palette
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_png_of_every_kind_is_read(kind):
+    rng = np.random.default_rng(3)
+    for depth in KINDS[kind]:
+        for interlaced in (False, True):
+            for clear in (False, True)[:1 + (len(kind) in (1, 3))]:
+                for width, height in ((13, 11), (1, 1), (3, 2)):
+                    data, samples, palette = png_of(rng, kind, depth, interlaced, width, height, clear)
+                    want = np.full((height, width, 4), 255, np.uint8)
+                    shown = palette[samples[..., 0]] if kind == "P" else \
+                        np.floor(samples * 255 / ((1 << depth) - 1) + 0.5).astype(np.uint8)
+                    want[..., :3] = shown[..., :3] if shown.shape[2] > 2 else shown[..., :1]
+                    if "A" in kind:
+                        want[..., 3] = shown[..., -1]
+                    if clear:
+                        want[..., 3] = samples[..., 0] if kind == "P" else \
+                            np.where((samples == samples[0, 0]).all(-1), 0, 255)
+                    assert (shade.Picture.open(io.BytesIO(data)).rgba == want).all(), (depth, interlaced)
+
+
+def test_png_that_is_damaged_is_refused():
+    data = png_of(np.random.default_rng(4), "RGB", 8, False)[0]
+    refused = 0
+    for i in range(8, len(data)):
+        changed = bytearray(data)
+        changed[i] ^= 4
+        with pytest.raises(shade.Error):
+            shade.Picture.open(io.BytesIO(bytes(changed)))
+        with pytest.raises(shade.Error):
+            shade.Picture.open(io.BytesIO(data[:i]))
+        refused += 1
+    assert refused == len(data) - 8
+    with pytest.raises(shade.Error, match="checksum is wrong"):
+        shade.Picture.open(io.BytesIO(data[:60] + bytes([data[60] ^ 1]) + data[61:]))
+
+
+def test_what_cannot_be_seen_is_no_difference(tmp_path):
+    """As shade-compare has it; == tells bytes apart."""
+    one, two = np.zeros((2, 2, 4), np.uint8), np.full((2, 2, 4), 90, np.uint8)
+    two[..., 3] = 0
+    assert shade.Picture(one) != shade.Picture(two)
+    assert shade.Picture(one).difference(shade.Picture(two)).max() == 0
+    shade.Picture(two).save(tmp_path / "golden.png")
+    shade.assert_same(shade.Picture(one), tmp_path / "golden.png")
+    half, other = np.full((1, 1, 4), 100, np.uint8), np.full((1, 1, 4), 100, np.uint8)
+    other[..., 0] = 103    # by 3 * 100 / 255, which is more than 1
+    assert shade.Picture(half).difference(shade.Picture(other)).tolist() == [[2]]
