@@ -957,10 +957,10 @@ static inline elsewhere_look elsewhere_mathgl(elsewhere_mathgl_numbers v)
 }
 
 /* seen.js 0.2.7: seen.Material with the Phong shader, colours of 0 to 1 in place of 0 to 255; a
-   lamp of intensity i, .01 by default, is a lamp of colour i here.  color (255 i N.L +
-   specularColor i (.5 + R.V)^specularExponent) where N.L > 0: the base is up to 1.5, which makes 438 of the default
-   exponent 15, and the highlight has the surface's colour.  V is the axis.  Measured; shaders of
-   its source. */
+   lamp of intensity i, .01 by default, is a lamp of colour i here.  Where N.L > 0 it gives
+   color (255 i N.L + specularColor i (.5 + R.V)^specularExponent).  The base is up to 1.5, which
+   makes 438 of the default exponent 15; the highlight has the surface's colour.  V is the axis.
+   Measured; shaders of its source. */
 typedef struct elsewhere_seen_numbers {
     shade_vec3 color, specularColor;
     float specularExponent;
