@@ -54,14 +54,16 @@ typedef enum elsewhere_encoding {
      POWER      N.L of the diffuse term becomes (N.L)^number
      STEPS      N.L becomes .7 where it is less than number, also behind, else 1; no highlight
      EXPONENT   k_a + k_s exp(-number (1 - R.V)); no N.L at all
-     SIGNED     k_a + k_d N.L, which is negative behind */
+     SIGNED     k_a + k_d N.L, which is negative behind
+     SHIFTED    (number + R.V)^n in place of (R.V)^n; below 0 where n is an odd number */
 typedef enum elsewhere_law {
     ELSEWHERE_LAW_FOUR = 0,
     ELSEWHERE_LAW_SCHLICK,
     ELSEWHERE_LAW_POWER,
     ELSEWHERE_LAW_STEPS,
     ELSEWHERE_LAW_EXPONENT,
-    ELSEWHERE_LAW_SIGNED
+    ELSEWHERE_LAW_SIGNED,
+    ELSEWHERE_LAW_SHIFTED
 } elsewhere_law;
 
 /* A material of another program */
@@ -388,6 +390,14 @@ static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_li
         const float turn = 1 - shade_dot(shade_mirror(L, p.N), p.V);
         return shade_scale(shade_mul(k->material.specular, lamp->specular),
                            amount * shade_power(0.36787944f, k->number * turn));
+    }
+    if (k->law == ELSEWHERE_LAW_SHIFTED) {
+        const float base = k->number + shade_dot(shade_mirror(L, p.N), p.V);
+        const float lobe = powf(base, k->material.shininess);
+        const shade_vec3 k_s = shade_mul(k->material.specular, lamp->specular);
+        const shade_vec3 k_d = shade_mul(k->material.diffuse, lamp->diffuse);
+        return shade_scale(shade_madd(shade_scale(k_d, cosine), lobe, k_s),
+                           cosine > 0 ? amount : 0);
     }
     if (k->law == ELSEWHERE_LAW_STEPS) weight = cosine < k->number ? 0.7f : 1;
     if (k->law == ELSEWHERE_LAW_POWER) weight = cosine > 0 ? shade_power(cosine, k->number) : 0;
@@ -899,8 +909,8 @@ static inline elsewhere_look elsewhere_inventor(elsewhere_inventor_numbers v)
 }
 
 /* Wavefront's MTL: Ka, Kd, Ks, Ke, Ns, illum; (N.H)^Ns.  illum 0 is Kd alone, without light, 1 has
-   no highlight.  By its specification ("Object Files", Alias Wavefront, version 4.2), not measured: no
-   program is the reference.  Blender 3.4 reads it as roughness 1 - sqrt(Ns/1000). */
+   no highlight.  By its specification ("Object Files", Alias Wavefront, version 4.2), not measured:
+   no program is the reference.  Blender 3.4 reads it as roughness 1 - sqrt(Ns/1000). */
 typedef struct elsewhere_mtl_numbers {
     shade_vec3 Ka, Kd, Ks, Ke;
     float Ns, illum;
@@ -943,6 +953,29 @@ static inline elsewhere_look elsewhere_mathgl(elsewhere_mathgl_numbers v)
     k.material.specular = elsewhere_grey(1);
     k.law = ELSEWHERE_LAW_EXPONENT;
     k.number = 3;
+    return k;
+}
+
+/* seen.js 0.2.7: seen.Material with the Phong shader, colours of 0 to 1 in place of 0 to 255; a
+   lamp of intensity i, .01 by default, is a lamp of colour i here.  Where N.L > 0 it gives
+   color (255 i N.L + specularColor i (.5 + R.V)^specularExponent).  The base is up to 1.5, which
+   makes 438 of the default exponent 15; the highlight has the surface's colour.  V is the axis.
+   Measured; shaders of its source. */
+typedef struct elsewhere_seen_numbers {
+    shade_vec3 color, specularColor;
+    float specularExponent;
+} elsewhere_seen_numbers;
+static inline elsewhere_look elsewhere_seen(elsewhere_seen_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, 255);
+    k.material.diffuse = v.color;
+    k.material.specular = shade_mul(v.color, v.specularColor);
+    k.material.shininess = v.specularExponent;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.diffuse = 255;
+    k.law = ELSEWHERE_LAW_SHIFTED;
+    k.number = 0.5f;
     return k;
 }
 

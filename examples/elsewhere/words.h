@@ -57,6 +57,7 @@ ELSEWHERE_ROW(inventor, look)
 ELSEWHERE_ROW(mtl, look)
 ELSEWHERE_ROW(irrlicht, look)
 ELSEWHERE_ROW(mathgl, look)
+ELSEWHERE_ROW(seen, look)
 
 static const elsewhere_row elsewhere_rows[] = {
     { "vtk", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
@@ -126,6 +127,7 @@ static const elsewhere_row elsewhere_rows[] = {
     { "mtl", "Ka=0,0,0 Kd=.8,.8,.8 Ks=0,0,0 Ke=0,0,0 Ns=0 illum=2", elsewhere_row_mtl, NULL },
     { "irrlicht", "DiffuseColor=1,1,1 EmissiveColor=0,0,0", elsewhere_row_irrlicht, NULL },
     { "mathgl", "color=1,1,1 ambient=.5", elsewhere_row_mathgl, NULL },
+    { "seen", "color=.5,.5,.5 specularColor=1,1,1 specularExponent=15", elsewhere_row_seen, NULL },
     { NULL, NULL, NULL, NULL }
 };
 
