@@ -51,7 +51,7 @@ int main(int argc, char **argv)
     shade_vec3 color[BALLS];
     shade_light lamp = shade_point_light(shade_v3(-3, 0.9f, 0.8f), white);
     balls scene = { BALLS, place, color, .floor = { 0.8f, 0.77f, 0.72f }, .no_shadows = 1,
-                    .eye = { -0.9f, 1.8f, 6 }, .lighting = { &lamp, 1 } };
+                    .eye = { -0.9f, 1.8f, 6 }, .lighting = { .lights = &lamp, .light_count = 1 } };
     canvas c = canvas_new(960, 38 + 3 * ROW, 2);
 
     for (int i = 0; i < BALLS; i++) {    /* i + 1 away from the lamp, .8 behind and .5 below it */

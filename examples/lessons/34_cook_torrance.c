@@ -47,7 +47,7 @@ int main(int argc, char **argv)
     owned_mesh pot = shape_teapot(32);
     scene s = { .place = { .mesh = &pot, .model = shade_mat4_identity() } };
     shade_pipeline pipeline = { mesh_vertex, metal, &s, .varyings = 8 };
-    shade_draw_state state = { .material = &gold, .lighting = { s.lamp, 4 } };
+    shade_draw_state state = { .material = &gold, .lighting = { s.lamp, .light_count = 4 } };
     const shade_mat4 lens[2] = { shade_mat4_perspective(0.46f, 480 / 340.0f, 1, 20),
                                  shade_mat4_frustum(-.173f, -.131f, .093f, .122f, 1, 20) };
     canvas c = canvas_new(960, 490, 2);

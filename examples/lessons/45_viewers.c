@@ -48,7 +48,7 @@ int main(int argc, char **argv)
     const shade_material glaze = { none, clay, clay, { 0.6f, 0.6f, 0.6f }, 30 };
     const float half = 1.5f * SIZE / (SIZE - 2 * EDGE);
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.7f, -1), white);
-    shade_draw_state state = { .material = &glaze, .lighting = { &lamp, 1 } };
+    shade_draw_state state = { .material = &glaze, .lighting = { &lamp, .light_count = 1 } };
     owned_mesh ball = mesh_sphere(96, 48);
     canvas c = canvas_new(960, 550, SAMPLES);
 

@@ -52,7 +52,8 @@ int main(int argc, char **argv)
                   shade_point_light(shade_v3(4, 1.5f, 2.5f), shade_v3(1.5f, .5f, .1f)),
                   shade_spot_light(shade_v3(-2, 2, 8), shade_v3(1, -2, -6), 0.11f, 90, grey) },
                 { 0, 5, 13 } };
-    shade_draw_state state = { .material = &s.k, .uniforms = &s, .lighting = { s.lamp, LAMPS } };
+    shade_draw_state state = { .material = &s.k, .uniforms = &s,
+                               .lighting = { .lights = s.lamp, .light_count = LAMPS } };
     owned_mesh pot = shape_teapot(16);
     canvas c = canvas_new(960, 340, 1);
     shade_target panel[3];

@@ -202,8 +202,10 @@ static int get_ready(batch *b)
 static void describe(batch *b)
 {
     const model_options *o = &b->scene.how;
-    const int words[] = { o->up,    o->plain,   o->no_shadow,      o->quick,        o->viewed,
-                          o->model, o->section, o->section_placed, (int)o->shading, o->outside };
+    const int words[] = {
+        o->up,         o->plain,   o->no_shadow,      o->quick,        o->viewed,
+        (int)o->model, o->section, o->section_placed, (int)o->shading, o->outside
+    };
     const scene *s = &b->scene;
     const float numbers[] = { o->azimuth, o->elevation, o->zoom, (float)o->section_at,
                               b->begin,   s->pitch,     s->zoom, s->place.x,
