@@ -536,7 +536,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
-    if is_file(value):
+    if isinstance(value, (str, bytes, os.PathLike)) or is_file(value):
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
