@@ -29,12 +29,12 @@ NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/
 # those of README, which read well when they are small
 POSTER   = 27_exponent 29_grazing 14_two_sided 04_interpolation 07_shaders 24_maps 39_bricks \
            40_fog 22_shadow 21_transparency 37_rays 12_edges
-ROOMS    = lessons shared pictures
+ROOMS    = lessons shared pictures elsewhere elsewhere/test
 HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
 vpath %.c $(ROOMS:%=examples/%)
 
 all: pictures
-pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm out/knot.ppm
+pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm out/knot.ppm out/elsewhere.ppm
 # programs, packages and courses, which a tarball of the core leaves out
 -include examples/products.mk
 
@@ -54,6 +54,11 @@ out/%.ppm: build/%
 	build/$* $@ >out/$*.txt
 out/gallery.ppm: build/contact $(POSTER:%=out/%.ppm)
 	build/contact $@ $(POSTER:%=out/%.ppm)
+
+# other programs' balls beside shade.h's
+out/elsewhere.ppm: build/nine $(wildcard examples/elsewhere/tables/*)
+	@mkdir -p out
+	build/nine $@
 
 # README's program: its first block of C
 build/knot.c: README.md
@@ -111,8 +116,7 @@ vector-report:
 	@sh tests/scripts/vector_report.sh
 help:
 	@sed -n '/^#/!q; s/^# \{0,1\}//p' Makefile
-	@[ ! -f examples/products.mk ] || echo
-	@sed -n '/^#/!q; s/^# \{0,1\}//p' examples/products.mk 2>/dev/null
+	@f=examples/products.mk; [ ! -f $$f ] || { echo; sed -n '/^#/!q; s/^# \{0,1\}//p' $$f; }
 lint:
 	@sh tests/scripts/lint.sh
 findings:

@@ -3,8 +3,8 @@
 
    shade.h computes emission, ambient, Lambert, Phong and Blinn-Phong light ("iteration four" of the
    graphics courses) over any number of directional, point and spot lights.  It has the vector and
-   matrix maths that this needs, and a small, fast triangle rasterizer with programmable vertex and
-   fragment shaders to see it with.  It allocates nothing, keeps no global state, starts no threads
+   matrix maths that this needs, and a small, fast triangle rasterizer with vertex and fragment
+   shaders that displays the result.  It allocates nothing, keeps no global state, starts no threads
    and draws into memory that you own.  Every compiler and processor produces the same pixels, to
    the bit, because all arithmetic is IEEE single and double precision and is never contracted.
    Compile your own shaders with -ffp-contract=off (>>plumbing, "Fast math").
@@ -53,39 +53,40 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     134  options               >>types      268  materials, targets, states
-       >>light      453  the equation, colour  >>draw       562  shaders, meshes, pixels
-       >>tools      721  explain, lines, rays  >>plumbing   934  compilers, flags and bits
-       >>math      1100  vectors and matrices
+       >>config     135  options               >>types      269  materials, targets, states
+       >>light      455  the equation, colour  >>draw       564  shaders, meshes, pixels
+       >>tools      723  explain, lines, rays  >>plumbing   936  compilers, flags and bits
+       >>math      1103  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1468  processors            >>base      1715  bits, masks, rows of vectors
-       >>matrix    1912  cameras, inverses     >>power     2200  x^n
-       >>pixels    2266  formats, sRGB
+       >>machine   1471  processors            >>base      1718  bits, masks, rows of vectors
+       >>matrix    1916  cameras, inverses     >>power     2204  x^n
+       >>pixels    2270  formats, sRGB
      Inside: light
-       >>lamps     2577  attenuation, cones    >>terms     2829  one term at one point
-       >>surface   2904  material and lights   >>lit       3021  the whole sum, at many points
+       >>lamps     2581  attenuation, cones    >>terms     2833  one term at one point
+       >>surface   2908  material and lights   >>lit       3025  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3411  fields by owner       >>vertices  3624  shading, projection
-       >>triangles 3826  culling, edge setup   >>clip      4180  near, far, guard band
-       >>tiles     4367  edges and depth test  >>cover     4729  triangles, tile by tile
-       >>fragments 4997  interpolation, lod    >>texture   5272  texels, filters
-       >>store     5746  blending, packing
+       >>state     3415  fields by owner       >>vertices  3628  shading, projection
+       >>triangles 3831  culling, edge setup   >>clip      4185  near, far, guard band
+       >>tiles     4372  edges and depth test  >>cover     4736  triangles, tile by tile
+       >>fragments 5004  interpolation, lod    >>texture   5279  texels, filters
+       >>store     5754  blending, packing
      Inside: calls of the renderer
-       >>check     6013  refusals              >>seen      6273  view volume, chunks
-       >>drive     6393  shade_draw            >>mesh      6583  shade_draw_mesh
+       >>check     6037  refusals              >>seen      6297  view volume, chunks
+       >>drive     6417  shade_draw            >>mesh      6607  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     6987  shade_draw_lines      >>camera    7179  eye and line of sight
-       >>shape     7273  normals, edges        >>chunks    7820  sorting and boxes
-       >>rays      7983  shade_pick            >>image     8174  smaller pictures, mipmaps
-       >>files     8487  PPM and PNG           >>presets   8806  classic materials
+       >>lines     7011  shade_draw_lines      >>camera    7203  eye and line of sight
+       >>shape     7297  normals, edges        >>chunks    7844  sorting and boxes
+       >>rays      8007  shade_pick            >>image     8198  smaller pictures, mipmaps
+       >>files     8511  PPM and PNG           >>presets   8829  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8889  shaders, run again    >>survey    9158  experiments on a draw
-       >>numbers   9577  what makes no sense   >>unseen   10061  why nothing is in view
-       >>hidden   10343  why nothing is stored >>black    10524  why all is black
-       >>wrong    10906  what else is wrong    >>verdict  11286  the calls
+       >>replay    8912  shaders, run again    >>survey    9180  experiments on a draw
+       >>numbers   9618  what makes no sense   >>doubts    9956  what is seldom right
+       >>unseen   10109  why nothing is in view
+       >>hidden   10391  why nothing is stored >>black    10555  why all is black
+       >>wrong    10937  what else is wrong    >>verdict  11318  the calls
      Sources
-       >>refs     11593                        >>history  11626
-       >>license  11632
+       >>refs     11628                        >>history  11661
+       >>license  11667
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -135,8 +136,8 @@
    Options.  Define them before the #include, with the same value in every file of a program.
 
      SHADE_IMPLEMENTATION     compiles the function bodies too; define it in one file only
-     SHADE_STATIC             makes all functions static: a private copy in this file, from which
-                              the compiler drops those that you do not call
+     SHADE_STATIC             makes all functions static, so that the compiler drops the ones you do
+                              not call
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          checks the library's own invariants; default assert(x)
      SHADE_LANES              vertices or fragments in a packet, the unit that shaders work on: a
@@ -145,7 +146,7 @@
      SHADE_MAX_VARYINGS       floats that a vertex can pass to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8, with
                               both 11; with a fragment shader of your own 11
-     SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
+     SHADE_NO_STDIO           leaves out shade_write_ppm, shade_write_png and <stdio.h>
      SHADE_NO_EXPLAIN         leaves out the explanations, a fifth of the code: shade_explain,
                               shade_explain_lines and shade_explain_draw return ""
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
@@ -159,8 +160,8 @@
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
 
-   This file uses no name of one capital letter, so that a macro of yours, such as the I of
-   <complex.h>, does no harm.  Without the implementation e, g, i, j, o and q are free as well.
+   No identifier here is a single capital letter, so macros such as I of <complex.h> do no harm.
+   Without the implementation e, g, i, j, o and q are free as well.
                                                                                           >>types */
 #if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
 /* If you include this file inside a namespace, the three headers below would declare their types
@@ -276,7 +277,8 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4 */
+    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4,
+                                an output that overlaps an input */
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
@@ -330,7 +332,7 @@ enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The lights of a scene, and the equation that surfaces are lit by.  Positions, normals and eye
+/* The lights of a scene and the lighting equation.  Positions, normals and eye
    must be in one space with orthogonal axes of equal scale: world or eye space, never clip space.
    On the outline of a coarse mesh some interpolated normals point away from the viewer.
    SHADE_FLAG_TWO_SIDED flips these, which shows as specks; a finer mesh has fewer.
@@ -370,8 +372,8 @@ typedef enum shade_filter {
 } shade_filter;
 
 /* A picture to sample.  u runs right and v DOWN from the top left corner of row 0; texel (i, j) has
-   its centre at ((i + 1/2) / width, (j + 1/2) / height).  A bad texture samples as white.  Levels
-   are read with the wrap and filter of the full size, which also takes the place of a bad level. */
+   its centre at ((i + 1/2) / width, (j + 1/2) / height).  A bad texture samples as white.  Mipmap
+   levels use the base level's wrap and filter; the base level replaces a bad one. */
 typedef struct shade_texture {
     const void  *pixels;
     int          width, height, stride;    /* texels, 1 .. 16384; stride 0 means width */
@@ -415,7 +417,7 @@ typedef enum shade_blend {       /* s: the fragment, a: its alpha, d: the pixel,
     SHADE_BLEND_ADD              /* s + d, all four channels */
 } shade_blend;
 
-/* What every kind of draw does with triangles and pixels.  The depth of a pixel depends on the
+/* The rasterizer state that all draws share.  The depth of a pixel depends on the
    positions of its triangle alone: all passes over one mesh give the same depth, to the bit,
    whatever they shade and interpolate. */
 typedef struct shade_raster {
@@ -644,7 +646,7 @@ typedef struct shade_pipeline {
    Without a colour buffer the fragment shader runs only where may_discard is set.
      The time of a triangle grows with the rows of its box and with the tiles of 32 x 8 pixels that
    it crosses.  For example, the diagonal of a picture of 16384 rows, of any width, takes less than
-   1 ms if depth was just cleared, or 2 ms where each row has a page of 4 kB (make bench).
+   1 ms if depth was just cleared, or 2 ms if every row lies on its own 4 kB page (make bench).
      To use threads, let each draw the same triangles with its own clip rectangle or target; the
    pixels are the same as from one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -750,8 +752,8 @@ SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_
    numbers, and where index_count is no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
 /* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
-   Chunks that the mesh already has are ignored; a corner that is NaN or infinite does not count for
-   its box.
+   Chunks that the mesh already has are ignored; corners that are NaN or infinite are ignored in the
+   box.
      With indices NULL the triangles stay in their order, which is good if neighbours in the list
    are neighbours in space.  Otherwise give indices room for index_count entries, or vertex_count if
    the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it, and
@@ -790,7 +792,7 @@ SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade
 /* ---- shape: boxes, normals, edges */
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
-   infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
+   infinite are ignored; if no corner is finite, low is 1, 1, 1 and high 0, 0, 0. */
 SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low, shade_vec3 *high);
 /* 0 only if nothing in the box, in object space, can reach a pixel of the target's clip rectangle
    and strip.  shade_draw_mesh skips chunks by this test; with it you can skip meshes, or ranges of
@@ -969,7 +971,8 @@ SHADE__CLOSE
 #undef SHADE__EVAL_FLOAT
 #define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
 #elif defined(__m68k__) && defined(__HAVE_68881__)
-#error "shade.h: the registers of this FPU are wider than floats; for m68k: -msoft-float"
+#error "shade.h: the registers of this FPU are wider than floats; for m68k: -msoft-float and \
+libraries made for it"
 #undef SHADE_IMPLEMENTATION
 #elif defined(__ALTIVEC__) && !defined(__VSX__)
 #error "shade.h: AltiVec takes denormal floats for 0; for POWER: -mno-altivec, or -mvsx"
@@ -1541,7 +1544,7 @@ enum {
 
 #ifdef SHADE__GNU
 #define SHADE__NOINLINE __attribute__((noinline))
-#define SHADE__COLD __attribute__((noinline, cold))    /* a quarter smaller */
+#define SHADE__COLD __attribute__((noinline, cold))    /* cold code is a quarter smaller */
 /* gcc treats a function that only cold functions call as cold, and does not vectorise it. */
 #define SHADE__HOT __attribute__((noinline, hot))
 #define SHADE__LOWEST_BIT __builtin_ctz
@@ -1886,7 +1889,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT:
-        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match";
+        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match, "
+               "an output that overlaps an input";
     case SHADE_ERROR_TARGET:
         return "bad target: width, height, stride, format, color and depth both NULL, "
                "clip_width, clip_height, row_offset, row_count";
@@ -2238,7 +2242,7 @@ SHADE__INLINE float shade__exp2_neg(float u)
     return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)), some);
 }
 
-/* A cosine that does not exist: each of its powers is 0, even the zeroth. */
+/* Marks a missing cosine: x^n is 0 for it, even for n = 0. */
 #define SHADE__NEVER -2.0f
 
 /* n times -log2(min(x, 1)), for shade__exp2_neg.  For x <= least it is 126, which gives 0; least is
@@ -2443,9 +2447,9 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 
 /* ---- tables of numbers */
 
-/* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.  The
-   bit pattern of c, halved, is that of a crude square root.  Cell k holds all c with a root from
-   k / 372 up to (k + 1) / 372; the first entry is for cell 4, the last for cell 372.  Within a cell
+/* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.
+   Halving the bit pattern of c gives a rough square root; that root times 372, rounded down, is the
+   number of the cell.  The first entry is for cell 4, the last for cell 372.  Within a cell
    the byte changes at most once, and the entry says where: in its low 24 bits are those of the
    first float after the change, and in its high 8 bits the byte of that float.  For example, in
    the last cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c
@@ -2729,7 +2733,7 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
     }
 }
 
-/* The same for b = c = 0; but 0 where P is so far away that r is NaN. */
+/* The same for b = c = 0: amount is 1 / a, or 0 where r is NaN because P is too far away. */
 SHADE__INLINE void shade__attenuate_evenly(float a, const int n, shade__arrival *SHADE_RESTRICT to)
 {
     const float even = 1 / shade__maxf(a, 1e-20f);
@@ -3191,7 +3195,7 @@ SHADE__INLINE void shade__shadow(shade__in visibility, const int n, shade__out a
     }
 }
 
-/* A packet of vectors 1, 1, 1, for factors that a call leaves out. */
+/* Rows of ones: the default of albedo and specular. */
 #define SHADE__ONES_8 1, 1, 1, 1, 1, 1, 1, 1
 #define SHADE__ONES_16 SHADE__ONES_8, SHADE__ONES_8
 #define SHADE__ONES_32 SHADE__ONES_16, SHADE__ONES_16
@@ -3626,9 +3630,10 @@ static void shade__store(shade__draw *d, shade_colors *c);
      in      indices                      out  vertices and their values; corners of triangles
      way     take_batch: take_triangles; shade_vertices: the user's shader, to_window: classify,
              project, gather
-     holds   A vertex is shaded once a batch, or twice if an index that differs by a multiple of
-             2 SHADE_LANES comes between.  A vertex without a window position gets a harmless one
-             and a bit in its outcode; >>triangles then drops or clips its triangles.
+     holds   A vertex is shaded once a batch, or again if an index that shares its cache slot
+             (equal modulo 2 SHADE_LANES) was taken in between.  A vertex without a window
+             position gets a harmless one and a bit in its outcode; >>triangles then drops or
+             clips its triangles.
                                                                                       >>triangles */
 
 enum {
@@ -3774,8 +3779,8 @@ static void shade__shade_vertices(shade__draw *d)
 }
 
 /* Takes up to `most` triangles from `first` on, as long as there are at most `room` vertices;
-   returns the number taken.  Whether a vertex is known makes no branch: slot and index are always
-   written, and only the count depends on it.  A branch would be mispredicted every other time,
+   returns the number taken.  A cache hit takes no branch: slot and index are
+   written anyway, and only the count differs.  A branch would be mispredicted every other time,
    which costs 2 % of a dense mesh. */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
                                         int most, int room, uint8_t (*corner)[4])
@@ -4460,7 +4465,7 @@ SHADE__INLINE int64_t shade__edge_at(const shade__triangle *t, int k, int64_t x,
     return t->e[k] + (x - t->x0) * t->edges.ex[k] + (y - t->y0) * t->edges.ey[k];
 }
 
-/* How far edge k falls in a rectangle, from its first pixel to the least one: 0 or negative.
+/* The least value of edge k in a rectangle minus its value at the first pixel; never positive.
    pre: the rectangle is at most 2^14 wide and high   post: within 2^40 */
 SHADE__INLINE int64_t shade__edge_fall(const shade__triangle *t, int k, int64_t columns,
                                        int64_t rows)
@@ -4488,7 +4493,8 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, 
 }
 
 /* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns 1 if
-   all three do.   pre: the tile is not outside an edge by more than a column
+   all three do.   pre: each edge has an inside pixel in the tile or in the column
+   next to it
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
 SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile *tile,
                                     shade__edges *edges)
@@ -4601,8 +4607,9 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, floa
 
 /* Tests columns at .. at + width - 1 of a tile by depth and, unless copy has SHADE__FULL, by its
    three edges.  SHADE__LESS: the test is LESS, and depth is written.  Depth that is not written may
-   lie in read-only memory, or be shared with other threads: nothing is stored there, not even what
-   it holds.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in memory.
+   lie in read-only memory, or be shared with other threads: the loop stores nothing there, not
+   even the old value.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in
+   memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
@@ -4956,8 +4963,8 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
 }
 
 /* Draws triangles of the setup from runs->next on, up to count or to the first that is not small
-   and narrow.  If the clip rectangle is narrower than a tile, none is: shade__test_copy is needed
-   there. */
+   and narrow.  If the clip rectangle is narrower than a tile, no triangle counts as small, because
+   only shade__cover_large calls shade__test_copy. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
 {
@@ -5328,7 +5335,8 @@ typedef struct shade__axis {
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* the bytes of a unit of y.i: 1, or of a row; x.i counts bytes */
+    size_t y_bytes;              /* bytes per unit of y.i: 1, or the length of a row for
+                                    textures above 4 GB; x.i is in bytes */
     int nearest, blocks;
     uint32_t apart[SHADE__BLOCKS];        /* 0: in this block each pair is 8 adjacent bytes */
     shade__axis x, y;
@@ -5351,8 +5359,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const uint32_t unit = a->unit;
     SHADE_ALIGNED float along[SHADE_LANES];    /* from 0 to 1 */
 
-    /* From 2^24 on all floats are even integers, where a period begins, so 0 replaces them.  It
-       also replaces NaN and infinity; if the texture clamps, only these. */
+    /* Floats from 2^24 on are even integers, the start of a period: they become 0 unless the
+       texture clamps.  NaN and infinity always do. */
     SHADE__EACH_BLOCK(i, blocks) {
         const uint32_t usable = shade__mask(shade__within(c[i], limit));
         along[i] = shade__keep(c[i], usable) * period;
@@ -5796,6 +5804,25 @@ SHADE__INLINE void shade__pack_linear(const shade__layout *layout, shade__in rgb
     }
 }
 
+/* The byte of a colour in sRGB, in three steps: its bits, clamped to 2^-13, with byte 0, and 1; its
+   cell of shade__byte_steps; the byte, from the entry of the cell. */
+SHADE__INLINE int32_t shade__srgb_bits(float c)
+{
+    const float kept = shade__keep(c, shade__mask(c > 0));
+    return shade__max(shade__min(shade__ordinal(kept), 0x3F800000), 0x39000000);
+}
+
+SHADE__INLINE uint32_t shade__srgb_cell(int32_t bits)
+{
+    const float root = shade__from_ordinal((bits >> 1) + 0x1FC00000);
+    return (uint32_t)(int32_t)(root * 372) - 4;
+}
+
+SHADE__INLINE uint32_t shade__srgb_byte(int32_t bits, uint32_t step)
+{
+    return (step >> 24) - (((uint32_t)bits - step) >> 23 & 1);
+}
+
 /* Packs colours as sRGB, and alpha, into bytes. */
 SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba,
                                      shade__out_bits packed, int blocks)
@@ -5809,17 +5836,14 @@ SHADE__INLINE void shade__pack_bytes(const shade__layout *layout, shade__in rgba
     for (int k = 0; k < 3; k++) {
         const int shift = shade__shift(&l, k);
         SHADE__EACH_BLOCK(i, blocks) {
-            const float v = rgba[i + k * SHADE_LANES], kept = shade__keep(v, shade__mask(v > 0));
-            /* from 2^-13, with byte 0, to 1 */
-            c[i] = shade__max(shade__min(shade__ordinal(kept), 0x3F800000), 0x39000000);
-            const float root = shade__from_ordinal((c[i] >> 1) + 0x1FC00000);
-            step[i] = (uint32_t)(int32_t)(root * 372) - 4;
+            c[i] = shade__srgb_bits(rgba[i + k * SHADE_LANES]);
+            step[i] = shade__srgb_cell(c[i]);
         }
         for (int at = 0; at < blocks * SHADE__BLOCK; at += SHADE__BLOCK)
             SHADE__ONE_BY_ONE
             SHADE__FOR(i, SHADE__BLOCK) { step[at + i] = shade__byte_steps[step[at + i]]; }
         SHADE__EACH_BLOCK(i, blocks) {
-            packed[i] |= ((step[i] >> 24) - (((uint32_t)c[i] - step[i]) >> 23 & 1)) << shift;
+            packed[i] |= shade__srgb_byte(c[i], step[i]) << shift;
         }
     }
 }
@@ -5964,8 +5988,8 @@ SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out st
     }
 }
 
-/* Blends and stores in drawing order, in pieces of up to a block.  Addresses rise within a piece,
-   so that no pixel is in it twice.  The other lanes of its block are not stored. */
+/* Blends and stores in drawing order, in pieces of up to a block.  A piece ends where the
+   offsets stop rising, so it holds no pixel twice.  The other lanes of its block are not stored. */
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const uint32_t *alive,
                                                  const float *rgba, uint32_t *packed)
 {
@@ -6779,8 +6803,8 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
         shade__fetch_texcoords(s, in, out->varying[s->first.uv]);
 }
 
-/* On entry alpha is the map's, the fragment shader's, or 1.  It is multiplied by the opacity.  The
-   product is stored, compared with the cut-off, and in ADD multiplies colours. */
+/* Multiplies alpha (from the map, the shader, or 1) by the opacity, applies the cut-off, and for
+   ADD scales the colour by alpha. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
@@ -7247,7 +7271,7 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
 }
 
 /* Parallel rays: w should be constant, but rounded entries make it vary a little.  For near = n and
-   far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it counts as
+   far = f the ratio of row w's product to row z's is (f - n) / (f + n); below 2^-16 it counts as
    rounding. */
 static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view, shade__camera *c)
 {
@@ -7767,8 +7791,8 @@ static shade_mat4 shade__frame_of(const shade__camera *c)
                      shade__xyzw(shade__single3(at), 1));
 }
 
-/* Returns how far an eye in the middle of a box must step back along z: until, for each side of the
-   picture, the plane w +- x or w +- y is >= 0 at that corner of the box where it is least. */
+/* Returns how far an eye in the middle of a box must step back along z: until all eight
+   corners lie inside the four side planes; for each plane only its worst corner is tested. */
 static double shade__step_back(const shade_mat4 *projection, const double *view, shade_vec3 low,
                                shade_vec3 high)
 {
@@ -7790,7 +7814,7 @@ static double shade__step_back(const shade_mat4 *projection, const double *view,
     return step;
 }
 
-/* The eye steps back by a further 6e-8, for the rounding to float. */
+/* The distance grows by a factor 1 + 6e-8 to absorb rounding to float. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up)
 {
@@ -8505,13 +8529,12 @@ static uint8_t shade__byte_of(const shade_target *t, const shade__layout *l, con
                               int k)
 {
     float c;
-    if (l->bytes == 16) {
-        SHADE_MEMCPY(&c, p + 4 * k, 4);
-        c = t->srgb ? shade__encode(c) : shade__saturate(c);
-    } else {
-        c = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k) / (float)l->full[k];
-    }
-    return (uint8_t)(c * 255 + 0.5f);
+    int32_t bits;
+    if (l->bytes == 16) SHADE_MEMCPY(&c, p + 4 * k, 4);
+    else c = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k) / (float)l->full[k];
+    if (l->bytes < 16 || !t->srgb) return (uint8_t)(shade__saturate(c) * 255 + 0.5f);
+    bits = shade__srgb_bits(c);
+    return (uint8_t)shade__srgb_byte(bits, shade__byte_steps[shade__srgb_cell(bits)]);
 }
 
 /* R, G and B of the pixels x .. x + n - 1 of row y. */
@@ -8964,10 +8987,10 @@ static int shade__is_stored_dark(const shade_target *t, int x, int y, int k)
 
 /* Counts the colour of lane i. */
 static void shade__count_color(const shade_target *t, const shade_fragments *in,
-                               const shade_colors *c, int i, shade_blend blend, float dim,
+                               const shade_colors *c, int i, shade_blend blend,
                                shade__shades *to)
 {
-    const float alpha = c->color[3][i];
+    const float alpha = c->color[3][i], dim = shade__dim_of(t);
     const int veiled = blend == SHADE_BLEND_OVER && alpha != alpha;
     const int x = (int)in->x[i], y = (int)in->y[i];
     float most = 0;
@@ -8998,15 +9021,14 @@ static void shade__count_colors(const shade_target *t, const shade_fragments *in
                                 const shade_colors *c, const shade_raster *raster,
                                 shade__tally *tally)
 {
-    const float dim = shade__dim_of(t);
     int clip[4];
     shade__clip_rectangle(t, clip);
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
         if (c->discard[i] || x < clip[0] || y < clip[1] || x >= clip[2] || y >= clip[3]) continue;
-        shade__count_color(t, in, c, i, raster->blend, dim, &tally->all);
+        shade__count_color(t, in, c, i, raster->blend, &tally->all);
         if (shade__has_stored_depth(t, in, i))
-            shade__count_color(t, in, c, i, raster->blend, dim, &tally->seen);
+            shade__count_color(t, in, c, i, raster->blend, &tally->seen);
     }
 }
 
@@ -9196,7 +9218,8 @@ typedef struct shade__survey {
     unsigned         how;                /* SHADE__UNDISCARDED, SHADE__CHECKS */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
-    int   exact;                         /* experiments draw what the picture shows, no more */
+    int   exact;                         /* 1: the experiment draws exactly the fragments that
+                                            are visible in the caller's picture */
     float dim;                           /* channels below it are stored as 8 of 255 at most */
     shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
@@ -9395,7 +9418,8 @@ static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE
     shade__draw_trial(&q, &trial);
 }
 
-/* Is there a pixel where the last fragment (last = 0: the farthest) is not the nearest? */
+/* Does any sampled pixel show a fragment that is not its nearest?  (last = 1: the last drawn one;
+   0: the farthest.) */
 static int shade__hides_nearest(const shade__survey *s, int last)
 {
     shade__probe probes[SHADE__PROBES];
@@ -9441,9 +9465,9 @@ static int shade__coincides(const shade__survey *s)
 }
 
 /* Draws what the picture shows: after a whole, opaque draw, the fragments with the stored depth.
-   In other cases depth cannot say: a band shows too little, blending shows more, a bias clamps
-   depths, and depth may have changed since.  Then all fragments are drawn: what none of them has,
-   the picture lacks.  If depth is not written, fragments that passed hide others. */
+   Stored depth cannot identify the visible fragments of a band, of blended draws, or with a
+   depth_bias.  Then all fragments are drawn: a fault found in none of them is not in the picture.
+   If depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -9457,14 +9481,31 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
-/* Is n at most a tenth of all?  If some pixels may be hidden: is it 0? */
+/* The number of pixels that pass the depth test now: all, if there is no depth. */
+static long long shade__passed(const shade__survey *s)
+{
+    shade__survey q = *s;
+    shade__look_through(&q, s->given_state->raster.depth_test);
+    return shade__covered(&q);
+}
+
+/* Did the draw store pixels?  Without stats: does one pass the depth test, or have this depth? */
+static int shade__is_drawn(const shade__survey *s)
+{
+    shade__survey q = *s;
+    if (s->given_stats) return s->given_stats->fragments > 0;
+    shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    return shade__passed(s) || shade__covered(&q);
+}
+
+/* n is few: at most a tenth of all, or 0 if the survey is not exact. */
 static int shade__few(const shade__survey *s, long long n, long long all)
 {
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Does the picture show a pixel with a brightness from least to most?  If fragments hide others,
-   and stored depth cannot say which, all fragments must have it. */
+/* Does the picture show a pixel with a brightness from least to most?  If it is unknown
+   which fragments are hidden, every fragment must be in that range. */
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
@@ -9575,10 +9616,10 @@ static int shade__faces_ahead(const shade__camera *c)
 }
 
 /*---------------------------------------------------------------------------------------- >>numbers
-   Numbers that make no sense, or seldom, whatever the picture is.
+   Numbers that make no sense, whatever the picture is.
      in      a survey, or the mesh           out  a sentence, or SHADE__GO_ON
-     way     no_mesh; bad_number: bad_matrix, bad_lamp, positions_are_bad; doubt: doubt_of_view,
-             doubt_of_map, doubt_of_surface                                              >>unseen */
+     way     no_mesh: arrays_cross, indices_are_halves; bad_number: bad_matrix, bad_lamp,
+             positions_are_bad, bad_attribute                                            >>doubts */
 
 /* A question has three answers: a sentence, or one of these. */
 #define SHADE__GO_ON ((const char *)0)   /* nothing is found: the next question is asked */
@@ -9614,7 +9655,7 @@ static int shade__arrays_cross(const shade_mesh *m)
     return 0;
 }
 
-/* Are the indices those of 32 bits, read by halves?  The high halves of small indices are 0. */
+/* Are the indices 32-bit ones, read by halves?  The high halves of small indices are 0. */
 static int shade__indices_are_halves(const shade_mesh *m)
 {
     const int high = shade__low_byte_first();
@@ -9739,7 +9780,8 @@ static int shade__at_right_angles(const shade_mat4 *m)
 static int shade__is_camera_by_rows(const shade_mat4 *m)
 {
     const shade_mat4 turned = shade_mat4_transpose(*m);
-    return !shade__is_camera(m) && shade__is_camera(&turned) && shade__at_right_angles(m);
+    return !shade__is_affine(m) && !shade__is_camera(m) && shade__is_camera(&turned) &&
+           shade__at_right_angles(m);
 }
 
 /* Does state.projection hold projection times view by rows? */
@@ -9748,7 +9790,7 @@ static int shade__camera_by_rows(const shade__survey *s)
     shade__survey q = *s;
     if (!shade__is_camera_by_rows(&s->state.projection)) return 0;
     q.state.projection = shade_mat4_transpose(s->state.projection);
-    return shade__covered(&q) > 0;
+    return shade__is_drawn(s) && shade__differ(&q, s);
 }
 
 static const char *shade__bad_matrix(const shade__survey *s)
@@ -9765,7 +9807,9 @@ static const char *shade__bad_matrix(const shade__survey *s)
     if (shade__model_is_camera(s) && !s->given_state->fragment &&
         s->state.lighting.light_count > 0)
         return shade__model_holds_projection;
-    if (shade__camera_by_rows(s)) return shade__projection_rows;
+    if (shade__camera_by_rows(s))
+        return "state.projection is row-major: it is no camera, but its transpose is one; pass it "
+               "through shade_mat4_transpose.";
     if (shade__scales_w(model) || shade__scales_w(view))
         return "The last row of state.model or state.view is not 0, 0, 0, 1: set col[3].w to 1.";
     if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
@@ -9909,7 +9953,11 @@ static const char *shade__bad_number(const shade__survey *s)
     return why ? why : shade__bad_attribute(s);
 }
 
-/* ---- numbers that are possible, but seldom right */
+/*----------------------------------------------------------------------------------------- >>doubts
+   Numbers that are possible, but seldom right.
+     in      a survey of a mesh that shows   out  a sentence, or SHADE__GO_ON
+     way     doubt: chunks_leave_out, boxes_are_small, floats_are_coarse; doubt_of_view,
+             doubt_of_map, doubt_of_surface                                              >>unseen */
 
 static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
@@ -10048,7 +10096,7 @@ static const char *shade__doubt(const shade__survey *s)
                "are sizes, not the other corner.";
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
-               "0 to 1; 1e-5 is much.";
+               "0 to 1, so even 1e-5 is large.";
     if (shade__floats_are_coarse(s))
         return "mesh.positions lie so far from 0 that floats are more than a pixel apart there: "
                "subtract the middle of the mesh in double, and move the mesh by state.model and "
@@ -10155,7 +10203,7 @@ static int shade__projection_by_rows(shade__survey *q)
     shade__survey turned = *q;
     turned.state.projection = shade_mat4_transpose(q->state.projection);
     if (!shade__is_transposed(&q->state.projection) &&
-        (shade__is_camera(&q->state.projection) || !shade__is_camera(&turned.state.projection)))
+        !shade__is_camera_by_rows(&q->state.projection))
         return 0;
     return !q->replay && shade__covered(&turned);
 }
@@ -10393,23 +10441,6 @@ static int shade__beside_clip(shade__survey *q)
     return !shade__is_band(q->target) && !shade__covered(q);
 }
 
-/* The number of pixels that pass the depth test now: all, if there is no depth. */
-static long long shade__passed(const shade__survey *s)
-{
-    shade__survey q = *s;
-    shade__look_through(&q, s->given_state->raster.depth_test);
-    return shade__covered(&q);
-}
-
-/* Did the draw store pixels?  Without stats: does one pass the depth test, or have this depth? */
-static int shade__is_drawn(const shade__survey *s)
-{
-    shade__survey q = *s;
-    if (s->given_stats) return s->given_stats->fragments > 0;
-    shade__look_through(&q, SHADE_COMPARE_EQUAL);
-    return shade__passed(s) || shade__covered(&q);
-}
-
 /* Does the mesh have pixels in the clip rectangle, and does none of them pass the depth test? */
 static int shade__is_hidden(const shade__survey *s)
 {
@@ -10615,8 +10646,8 @@ static void shade__light_fragments(shade__survey *q)
 
 /* ---- the mesh is drawn, but black: the surface */
 
-/* Does blending hide the mesh?  It does if the mesh shows without it, or if not even a glowing
-   surface would show with it.  From here on blending is off. */
+/* True if the mesh shows once blending is off, or if even a white emissive surface stays invisible.
+   From here on blending is off. */
 static int shade__alpha_is_zero(shade__survey *q)
 {
     shade__survey glow = *q;
@@ -10699,8 +10730,8 @@ static const char shade__no_cone[] =
     "No cone of a spotlight shows on the visible pixels; check spot_direction and spot_cos_cutoff, "
     "the cosine of an angle in radians.";
 static const char shade__no_color[] =
-    "The lights have no colour, or too little for the visible pixels: their diffuse is dark or "
-    "only grazes them, and no highlight reaches the eye.";
+    "The lights have no colour, or are too dark: raise light.diffuse, or move them so that they do "
+    "not only graze the visible surfaces; no highlight reaches the eye.";
 static const char shade__multiply[] =
     "The visible pixels are black or almost: state.material, mesh.normals, mesh.colors, the map, "
     "alpha, lighting.terms and the lights work together, and several of them may be at fault.";
@@ -10964,7 +10995,7 @@ static int shade__lacks_depth(shade__survey *q)
     return shade__hides_nearest(q, 1);
 }
 
-/* Neighbours that were looked at, and those of them that go through their common edge in the same
+/* Pairs of neighbouring triangles.  turned: both go through their common edge in the same
    direction, so that one of the two is wound the other way. */
 typedef struct shade__seams { int pairs, turned; } shade__seams;
 
@@ -11242,7 +11273,8 @@ static const shade__ladder shade__wrong_light = {
     }
 };
 
-/* Does lamp light show, or is there to be none?  Other light is off from here on. */
+/* True if lamp light is visible, or not expected (no diffuse colour, emission, a model without
+   lamps).  Other light is off from here on. */
 static int shade__lamps_show(shade__survey *q)
 {
     return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
@@ -11305,7 +11337,7 @@ static const shade__shades *shade__visible(const shade__survey *s, const shade__
 static const char *shade__why_faint(const shade__survey *s)
 {
     const shade_raster *raster = &s->given_state->raster;
-    const int lines = s->replay && s->replay->lines, cull = raster->cull;
+    const int lines = s->replay && s->replay->lines;
     const shade__tally t = shade__tally_of(s);
     const shade__shades *v = shade__visible(s, &t);
     if (!s->replay && t.fragments && t.discarded == t.fragments)
@@ -11325,6 +11357,8 @@ static const char *shade__why_faint(const shade__survey *s)
         return lines ? "state.color holds NaN, which is stored as black."
                      : "The fragment shader gives NaN, which is stored as black: check its "
                        "uniforms, divisions, and roots of negative numbers.";
+    if (raster->blend != SHADE_BLEND_REPLACE && s->state.transparency == 1)
+        return shade__transparent;
     if (raster->blend == SHADE_BLEND_OVER)
         return v->clear == v->count
                    ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
@@ -11335,7 +11369,8 @@ static const char *shade__why_faint(const shade__survey *s)
     if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && lines)
         return v->clear == v->count ? "state.color is not set: the lines are drawn in black."
                                     : SHADE__GO_ON;
-    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && cull != SHADE_CULL_FRONT)
+    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count &&
+        raster->cull != SHADE_CULL_FRONT)
         return "The fragment shader (state.fragment, pipeline.fragment) gives black everywhere: "
                "check out->color[0] to [2], which it must write in each lane, its uniforms, and "
                "the varyings.";    /* not of outlines */

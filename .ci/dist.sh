@@ -44,7 +44,7 @@ cp "$WORK/files" "$WORK/$NAME/.ci/files"
 packed "$NAME" "$out/$NAME.tar.gz"
 core=shade-core-$V
 mkdir "$WORK/$core"
-grep -xE '(shade\.h|README\.md|CHANGELOG\.md|LICENSE|Makefile|\.(clang-format|editorconfig|gitignore)|(tests|bench)/.*|examples/(README\.md|(lessons|shared|pictures|embed|microcontroller)/.*))' \
+grep -xE '(shade\.h|README\.md|CHANGELOG\.md|LICENSE|Makefile|\.(clang-format|editorconfig|gitignore)|(tests|bench)/.*|examples/(README\.md|(lessons|shared|pictures|elsewhere|embed|microcontroller)/.*))' \
     "$WORK/files" >"$WORK/core.files"
 tar -cf "$WORK/core.tar" -T "$WORK/core.files"
 tar -C "$WORK/$core" -xf "$WORK/core.tar"

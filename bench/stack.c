@@ -62,6 +62,16 @@ static shade_result run_mipmaps(const job *j)
                                (size_t)map.width * (size_t)map.height * 4);
 }
 
+static int swallow(void *user, const void *bytes, size_t size)
+{
+    (void)user;
+    (void)bytes;
+    (void)size;
+    return 0;
+}
+
+static shade_result run_png(const job *j) { return shade_encode_png(swallow, NULL, &j->target); }
+
 static void *run_job(void *user)
 {
     job *j = (job *)user;
@@ -173,6 +183,7 @@ int main(void)
     row("`shade_clear`", run_clear, &j, &tools);
     row("`shade_resolve`", run_resolve, &j, &tools);
     row("`shade_build_mipmaps`", run_mipmaps, &j, &tools);
+    row("`shade_encode_png`", run_png, &j, &tools);
     free(j.target.color);
     free(j.target.depth);
     free(j.half.color);

@@ -9,6 +9,8 @@
 # make course        pages and slides of the courses alone, and their slides with answers as PDF
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader: solutions, wrong answers, what holds programs
+# make project       tries the project's judge: solutions, starters, mistakes, what students get
+# make questions     tries the bank of questions: answers, Moodle, QTI, sheets
 # make format        lays out kit and programs by .clang-format (clang-format 14); FORMAT=files
 
 # view and batch need POSIX; the window of view SDL2 (libsdl2-dev), its sixels libsixel
@@ -68,6 +70,10 @@ course-zip:
 	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/teaching/course/build.sh
 assignments:
 	@sh examples/teaching/assignments/test/assignments.sh
+project:
+	@sh examples/teaching/project/test/project.sh
+questions:
+	@sh examples/teaching/questions/test/questions.sh
 gallery: all
 	@sh examples/pictures/gallery.sh
 FORMAT ?= $(wildcard $(addprefix examples/,kit/*.c kit/*/*.h programs/*/*.[ch]))
@@ -119,4 +125,4 @@ uninstall:
 	@! cd "$(PLACE)" 2>/dev/null || rmdir $(FOLDERS) 2>/dev/null; rmdir "$(PLACE)" 2>/dev/null; true
 
 .PHONY: products programs install uninstall gallery playground course course-zip assignments \
-        format format-check
+        project questions format format-check

@@ -103,8 +103,8 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="abi dialects compare contract coverage drawing embed lint matrix mutation node packages prove
-       python rows static threads thumbnail user_files vector_report"
+apart="abi cases dialects compare contract coverage drawing embed lint matrix mutation node packages prove
+       project python questions rows static threads thumbnail user_files vector_report"
 scripts=$(grep -l '^#!/bin/sh' tests/scripts/*.sh examples/*/test/*.sh examples/*/*/test/*.sh .ci/test/*.sh)
 for name in $apart; do
     script=$(printf '%s\n' $scripts | grep "/$name\.sh\$")
@@ -112,13 +112,14 @@ for name in $apart; do
         grep -qE 'T=\$\(mktemp -d\)|^\. tests/scripts/tools.sh$|>/tmp/lint_.*\$\$' "$script"
     check "$name.sh writes nowhere else" no grep -nE '^[^#]*(^|[ ="])(\$PWD/)?(build|out)/' "$script"
 done
-# ... and these are said above in other words: all.sh test, view.sh, batch.sh, explain.sh and
+# ... and these are said above in other words: all.sh test, png.sh what it reads, view.sh, batch.sh, explain.sh and
 # assignments.sh their make, dist.sh, github.sh and windows.sh directories of their own,
 # compilers.sh and playground.sh build/zig, build/playwright and the page.  bench/size.sh measures for
 # a minute; what it writes in build/ is size.* and stack*.
-others="all view batch explain compilers playground any_order assignments dist github windows"
+others="all png view batch explain compilers playground any_order assignments dist github windows"
 # course.sh packs what course-zip packs, and the step fuzz runs the script that make fuzz runs
-elsewhere="assignments clean help install-header products conformance course-zip dist findings format format-check fuzz lint matrix programs
+elsewhere="assignments clean conformance course-zip dist findings format format-check fuzz help install-header
+    lint matrix products programs project questions
     vector-report"
 { there pnmenlarge && there pngquant; } || elsewhere="$elsewhere gallery"
 forgotten() {                   # scripts and targets that are neither a step nor named here

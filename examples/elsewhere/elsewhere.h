@@ -13,7 +13,8 @@
        state.fragment = elsewhere_fragment;
        state.uniforms = &scene;
 
-   The colours that come out are display values: draw them to a target without .srgb.  Where
+   The colours that come out are display values: draw them to a target without .srgb, or set
+   scene.linear.  Where
    look.law is ELSEWHERE_LAW_FOUR and lamps have neither rim nor range, elsewhere_lighting gives a
    shade_lighting that does the same without a shader.  Where look.refused is not NULL, the program
    does something that nothing here can say, and the sentence tells what.
@@ -28,87 +29,108 @@
 #include <math.h>
 #include <string.h>
 
-typedef enum elsewhere_viewer { /* where V points to */
-    ELSEWHERE_VIEWER_RAY = 0,   /* against the ray of the pixel; under parallel projection the */
-                                /* camera's backward axis */
-    ELSEWHERE_VIEWER_POINT,     /* to the camera's position, under parallel projection too */
-    ELSEWHERE_VIEWER_AXIS       /* along the camera's backward axis, in perspective too */
+/* Where V points to: against the ray of the pixel, which under parallel projection is the camera's
+   backward axis; to the camera's position, under parallel projection too; along the camera's
+   backward axis, in perspective too */
+typedef enum elsewhere_viewer {
+    ELSEWHERE_VIEWER_RAY = 0,
+    ELSEWHERE_VIEWER_POINT,
+    ELSEWHERE_VIEWER_AXIS
 } elsewhere_viewer;
 
-typedef enum elsewhere_encoding { /* how light 0 .. 1 becomes a display value */
-    ELSEWHERE_ENCODING_NONE = 0,  /* as it is */
+/* How light of 0 .. 1 becomes a display value: as it is, by sRGB's curve, light^(1/2.2),
+   light^(1/2) */
+typedef enum elsewhere_encoding {
+    ELSEWHERE_ENCODING_NONE = 0,
     ELSEWHERE_ENCODING_SRGB,
-    ELSEWHERE_ENCODING_GAMMA,     /* light^(1/2.2) */
-    ELSEWHERE_ENCODING_ROOT       /* light^(1/2) */
+    ELSEWHERE_ENCODING_GAMMA,
+    ELSEWHERE_ENCODING_ROOT
 } elsewhere_encoding;
 
-typedef enum elsewhere_law { /* what lights a point; the number is elsewhere_look.number */
-    ELSEWHERE_LAW_FOUR = 0,  /* iteration four, as shade_lit_lanes */
-    ELSEWHERE_LAW_SCHLICK,   /* k_s becomes F = k_s + (1 - k_s) 2^((-5.55473 V.H - 6.98316) V.H) */
-                             /* and is multiplied by number */
-    ELSEWHERE_LAW_POWER,     /* N.L of the diffuse term becomes (N.L)^number */
-    ELSEWHERE_LAW_STEPS,     /* .7 where N.L < number, also behind, else 1; no highlight */
-    ELSEWHERE_LAW_EXPONENT,  /* k_a + k_s exp(-number (1 - R.V)); no N.L at all */
-    ELSEWHERE_LAW_SIGNED     /* k_a + k_d N.L, which is negative behind */
+/* What lights a point; number is elsewhere_look.number.
+     FOUR       iteration four, as shade_lit_lanes
+     SCHLICK    F times number is in the place of k_s; with c = V.H,
+                F = k_s + (1 - k_s) 2^((-5.55473 c - 6.98316) c)
+     POWER      N.L of the diffuse term becomes (N.L)^number
+     STEPS      N.L becomes .7 where it is less than number, also behind, else 1; no highlight
+     EXPONENT   k_a + k_s exp(-number (1 - R.V)); no N.L at all
+     SIGNED     k_a + k_d N.L, which is negative behind */
+typedef enum elsewhere_law {
+    ELSEWHERE_LAW_FOUR = 0,
+    ELSEWHERE_LAW_SCHLICK,
+    ELSEWHERE_LAW_POWER,
+    ELSEWHERE_LAW_STEPS,
+    ELSEWHERE_LAW_EXPONENT,
+    ELSEWHERE_LAW_SIGNED
 } elsewhere_law;
 
 /* A material of another program */
 typedef struct elsewhere_look {
     shade_material material;
     shade_model model;
-    unsigned flags;              /* without SHADE_FLAG_INFINITE_VIEWER, which viewer decides */
+    unsigned flags; /* without SHADE_FLAG_INFINITE_VIEWER, which viewer decides */
     elsewhere_viewer viewer;
     elsewhere_encoding encoding;
-    int cut;                     /* non-zero: bytes are cut, not rounded */
-    float diffuse, specular;     /* multiply I_d and I_s of every lamp */
-    float head_diffuse;          /* I_d and I_s of a white lamp that the program has at the */
-    float head_specular;         /* camera, which shines along its axis; 0: none */
-    shade_vec3 own;              /* toward a white lamp at infinity that the program has; 0: none */
-    int own_turns;               /* non-zero: own is along the camera's axes, not the world's */
-    int tilted;                  /* non-zero: I_d of a lamp toward unit L is 2 / (1 + z) as bright, */
-                                 /* z along the camera's backward axis */
+    int cut;                 /* non-zero: bytes are cut, not rounded */
+    float diffuse, specular; /* multiply I_d and I_s of every lamp */
+    float head_diffuse;      /* I_d and I_s of a white lamp that the program has at the */
+    float head_specular;     /* camera, which shines along its axis; 0: none */
+    shade_vec3 own;          /* toward a white lamp at infinity that the program has; 0: none */
+    int own_turns;           /* non-zero: own is along the camera's axes, not the world's */
+    int tilted;              /* non-zero: I_d of a lamp toward unit L is 2 / (1 + z) as */
+                             /* bright, z along the camera's backward axis */
     elsewhere_law law;
     float number;
-    shade_vec3 most;             /* of emission, ambient and diffuse light together; 0: no bound */
-    const char *refused;         /* what cannot be said, or NULL */
+    shade_vec3 most;     /* of emission, ambient and diffuse light together; 0: no bound */
+    const char *refused; /* what cannot be said, or NULL */
 } elsewhere_look;
 
-typedef enum elsewhere_rim { /* how a cone ends, between inner and outer, off the axis */
-    ELSEWHERE_RIM_HARD = 0,  /* the cone of light.spot_cos_cutoff */
-    ELSEWHERE_RIM_ANGLE,     /* falls linearly in the angle; inner and outer are angles */
-    ELSEWHERE_RIM_COSINE,    /* smoothstep of the cosine; inner and outer are angles */
-    ELSEWHERE_RIM_LINEAR     /* falls linearly in the cosine; inner and outer are angles */
+/* How a cone ends between the angles inner and outer off its axis: not at all, but for the cone of
+   light.spot_cos_cutoff; linearly in the angle; by smoothstep of the cosine */
+typedef enum elsewhere_rim {
+    ELSEWHERE_RIM_HARD = 0,
+    ELSEWHERE_RIM_ANGLE,
+    ELSEWHERE_RIM_COSINE
 } elsewhere_rim;
 
-typedef enum elsewhere_range { /* what distance r does to a lamp of reach d */
-    ELSEWHERE_RANGE_NONE = 0,  /* nothing but light.constant, linear, quadratic */
-    ELSEWHERE_RANGE_LINEAR,    /* max(0, 1 - r/d) */
-    ELSEWHERE_RANGE_CUT,       /* 1 up to d, 0 beyond */
-    ELSEWHERE_RANGE_WINDOW,    /* max(r, .1)^-power max(0, 1 - (r/d)^4)^2; d 0: no window */
-    ELSEWHERE_RANGE_FADE       /* 2 / (1 + (r/d)^power) */
+/* What distance r does to a lamp of reach d, besides light.constant, linear and quadratic.
+     LINEAR   max(0, 1 - r/d)
+     CUT      1 up to d, 0 beyond
+     WINDOW   1 / max(r^power, .01), times max(0, 1 - (r/d)^4)^2 where d is not 0
+     FADE     2 / (1 + (r/d)^power) */
+typedef enum elsewhere_range {
+    ELSEWHERE_RANGE_NONE = 0,
+    ELSEWHERE_RANGE_LINEAR,
+    ELSEWHERE_RANGE_CUT,
+    ELSEWHERE_RANGE_WINDOW,
+    ELSEWHERE_RANGE_FADE
 } elsewhere_range;
 
-typedef enum elsewhere_highlight { /* what is odd about the highlight of a lamp */
+/* What is odd about the highlight of a lamp.
+     SQUARED   it has 1 / (a + b r + c r^2) twice
+     WHOLE     it is not dimmed at all, where any light arrives
+     AIM       it stands where light along the lamp's aim would put it */
+typedef enum elsewhere_highlight {
     ELSEWHERE_HIGHLIGHT_PLAIN = 0,
-    ELSEWHERE_HIGHLIGHT_SQUARED,    /* it has 1 / (a + b r + c r^2) twice */
-    ELSEWHERE_HIGHLIGHT_WHOLE,      /* it is not dimmed at all, where any light arrives */
-    ELSEWHERE_HIGHLIGHT_AIM         /* it stands where light along the lamp's aim would put it */
+    ELSEWHERE_HIGHLIGHT_SQUARED,
+    ELSEWHERE_HIGHLIGHT_WHOLE,
+    ELSEWHERE_HIGHLIGHT_AIM
 } elsewhere_highlight;
 
 /* A lamp of another program.  Rim and range become a row of visibility. */
 typedef struct elsewhere_lamp {
     shade_light light;
     elsewhere_rim rim;
-    float inner, outer;    /* radians */
+    float inner, outer; /* radians */
     elsewhere_range range;
     float reach, power;
-    int at_most_one;       /* non-zero: 1 / (a + b r + c r^2) is at most 1 */
+    int at_most_one; /* non-zero: 1 / (a + b r + c r^2) is at most 1 */
     elsewhere_highlight highlight;
 } elsewhere_lamp;
 
 enum {
-    ELSEWHERE_LAMPS = 8,                       /* more lamps of yours than these are dark */
-    ELSEWHERE_ALL_LAMPS = ELSEWHERE_LAMPS + 2  /* with the program's own */
+    ELSEWHERE_LAMPS = 8,                      /* more lamps of yours than these are dark */
+    ELSEWHERE_ALL_LAMPS = ELSEWHERE_LAMPS + 2 /* with the program's own */
 };
 
 /* What elsewhere_lit_lanes and elsewhere_fragment read.  A zero view is the identity. */
@@ -116,9 +138,11 @@ typedef struct elsewhere_scene {
     const elsewhere_look *look;
     const elsewhere_lamp *lamps;
     int lamp_count;
-    shade_vec3 ambient;    /* I_a: most programs have 1, 1, 1 */
-    shade_mat4 view;       /* rotation and translation, from the world to the camera */
-    int parallel;          /* non-zero: the projection is a parallel one */
+    shade_vec3 ambient; /* I_a: most programs have 1, 1, 1 */
+    shade_mat4 view;    /* rotation and translation, from the world to the camera */
+    int parallel;       /* non-zero: the projection is a parallel one */
+    int linear;         /* non-zero: colours come out as the linear light that sRGB shows */
+                        /* so, for targets with .srgb and for blending */
 } elsewhere_scene;
 
 /*------------------------------------------------------------------------------------------ laws */
@@ -146,6 +170,12 @@ static inline float elsewhere_rim_at(const elsewhere_lamp *lamp, shade_vec3 L)
     return lamp->rim == ELSEWHERE_RIM_COSINE ? t * t * (3 - 2 * t) : t;
 }
 
+/* x^n for any x >= 0 */
+static inline float elsewhere_raise(float x, float n)
+{
+    return x <= 1 ? shade_power(x, n) : 1 / fmaxf(shade_power(1 / x, n), 1e-30f);
+}
+
 /* The factor of distance r, beside 1 / (a + b r + c r^2) */
 static inline float elsewhere_range_at(const elsewhere_lamp *lamp, float r)
 {
@@ -154,8 +184,9 @@ static inline float elsewhere_range_at(const elsewhere_lamp *lamp, float r)
     switch (lamp->range) {
     case ELSEWHERE_RANGE_LINEAR: return fmaxf(1 - part, 0);
     case ELSEWHERE_RANGE_CUT: return part <= 1 ? 1.0f : 0.0f;
-    case ELSEWHERE_RANGE_WINDOW: return window * window / fmaxf(powf(r, lamp->power), 0.01f);
-    case ELSEWHERE_RANGE_FADE: return 2 / (1 + powf(part, lamp->power));
+    case ELSEWHERE_RANGE_WINDOW:
+        return window * window / fmaxf(elsewhere_raise(r, lamp->power), 0.01f);
+    case ELSEWHERE_RANGE_FADE: return 2 / (1 + elsewhere_raise(part, lamp->power));
     default: return 1;
     }
 }
@@ -204,8 +235,8 @@ static inline shade_lighting elsewhere_lighting(const elsewhere_scene *s, shade_
 {
     const elsewhere_look *k = s->look;
     const shade_vec3 axis = elsewhere_axis(s);
-    const int far = k->viewer == ELSEWHERE_VIEWER_AXIS ||
-                    (s->parallel && k->viewer == ELSEWHERE_VIEWER_RAY);
+    const int far =
+        k->viewer == ELSEWHERE_VIEWER_AXIS || (s->parallel && k->viewer == ELSEWHERE_VIEWER_RAY);
     shade_lighting out;
     memset(&out, 0, sizeof out);
     for (int i = 0; i < s->lamp_count && i < ELSEWHERE_LAMPS; i++) {
@@ -241,7 +272,7 @@ static inline float elsewhere_encode(const elsewhere_look *k, float light)
 {
     float v = fminf(fmaxf(light, 0), 1);
     if (k->encoding == ELSEWHERE_ENCODING_SRGB) v = shade_srgb_from_linear(shade_v3(v, v, v)).x;
-    if (k->encoding == ELSEWHERE_ENCODING_GAMMA) v = powf(v, 1 / 2.2f);
+    if (k->encoding == ELSEWHERE_ENCODING_GAMMA) v = shade_power(v, 1 / 2.2f);
     if (k->encoding == ELSEWHERE_ENCODING_ROOT) v = sqrtf(v);
     return k->cut ? floorf(255 * v + 1e-3f) / 255 : v;
 }
@@ -273,12 +304,13 @@ static inline elsewhere_point elsewhere_at(const elsewhere_packet *k, int lane)
 /* Schlick's F at V.H, with a power of two in place of the fifth power */
 static inline float elsewhere_schlick(float f0, float v_dot_h)
 {
-    const float f = exp2f((-5.55473f * v_dot_h - 6.98316f) * v_dot_h);
+    const float f = shade_power(0.5f, (5.55473f * v_dot_h + 6.98316f) * v_dot_h);
     return f0 * (1 - f) + f;
 }
 
 /* Rows that multiply k_s for one lamp: the factor of distance and cone where N.L > 0, else 0 */
-static inline void elsewhere_amounts(const elsewhere_packet *k, const shade_light *lamp, float *rows)
+static inline void elsewhere_amounts(const elsewhere_packet *k, const shade_light *lamp,
+                                     float *rows)
 {
     for (int i = 0; i < SHADE_LANES; i++) {
         const elsewhere_point p = elsewhere_at(k, i);
@@ -327,7 +359,8 @@ static inline void elsewhere_add_aimed(const elsewhere_packet *k, const shade_li
 }
 
 /* Rows in place of k_s for one lamp: F times the look's number */
-static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp, float *rows)
+static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp,
+                                     float *rows)
 {
     const shade_vec3 f0 = k->look->material.specular;
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -354,10 +387,10 @@ static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_li
     if (k->law == ELSEWHERE_LAW_EXPONENT) {
         const float turn = 1 - shade_dot(shade_mirror(L, p.N), p.V);
         return shade_scale(shade_mul(k->material.specular, lamp->specular),
-                           amount * expf(-k->number * turn));
+                           amount * shade_power(0.36787944f, k->number * turn));
     }
     if (k->law == ELSEWHERE_LAW_STEPS) weight = cosine < k->number ? 0.7f : 1;
-    if (k->law == ELSEWHERE_LAW_POWER) weight = cosine > 0 ? powf(cosine, k->number) : 0;
+    if (k->law == ELSEWHERE_LAW_POWER) weight = cosine > 0 ? shade_power(cosine, k->number) : 0;
     return shade_scale(shade_mul(k->material.diffuse, lamp->diffuse), weight * amount);
 }
 
@@ -390,12 +423,10 @@ static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_lig
         elsewhere_add_aimed(k, lamp, rgb);
         single.terms = SHADE_TERM_DIFFUSE;
     }
-    if (law <= ELSEWHERE_LAW_POWER)
-        shade_lit_lanes(&single, &material, k->eye, &rows, one);
+    if (law <= ELSEWHERE_LAW_POWER) shade_lit_lanes(&single, &material, k->eye, &rows, one);
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec3 other = { 0, 0, 0 };
-        if (law >= ELSEWHERE_LAW_POWER)
-            other = elsewhere_other(k->look, lamp, elsewhere_at(k, i));
+        if (law >= ELSEWHERE_LAW_POWER) other = elsewhere_other(k->look, lamp, elsewhere_at(k, i));
         other = shade_scale(other, rows.visibility[i]);
         rgb[i] += one[i] + other.x;
         rgb[i + SHADE_LANES] += one[i + SHADE_LANES] + other.y;
@@ -433,16 +464,34 @@ static inline void elsewhere_bounded(const elsewhere_packet *k, float *rgb)
     }
 }
 
+/* Turns normals toward the camera's side by its axis, for programs that turn faces so although V
+   goes to a point, and leaves SHADE_FLAG_TWO_SIDED nothing to turn. */
+static inline void elsewhere_turn(elsewhere_packet *k, shade_vec3 axis, float *turned)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const shade_vec3 N = elsewhere_at(k, i).N;
+        const float side = shade_dot(N, axis) < 0 ? -1.0f : 1.0f;
+        turned[i] = side * N.x;
+        turned[i + SHADE_LANES] = side * N.y;
+        turned[i + 2 * SHADE_LANES] = side * N.z;
+    }
+    k->rows.normal = turned;
+    k->all.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED;
+}
+
 /* Lights the points of a packet as the program does.  P, N and rgb are three rows each, as of
    shade_lit_lanes; rgb becomes display values of 0 .. 1. */
 static inline void elsewhere_lit_lanes(const elsewhere_scene *s, const float *P, const float *N,
                                        float *rgb)
 {
-    float visibility[ELSEWHERE_ALL_LAMPS * SHADE_LANES];
+    float visibility[ELSEWHERE_ALL_LAMPS * SHADE_LANES], turned[3 * SHADE_LANES];
     shade_light lamps[ELSEWHERE_ALL_LAMPS];
     elsewhere_packet k = { .look = s->look, .rows = { P, N, NULL, NULL, visibility } };
     int apart = s->look->law != ELSEWHERE_LAW_FOUR;
     k.all = elsewhere_lighting(s, lamps, &k.eye);
+    if (s->parallel && s->look->viewer == ELSEWHERE_VIEWER_POINT &&
+        (k.all.flags & SHADE_FLAG_TWO_SIDED))
+        elsewhere_turn(&k, elsewhere_axis(s), turned);
     for (int j = 0; j < k.all.light_count; j++) {
         const elsewhere_lamp *lamp = j < s->lamp_count ? &s->lamps[j] : NULL;
         apart |= lamp && lamp->highlight;
@@ -457,11 +506,15 @@ static inline void elsewhere_lit_lanes(const elsewhere_scene *s, const float *P,
         elsewhere_add_lamps(&k, s, rgb);
     } else
         elsewhere_bounded(&k, rgb);
-    for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = elsewhere_encode(s->look, rgb[i]);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) {
+        const float v = elsewhere_encode(s->look, rgb[i]);
+        rgb[i] = s->linear ? shade_linear_from_srgb(shade_v3(v, v, v)).x : v;
+    }
 }
 
 /* The same as the fragment shader of a draw state, whose uniforms are an elsewhere_scene */
-static inline void elsewhere_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+static inline void elsewhere_fragment(const void *uniforms,
+                                      const shade_fragments *SHADE_RESTRICT in,
                                       shade_colors *SHADE_RESTRICT out)
 {
     elsewhere_lit_lanes((const elsewhere_scene *)uniforms, in->varying[SHADE_VARYING_POSITION],
@@ -473,11 +526,11 @@ static inline void elsewhere_fragment(const void *uniforms, const shade_fragment
    The struct of a program holds shade_vec3 and float alone, in the order of its row in
    elsewhere_rows, where its defaults stand. */
 
-static inline elsewhere_look elsewhere_plain(shade_model model)
+static inline elsewhere_look elsewhere_plain(shade_model kind)
 {
     elsewhere_look k;
     memset(&k, 0, sizeof k);
-    k.model = model;
+    k.model = kind;
     k.diffuse = k.specular = 1;
     return k;
 }
@@ -515,13 +568,15 @@ static inline elsewhere_look elsewhere_povray(elsewhere_povray_numbers v)
 {
     const int phong = v.phong > 0;
     const float n = phong ? v.phong_size : 1 / fmaxf(v.roughness, 1e-6f);
-    const float blinn_scale = (n + 2) / (4 * (2 - powf(2, -n / 2)));
+    const float blinn_scale = (n + 2) / (4 * (2 - shade_power(0.5f, n / 2)));
     const float k_s = phong ? v.phong : v.specular;
     elsewhere_look k = elsewhere_plain(phong ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG);
     k.material.ambient = shade_scale(v.color, v.ambient);
-    k.material.diffuse = shade_scale(v.color, v.diffuse * (v.albedo > 0 ? (v.brilliance + 1) / 2 : 1));
+    k.material.diffuse =
+        shade_scale(v.color, v.diffuse * (v.albedo > 0 ? (v.brilliance + 1) / 2 : 1));
     k.material.specular = elsewhere_grey(k_s);
-    if (v.albedo > 0) k.material.specular = elsewhere_grey(k_s * (phong ? (n + 1) / 2 : blinn_scale));
+    if (v.albedo > 0)
+        k.material.specular = elsewhere_grey(k_s * (phong ? (n + 1) / 2 : blinn_scale));
     k.material.shininess = n;
     k.encoding = ELSEWHERE_ENCODING_SRGB;
     if (v.brilliance != 1) k.law = ELSEWHERE_LAW_POWER;
@@ -530,11 +585,11 @@ static inline elsewhere_look elsewhere_povray(elsewhere_povray_numbers v)
     return k;
 }
 
-/* three.js 0.187.0: MeshPhongMaterial, of colours in linear light.  A lamp of intensity i gives
+/* three.js 0.187.0: MeshPhongMaterial, of colours in linear light. A lamp of intensity i gives
    colour i N.L / pi and F (n + 2) / (8 pi) (N.H)^n i N.L, F being Schlick's at V.H: so k_s alone
-   does not say how bright a highlight is.  The default specular, 0x111111, is .0056 in linear light.
-   The sum of color times intensity of AmbientLights is scene.ambient.  Bytes are sRGB.  Measured; BlinnPhong of three's
-   shaders, lights_phong_pars_fragment. */
+   does not say how bright a highlight is. The default specular, 0x111111, is .0056 in linear
+   light. The sum of color times intensity of AmbientLights is scene.ambient. Bytes are sRGB.
+   Measured; BlinnPhong of three's shaders, lights_phong_pars_fragment. */
 typedef struct elsewhere_three_phong_numbers {
     shade_vec3 color, specular, emissive;
     float shininess;
@@ -587,9 +642,10 @@ static inline elsewhere_look elsewhere_three_toon(elsewhere_three_toon_numbers v
     return k;
 }
 
-/* Babylon.js 9.35.0: StandardMaterial.  (N.H)^specularPower is not gated, so that highlights reach
-   behind the terminator, and V goes to the camera's position even under parallel projection.  The
-   ambientColor of the scene is scene.ambient; it counts times that of the material alone.  Bytes are light as it is.  Measured. */
+/* Babylon.js 9.35.0: StandardMaterial. (N.H)^specularPower is not gated, so that highlights
+   reach behind the terminator, and V goes to the camera's position even under parallel
+   projection. The ambientColor of the scene is scene.ambient; it counts times that of the
+   material alone. Bytes are light as it is. Measured. */
 typedef struct elsewhere_babylon_numbers {
     shade_vec3 diffuse, specular, ambient, emissive;
     float power;
@@ -609,8 +665,8 @@ static inline elsewhere_look elsewhere_babylon(elsewhere_babylon_numbers v)
 }
 
 /* X3D as X_ITE 15.0.1 draws its Material: (N.H)^(128 shininess), not gated, V to the camera's
-   position even under parallel projection, bytes as they are.  Measured; the specification is X3D 4.0,
-   clause 17.2.2. */
+   position even under parallel projection, bytes as they are. Measured; the specification is X3D
+   4.0, clause 17.2.2. */
 typedef struct elsewhere_x_ite_numbers {
     shade_vec3 diffuseColor, specularColor, emissiveColor;
     float shininess;
@@ -638,9 +694,9 @@ static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
     return k;
 }
 
-/* p5.js 1.11: fill, specularMaterial, shininess, in the order of its words from 0 to 1.  .73 N.L and
-   2 (R.V)^shininess, whatever the colours are; not gated; V to the camera's position even under
-   parallel projection.  Measured; totalLight of lighting.glsl. */
+/* p5.js 1.11: fill, specularMaterial, shininess, in the order of its words from 0 to 1. .73 N.L
+   and 2 (R.V)^shininess, whatever the colours are; not gated; V to the camera's position even
+   under parallel projection. Measured; totalLight of lighting.glsl. */
 typedef struct elsewhere_p5_numbers {
     shade_vec3 fill, specular, emissive;
     float shininess;
@@ -659,8 +715,9 @@ static inline elsewhere_look elsewhere_p5(elsewhere_p5_numbers v)
     return k;
 }
 
-/* xeokit 2.6: PhongMaterial.  (R.V)^shininess, not gated.  A scene's AmbientLights are scene.ambient and count times diffuse; the
-   material's ambient counts only in a scene without other lights.  Measured. */
+/* xeokit 2.6: PhongMaterial. (R.V)^shininess, not gated. A scene's AmbientLights are
+   scene.ambient and count times diffuse; the material's ambient counts only in a scene without
+   other lights. Measured. */
 typedef struct elsewhere_xeokit_numbers {
     shade_vec3 diffuse, specular, emissive;
     float shininess;
@@ -678,10 +735,7 @@ static inline elsewhere_look elsewhere_xeokit(elsewhere_xeokit_numbers v)
 
 /* vtk.js 37.4: vtkProperty, as VTK's, with other lamps.  Measured. */
 typedef elsewhere_vtk_numbers elsewhere_vtkjs_numbers;
-static inline elsewhere_look elsewhere_vtkjs(elsewhere_vtkjs_numbers v)
-{
-    return elsewhere_vtk(v);
-}
+static inline elsewhere_look elsewhere_vtkjs(elsewhere_vtkjs_numbers v) { return elsewhere_vtk(v); }
 
 /* Tachyon 0.99: TEXTURE with PHONG PLASTIC phong PHONG_SIZE phong_size.  (N.H)^n, or (R.V)^n with
    -shade_phong (shade_phong here); the other -shade_ flags have laws of their own.  Lamps do not
@@ -750,9 +804,9 @@ static inline elsewhere_look elsewhere_pymol(elsewhere_pymol_numbers v)
     return k;
 }
 
-/* gnuplot 5.4.4: set pm3d lighting primary p specular s, of a fill colour.  colour (1 - p + p N.L)
-   and a white s (R.V)^5, from a lamp of its own at the upper left of the screen.  primary 0 switches
-   the highlight off too.  Measured. */
+/* gnuplot 5.4.4: set pm3d lighting primary p specular s, of a fill colour. colour (1 - p + p
+   N.L) and a white s (R.V)^5, from a lamp of its own at the upper left of the screen. primary 0
+   switches the highlight off too. Measured. */
 typedef struct elsewhere_gnuplot_numbers {
     shade_vec3 color;
     float primary, specular;
@@ -783,12 +837,13 @@ static inline elsewhere_look elsewhere_mplot3d(elsewhere_mplot3d_numbers v)
     k.material.ambient = shade_scale(v.color, 0.65f);
     k.material.diffuse = shade_scale(v.color, 0.35f);
     k.law = ELSEWHERE_LAW_SIGNED;
-    k.own = shade_v3(cosf(azimuth) * cosf(altitude), sinf(azimuth) * cosf(altitude), sinf(altitude));
+    k.own =
+        shade_v3(cosf(azimuth) * cosf(altitude), sinf(azimuth) * cosf(altitude), sinf(altitude));
     return k;
 }
 
-/* Octave 7.3: surfl with [ambient diffuse specular shine].  The sum over all is divided by ambient +
-   diffuse + specular, so that a highlight dims the rest.  Measured. */
+/* Octave 7.3: surfl with [ambient diffuse specular shine]. The sum over all is divided by
+   ambient + diffuse + specular, so that a highlight dims the rest. Measured. */
 typedef struct elsewhere_surfl_numbers {
     float ambient, diffuse, specular, shine;
 } elsewhere_surfl_numbers;
@@ -804,10 +859,10 @@ static inline elsewhere_look elsewhere_surfl(elsewhere_surfl_numbers v)
     return k;
 }
 
-/* OpenGL 1.0 to 2.1, fixed function: glMaterial and glLightModel.  (N.H)^n, lit at vertices; without
-   GL_LIGHT_MODEL_LOCAL_VIEWER V is the camera's axis everywhere.  Each lamp's own ambient light is
-   dimmed with it.  scene.ambient is GL_LIGHT_MODEL_AMBIENT, .2 by default.  Specified in OpenGL 2.1,
-   section 2.14.1, and measured. */
+/* OpenGL 1.0 to 2.1, fixed function: glMaterial and glLightModel. (N.H)^n, lit at vertices;
+   without GL_LIGHT_MODEL_LOCAL_VIEWER V is the camera's axis everywhere. Each lamp's own ambient
+   light is dimmed with it. scene.ambient is GL_LIGHT_MODEL_AMBIENT, .2 by default. Specified in
+   OpenGL 2.1, section 2.14.1, and measured. */
 typedef struct elsewhere_opengl_numbers {
     shade_vec3 ambient, diffuse, specular, emission;
     float shininess, local_viewer;
@@ -822,6 +877,72 @@ static inline elsewhere_look elsewhere_opengl(elsewhere_opengl_numbers v)
     k.material.shininess = v.shininess;
     k.flags = SHADE_FLAG_ATTENUATED_AMBIENT;
     k.viewer = v.local_viewer > 0 ? ELSEWHERE_VIEWER_POINT : ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/* Open Inventor and Coin: SoMaterial, (N.H)^(128 shininess) by OpenGL's fixed function, at
+   vertices.  By its specification (SoMaterial of Coin 4.0, OpenGL 2.1), not measured. */
+typedef struct elsewhere_inventor_numbers {
+    shade_vec3 ambientColor, diffuseColor, specularColor, emissiveColor;
+    float shininess;
+} elsewhere_inventor_numbers;
+static inline elsewhere_look elsewhere_inventor(elsewhere_inventor_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissiveColor;
+    k.material.ambient = v.ambientColor;
+    k.material.diffuse = v.diffuseColor;
+    k.material.specular = v.specularColor;
+    k.material.shininess = 128 * v.shininess;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    return k;
+}
+
+/* Wavefront's MTL: Ka, Kd, Ks, Ke, Ns, illum; (N.H)^Ns.  illum 0 is Kd alone, without light, 1 has
+   no highlight.  By its specification ("Object Files", Alias Wavefront, version 4.2), not measured: no
+   program is the reference.  Blender 3.4 reads it as roughness 1 - sqrt(Ns/1000). */
+typedef struct elsewhere_mtl_numbers {
+    shade_vec3 Ka, Kd, Ks, Ke;
+    float Ns, illum;
+} elsewhere_mtl_numbers;
+static inline elsewhere_look elsewhere_mtl(elsewhere_mtl_numbers v)
+{
+    const shade_vec3 none = { 0, 0, 0 };
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.illum < 1 ? v.Kd : v.Ke;
+    k.material.ambient = v.illum < 1 ? none : v.Ka;
+    k.material.diffuse = v.illum < 1 ? none : v.Kd;
+    k.material.specular = v.illum < 2 ? none : v.Ks;
+    k.material.shininess = v.Ns;
+    return k;
+}
+
+/* Irrlicht 1.8.5, Burning's Video: directional lamps alone, N.L exact, no highlight whatever the
+   Shininess; its point lamps follow a law that was not found.  Measured once, without a table. */
+typedef struct elsewhere_irrlicht_numbers {
+    shade_vec3 DiffuseColor, EmissiveColor;
+} elsewhere_irrlicht_numbers;
+static inline elsewhere_look elsewhere_irrlicht(elsewhere_irrlicht_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = v.EmissiveColor;
+    k.material.diffuse = v.DiffuseColor;
+    return k;
+}
+
+/* MathGL 8.0.1: ambient light (.5) and exp(-3 (1 - R.V)) of white; no N.L at all.  Measured once,
+   without a table. */
+typedef struct elsewhere_mathgl_numbers {
+    shade_vec3 color;
+    float ambient;
+} elsewhere_mathgl_numbers;
+static inline elsewhere_look elsewhere_mathgl(elsewhere_mathgl_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.specular = elsewhere_grey(1);
+    k.law = ELSEWHERE_LAW_EXPONENT;
+    k.number = 3;
     return k;
 }
 
@@ -930,8 +1051,8 @@ static inline elsewhere_lamp elsewhere_three_lamp(elsewhere_three_lamp_numbers v
     return lamp;
 }
 
-/* Babylon.js 9.35.0: DirectionalLight, PointLight, SpotLight.  A lamp with a range falls linearly to
-   0 there.  angle is that of the full cone, in radians; the cone is hard, with cos^exponent.
+/* Babylon.js 9.35.0: DirectionalLight, PointLight, SpotLight. A lamp with a range falls linearly
+   to 0 there. angle is that of the full cone, in radians; the cone is hard, with cos^exponent.
    Measured. */
 typedef struct elsewhere_babylon_lamp_numbers {
     shade_vec4 at;
@@ -963,8 +1084,7 @@ static inline elsewhere_lamp elsewhere_x3d_lamp(elsewhere_x3d_lamp_numbers v)
     lamp.at_most_one = 1;
     lamp.range = ELSEWHERE_RANGE_CUT;
     lamp.reach = v.radius;
-    if (shade_dot(v.aim, v.aim) > 0 && v.beamWidth < v.cutOffAngle)
-        lamp.rim = ELSEWHERE_RIM_ANGLE;
+    if (shade_dot(v.aim, v.aim) > 0 && v.beamWidth < v.cutOffAngle) lamp.rim = ELSEWHERE_RIM_ANGLE;
     lamp.inner = v.beamWidth;
     lamp.outer = v.cutOffAngle;
     lamp.light.spot_cos_cutoff = cosf(v.cutOffAngle);
@@ -1006,9 +1126,9 @@ static inline elsewhere_lamp elsewhere_vtkjs_lamp(elsewhere_vtkjs_lamp_numbers v
     return lamp;
 }
 
-/* Tachyon 0.99: DIRECTIONAL_LIGHT, LIGHT, SPOTLIGHT.  A spot falls linearly in the angle from
-   Falloff_Start to Falloff_End, which are measured from the axis.  Neither distance nor the rim dims
-   highlights: they are whole wherever any light arrives.  Measured. */
+/* Tachyon 0.99: DIRECTIONAL_LIGHT, LIGHT, SPOTLIGHT. A spot falls linearly in the angle from
+   Falloff_Start to Falloff_End, which are measured from the axis. Neither distance nor the rim
+   dims highlights: they are whole wherever any light arrives. Measured. */
 typedef struct elsewhere_tachyon_lamp_numbers {
     shade_vec4 at;
     shade_vec3 color, attenuation, aim;

@@ -16,6 +16,8 @@
 #include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/kit/scene/renderer.h"
+#include "examples/elsewhere/words.h"
+#include "examples/kit/scene/deform.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
 #include "examples/shared/label.h"
@@ -874,29 +876,58 @@ int python_part_of(const model *m, int i, python_part *part)
     return m->part_count;
 }
 
+/* ---- materials of other programs, of elsewhere/words.h --------------------------------------- */
+
+/* Row i: "name(numbers)" of a program that has a material, in name and numbers; NULL: no more */
+NATIVE(look_name) const char *python_look_name(int i, const char **numbers);
+const char *python_look_name(int i, const char **numbers)
+{
+    for (const elsewhere_row *row = elsewhere_rows; row->name; row++) {
+        if (!row->look || i--) continue;
+        if (numbers) *numbers = row->numbers;
+        return row->name;
+    }
+    return NULL;
+}
+
+/* The material of text such as "vtk(specular=.5, power=30)", with the model and flags of its light
+   in lit.  Returns 0, or 1 with a sentence in said, of room bytes. */
+NATIVE(look) int python_look(const char *text, shade_material *material, uint32_t *lit, char *said,
+                             int room);
+int python_look(const char *text, shade_material *material, uint32_t *lit, char *said, int room)
+{
+    shade_model kind = SHADE_MODEL_BLINN_PHONG;
+    unsigned flags = 0;
+    const int failed = elsewhere_apply_text(text, material, &kind, &flags, said, (size_t)room);
+    lit[0] = kind;
+    lit[1] = flags;
+    return failed;
+}
+
 /* ---- arguments and cameras, of core/ --------------------------------------------------------- */
 
-NATIVE(color) int python_color(core_refusal *r, const char *argument, const char *word, double *rgb);
+NATIVE(color)
+int python_color(core_refusal *r, const char *argument, const char *word, double *rgb);
 int python_color(core_refusal *r, const char *argument, const char *word, double *rgb)
 {
     return core_color(r, argument, word, rgb);
 }
 
 NATIVE(colors)
-int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count, int columns,
-                  int whole, int bytes, float *out, double *alpha);
-int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count, int columns,
-                  int whole, int bytes, float *out, double *alpha)
+int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count,
+                  int columns, int whole, int bytes, float *out, double *alpha);
+int python_colors(core_refusal *r, const char *argument, const double *rows, size_t count,
+                  int columns, int whole, int bytes, float *out, double *alpha)
 {
     return core_colors(r, argument, rows, count, columns, whole, bytes, out, alpha);
 }
 
 /* Returns the indices that were made, -1: refused */
 NATIVE(faces)
-int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows, int columns,
-                 int vertices, uint32_t *out);
-int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows, int columns,
-                 int vertices, uint32_t *out)
+int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows,
+                 int columns, int vertices, uint32_t *out);
+int python_faces(core_refusal *r, const char *argument, const double *faces, size_t rows,
+                 int columns, int vertices, uint32_t *out)
 {
     return (int)core_faces(r, argument, faces, rows, columns, vertices, out);
 }
@@ -925,8 +956,10 @@ int python_opengl(core_refusal *r, const double *projection, const double *pose,
 }
 
 NATIVE(range_of)
-int python_range_of(core_refusal *r, const char *argument, const double *projection, core_range *out);
-int python_range_of(core_refusal *r, const char *argument, const double *projection, core_range *out)
+int python_range_of(core_refusal *r, const char *argument, const double *projection,
+                    core_range *out);
+int python_range_of(core_refusal *r, const char *argument, const double *projection,
+                    core_range *out)
 {
     return core_range_of(r, argument, projection, out);
 }
@@ -946,7 +979,7 @@ void python_direction(double azimuth, double elevation, int up, double *out)
 
 NATIVE(fit_points)
 int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
-                        core_camera *out);
+               core_camera *out);
 int python_fit(core_refusal *r, const core_side *side, const float *points, size_t count,
                core_camera *out)
 {
@@ -957,7 +990,8 @@ int python_fit(core_refusal *r, const core_side *side, const float *points, size
     return 0;
 }
 
-SHADEDEF void python_studio(const float *points, size_t count, const double *view, int up, double *out);
+SHADEDEF void python_studio(const float *points, size_t count, const double *view, int up,
+                            double *out);
 void python_studio(const float *points, size_t count, const double *view, int up, double *out)
 {
     core_ball ball = { .some = 0 };
@@ -988,6 +1022,14 @@ int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh,
                       const double *origin)
 {
     return renderer_set_mesh(scene, number, mesh, smooth, origin);
+}
+
+/* 1: done, 0: out of memory, -1: the mesh has other counts, -2: a position is not finite */
+NATIVE(scene_deform)
+int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m);
+int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m)
+{
+    return renderer_deform(scene, number, m);
 }
 
 NATIVE(scene_texture)

@@ -29,7 +29,7 @@ pnmenlarge 3 build/microcontroller/picture.ppm >build/microcontroller.ppm || exi
 mkdir -p build/parts && python3 examples/programs/thumbnail/test/parts.py build/parts || exit 1
 build/thumbnail build/parts/assembly.obj build/drawing.ppm --views front,right,top,iso --ortho \
     --hidden --ids --dimensions --size 1200x900 || exit 1
-for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm build/drawing.ppm; do
+for ppm in out/[0-9]*.ppm out/gallery.ppm out/elsewhere.ppm build/microcontroller.ppm build/drawing.ppm; do
     least=99
     case $ppm in */20_*) least=97 ;; */39_*) least=92 ;; esac    # large; looked at
     png=examples/pictures/$(basename "$ppm" .ppm).png

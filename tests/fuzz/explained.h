@@ -868,6 +868,51 @@ static int so_aspect(const judged *j)
     return fabsf(wide - high) > 0.02f * wide && fabsf(wide - 2 * high) > 0.02f * wide;
 }
 
+static int ex_is_wild(const float *at, int stride, int floats, const shade_mesh *m)
+{
+    if (!at) return 0;
+    for (int i = 0; i < ex_corners(m); i++) {
+        const char *element = (const char *)at +
+                              ex_vertex(m, i) * (size_t)(stride ? stride : 4 * floats);
+        for (int k = 0; k < floats; k++) {
+            float x;
+            memcpy(&x, element + 4 * k, 4);
+            if (!(fabs((double)x) <= 1.0001e18)) return 1;
+        }
+    }
+    return 0;
+}
+SO(wild_normals, ex_is_wild(MESH->normals, MESH->normal_stride, 3, MESH))
+SO(wild_colors, ex_is_wild(MESH->colors, MESH->color_stride, 3, MESH))
+SO(wild_texcoords, ex_is_wild(MESH->texcoords, MESH->texcoord_stride, 2, MESH))
+SO(mirrors, shade_mat4_determinant(STATE->view) < 0)
+static int so_negative_lamp(const judged *j)
+{
+    int negative = 0;
+    for (int k = 0; k < LIGHTS->light_count; k++)
+        for (int i = 0; i < 9; i++) negative |= (&LIGHTS->lights[k].ambient.x)[i] < 0;
+    return negative;
+}
+/* Do two triangles, and no third, go from one point to another? */
+static int so_both_ways(const judged *j)
+{
+    int found = 0;
+    for (int i = 0; i + 2 < ex_corners(MESH); i++) {
+        const float *a = ex_position(MESH, i);
+        const float *b = ex_position(MESH, i / 3 * 3 + (i + 1) % 3);
+        int with = 0, against = 0;
+        for (int k = 0; k + 2 < ex_corners(MESH); k++) {
+            const float *c = ex_position(MESH, k);
+            const float *d = ex_position(MESH, k / 3 * 3 + (k + 1) % 3);
+            const int far = k / 3 != i / 3;
+            with += far && !memcmp(a, c, 12) && !memcmp(b, d, 12);
+            against += far && !memcmp(a, d, 12) && !memcmp(b, c, 12);
+        }
+        found |= with == 1 && !against;
+    }
+    return found;
+}
+
 /* ---- what sentences advise ------------------------------------------------------------------- */
 
 typedef void cure(stage *);
@@ -1106,6 +1151,21 @@ CURE(mesh)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
+CURE(dim_shader)
+{
+    static const float grey[4] = { 0.2f, 0.2f, 0.2f, 1 };
+    s->state.fragment = shader_of_color;
+    s->state.uniforms = grey;
+}
+/* near and far of a perspective trade places. */
+CURE(exchanged)
+{
+    shade_vec4 *col = s->state.projection.col;
+    col[2].z = -col[2].z;
+    col[3].z = -col[3].z;
+    if (s->state.raster.depth_test == SHADE_COMPARE_LESS_EQUAL) return;
+    s->state.raster.depth_test = SHADE_COMPARE_LESS;
+}
 /* What the advice does to the picture: light is that of all terms, of lamps (diffuse, specular), or
    of surfaces that have colours (ambient, diffuse). */
 enum effect { STATED, SHOWS, INTO_VIEW, LIGHTS_UP, LAMPS_LIGHT, COLORS_LIGHT, CHANGES, DARKENS,
@@ -1132,6 +1192,13 @@ static const claim claims[] = {
     { "so that elements overlap", NULL, cure_nothing, STATED },
     { "There is no triangle to draw", NULL, cure_nothing, STATED },
     { "clip rectangle is empty", so_clip, cure_clip, STATED },
+    { "run through each other", NULL, cure_nothing, STATED },
+    { "Every other entry", NULL, cure_nothing, STATED },
+    { "negative colour", so_negative_lamp, cure_nothing, STATED },
+    { "state.projection is row-major", so_by_rows, cure_by_rows, CHANGES },
+    { "mesh.normals hold NaN", so_wild_normals, cure_nothing, STATED },
+    { "mesh.colors hold NaN", so_wild_colors, cure_nothing, STATED },
+    { "mesh.texcoords hold NaN", so_wild_texcoords, cure_nothing, STATED },
     /* nothing is in view */
     { "sum to fewer", so_chunks, cure_chunks, MORE_TRIANGLES },
     { "does not contain its triangles", so_box, cure_chunks, STATED },
@@ -1148,6 +1215,7 @@ static const claim claims[] = {
     { "beside the picture, before", NULL, cure_camera, INTO_VIEW },
     { "No pixel centre is covered", NULL, cure_camera, INTO_VIEW },
     /* no pixel passes */
+    { "near of state.projection is beyond far", so_far_wins, cure_exchanged, CHANGES },
     { "does not fit state.proj", so_far_wins, cure_depth, CHANGES },
     { "beside the clip rectangle", so_clip, cure_clip, SHOWS },
     { "state.fragment discards", so_shader, cure_shader, SHOWS },
@@ -1156,10 +1224,15 @@ static const claim claims[] = {
     { "Every pixel has the depth of the far plane", NULL, cure_near, SHOWS },
     { "is hidden by depth", so_not_equal, cure_clear, SHOWS },
     /* wrong pixels */
+    { "wound both ways", so_both_ways, cure_nothing, STATED },
+    { "state.view mirrors", so_mirrors, cure_winding, CHANGES },
     { "inside out", so_inside_out, cure_winding, CHANGES },
     { "Triangles drawn later hide", so_order, cure_depth, CHANGES },
     { "fragment) gives black", so_shader, cure_shader, LIGHTS_UP },
     { "adds nothing", so_shader, cure_shader, LIGHTS_UP },
+    { "gives NaN", so_shader, cure_shader, CHANGES },
+    { "writes lane 0", so_shader, cure_shader, CHANGES },
+    { "clipped to white, or a full", so_shader, cure_dim_shader, DARKENS },
     { "Alpha is 0 everywhere", so_shader, cure_shader, LIGHTS_UP },
     { "lit is clipped", so_white, cure_255, DARKENS },
     { "mesh.normals point away from the eye", so_turned, cure_turned, CHANGES },

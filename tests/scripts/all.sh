@@ -37,7 +37,8 @@ step runner build/test_main
 step board sh tests/scripts/microcontroller.sh
 build build/test_count
 step count build/test_count work
-build build/golden pictures
+build build/golden build/tables pictures
+step elsewhere build/tables examples/elsewhere/tables/*.txt
 # G15
 step pictures build/golden out/*.ppm
 step shown sh examples/pictures/gallery.sh --check

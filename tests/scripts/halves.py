@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """halves.py FILE [--budgets] - shade.h has three parts: the renderer (to the banner of >>lines), the
-tools behind it, and the explanations (from >>survey on), which SHADE_NO_EXPLAIN leaves out.
+tools behind it, and the explanations (from >>replay on), which SHADE_NO_EXPLAIN leaves out.
 
 Prints each line of a part's implementation that names a function, type or constant of a later part.
 --budgets prints instead each part with more C tokens than its ceiling.  Releases hold the ceilings,
@@ -35,8 +35,8 @@ def parts_of(text):
     def banner(tag):
         return re.search(r"/\*-+ >>%s\n" % tag, text).start()
 
-    lines, survey, refs = map(banner, ("lines", "survey", "refs"))
-    parts = {"renderer": text[:lines], "tools": text[lines:survey], "explanations": text[survey:refs]}
+    lines, replay, refs = map(banner, ("lines", "replay", "refs"))
+    parts = {"renderer": text[:lines], "tools": text[lines:replay], "explanations": text[replay:refs]}
     return {name: code_of(part) for name, part in parts.items()}
 
 

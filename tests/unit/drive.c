@@ -938,7 +938,7 @@ TEST(drive, every_result_names_its_fields_in_a_text_of_its_own)
 {
     static const char *const names[][11] = {
         { "no error" },
-        { "NULL", "factor" },
+        { "NULL", "factor", "overlaps" },
         { "width", "height", "stride", "format", "color", "depth", "clip_width", "clip_height",
           "row_offset", "row_count" },
         { "positions", "count", "stride", "chunks" },

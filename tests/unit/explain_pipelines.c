@@ -59,6 +59,16 @@ static void piped_fragment(const void *uniforms, const shade_fragments *SHADE_RE
     }
 }
 
+/* NaN farther than the middle. */
+static void piped_nan_behind(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                             shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < SHADE_LANES; i++)
+            out->color[k][i] = in->primitive[i] ? 0.5f : (float)NAN;
+}
+
 static piped *piped_open(void)
 {
     static const float corner[3 * PIPED_CORNERS] = { -1, -1, 0, 1, -1, 0, 1,  1, 0,
@@ -321,7 +331,8 @@ PIPED(no_fragment, OF_DRAW, "pipeline.fragment is NULL")
 {
     p->pipe.fragment = NULL; p->target.depth = NULL;
 }
-PIPED(depth_alone, OF_DRAW, "") { p->pipe.fragment = NULL; }
+PIPED(depth_alone, OF_DRAW, "") { p->pipe.fragment = NULL; p->target.color = NULL; }
+PIPED(fragment_forgotten, OF_DRAW, "target.color holds one") { p->pipe.fragment = NULL; }
 PIPED(depth_not_written, OF_DRAW, "depth_read_only")
 {
     p->pipe.fragment = NULL; p->pipe.raster.depth_read_only = 1;
@@ -342,6 +353,123 @@ PIPED(shadow, OF_DRAW, "")
     p->pipe.raster.blend = SHADE_BLEND_OVER;
     piped_black(p);
     p->uniforms.color[3] = 0.5f;
+}
+/* A ball of which each triangle is a square around it: a root of a negative number beside it. */
+static void piped_ball(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                       shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float x = in->varying[0][i];
+        const float z = sqrtf(0.5f - x * x);
+        for (int k = 0; k < 3; k++) out->color[k][i] = z;
+        if (!(z >= 0)) out->discard[i] = 1;
+    }
+}
+PIPED(impostor, OF_DRAW, "") { p->pipe.fragment = piped_ball; p->pipe.may_discard = 1; }
+PIPED(impostor_undiscarded, OF_DRAW, "may_discard") { p->pipe.fragment = piped_ball; }
+static void piped_root(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                       shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float x = in->varying[0][i];
+        for (int k = 0; k < 3; k++) out->color[k][i] = k == 1 ? sqrtf(0.5f - x * x) : 0.5f;
+    }
+}
+PIPED(root_of_negative_numbers, OF_DRAW, "gives NaN") { p->pipe.fragment = piped_root; }
+/* NaN that nearer triangles hide, drawn afterwards */
+PIPED(hidden_nan, OF_DRAW, "")
+{
+    for (int k = 0; k < 9; k++) p->position[k] *= 0.2f;
+    for (int k = 0; k < 3; k++) p->position[3 * k + 2] = -1;
+    for (int k = 0; k < 3; k++) {
+        p->position[9 + 3 * k] = k == 1 ? 60.0f : -20.0f;
+        p->position[10 + 3 * k] = k == 2 ? 60.0f : -20.0f;
+        p->position[11 + 3 * k] = 1;
+    }
+    p->pipe.fragment = piped_nan_behind;
+}
+static void piped_two_rows(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                           shade_vertices *SHADE_RESTRICT out)
+{
+    piped_vertex(uniforms, in, out);
+    for (int i = 0; i < SHADE_LANES; i++) out->varying[1][i] = 1;
+}
+static void piped_second_row(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                             shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < SHADE_LANES; i++) out->color[k][i] = 0.5f + 0.25f * in->varying[1][i];
+}
+PIPED(varyings_too_few, OF_DRAW, "pipeline.varyings")
+{
+    p->pipe.vertex = piped_two_rows;
+    p->pipe.fragment = piped_second_row;
+}
+PIPED(varyings_enough, OF_DRAW, "")
+{
+    piped_varyings_too_few(p);
+    p->pipe.varyings = 2;
+}
+PIPED(varyings_for_others, OF_DRAW, "") { p->pipe.vertex = piped_two_rows; }
+static void piped_first_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                               shade_vertices *SHADE_RESTRICT out)
+{
+    const piped_uniforms *u = (const piped_uniforms *)uniforms;
+    const float *p = u->position + 3 * in->index[0];
+    const shade_vec4 c = shade_mat4_transform(u->clip_from_world,
+                                              shade_v4(p[0], p[1], p[2], 1));
+    for (int k = 0; k < 4; k++) out->clip[k][0] = (&c.x)[k];
+}
+PIPED(vertex_of_lane_0, OF_DRAW, "writes lane 0") { p->pipe.vertex = piped_first_vertex; }
+static void piped_first_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                 shade_colors *SHADE_RESTRICT out)
+{
+    const piped_uniforms *u = (const piped_uniforms *)uniforms;
+    (void)in;
+    for (int k = 0; k < 3; k++) out->color[k][0] = u->color[k];
+}
+PIPED(fragment_of_lane_0, OF_DRAW, "writes lane 0") { p->pipe.fragment = piped_first_fragment; }
+PIPED(projection_forgotten, OF_DRAW | AFTERWARDS, "w is 1 everywhere")
+{
+    p->uniforms.clip_from_world = p->view;
+}
+static void piped_at_far(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                         shade_vertices *SHADE_RESTRICT out)
+{
+    piped_vertex(uniforms, in, out);
+    for (int i = 0; i < SHADE_LANES; i++) out->clip[2][i] = out->clip[3][i];
+}
+PIPED(sky, OF_DRAW, "SHADE_COMPARE_LESS_EQUAL") { p->pipe.vertex = piped_at_far; }
+PIPED(sky_that_passes, OF_DRAW, "")
+{
+    p->pipe.vertex = piped_at_far;
+    p->pipe.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+}
+PIPED(smaller_than_a_pixel, OF_DRAW, "too small on the screen")
+{
+    for (int k = 0; k < 3 * PIPED_CORNERS; k++) p->position[k] *= 1e-4f;
+}
+/* Right matrices of lines in view */
+PIPED(oblique_near_plane, OF_LINES | AFTERWARDS, "")
+{
+    shade_mat4 *m = &p->lines.clip_from_points;
+    for (int k = 0; k < 4; k++) (&m->col[k].x)[2] += 0.1f * (&m->col[k].x)[0];
+}
+PIPED(endless_tweaked, OF_LINES, "")
+{
+    piped_eye_at_the_origin(p);
+    p->projection.col[2].z = 2.4e-7f - 1;
+    p->projection.col[3].z = (2.4e-7f - 2) * 0.5f;
+}
+PIPED(homography, OF_LINES | AFTERWARDS, "")
+{
+    shade_mat4 m = shade_mat4_scaling(shade_v3(0.4f, 0.4f, 0.4f));
+    m.col[0].w = 0.2f;
+    m.col[1].w = 0.1f;
+    p->lines.clip_from_points = m;
 }
 PIPED(no_state, OF_LINES, "state") { p->given_lines = NULL; }
 PIPED(no_points, OF_LINES, "points") { p->points = NULL; }
@@ -399,7 +527,8 @@ PIPED(matrix_by_rows_ahead, OF_LINES | AFTERWARDS, "transposed")
     piped_aim(p);
     piped_matrix_by_rows(p);
 }
-PIPED(matrix_of_a_box_by_rows, OF_LINES | AFTERWARDS, "transposed")
+/* Some lines are in view, and a homography may look like that. */
+PIPED(matrix_of_a_box_by_rows, OF_LINES | AFTERWARDS, "")
 {
     p->projection = shade_mat4_ortho(-5, 3, -4, 3, 3, 20);
     piped_aim(p);
@@ -594,6 +723,8 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
     if (strstr(said, "is hidden by depth"))
         return !got && piped_fragments(p, lines, piped_without_depth);
     if (strstr(said, "lie in surfaces")) return !got && piped_fragments(p, lines, piped_biased);
+    if (strstr(said, "target.color holds one"))
+        return !p->pipe.fragment && got && p->target.color && !piped_changes(p, 0, 0xFF302010u);
     if (strstr(said, "fragment is NULL")) {
         float depth[PIPED_W * PIPED_H];
         memcpy(depth, p->depth, sizeof depth);

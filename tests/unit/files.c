@@ -6,6 +6,16 @@
 #include <sys/resource.h>
 #endif
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FILES_SANITIZED 1
+#elif defined(__has_feature)
+#define FILES_SANITIZED \
+    (__has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || \
+     __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer))
+#else
+#define FILES_SANITIZED 0
+#endif
+
 #define FILES_SLACK 1e-4 /* of a byte: the float rounding of c times 255 */
 
 typedef struct file_sink {
@@ -497,6 +507,35 @@ TEST(files, a_png_of_noise_is_at_most_an_eighth_longer)
         check_png(rnd_int(1, FILES_SIDE), 300, 0, 300, SHADE_FORMAT_RGBA8, 1);
     check_png(1, FILES_SIDE, 0, FILES_SIDE, SHADE_FORMAT_RGBA8, 1);
     check_png(FILES_SIDE, 1, 0, 1, SHADE_FORMAT_RGBA8, 1);
+}
+
+static uintptr_t deepest;
+static int note_depth(void *user, const void *bytes, size_t size)
+{
+    unsigned char here = 0;
+    (void)user;
+    (void)bytes;
+    (void)size;
+    if ((uintptr_t)(void *)&here < deepest) deepest = (uintptr_t)(void *)&here;
+    return 0;
+}
+
+/* G20 */
+TEST(files, a_png_takes_less_than_four_kilobytes_of_stack)
+{
+#if defined(__OPTIMIZE__) && !FILES_SANITIZED
+    unsigned char entry = 0;
+    canvas c = canvas_open(300, 200, 0, SHADE_FORMAT_RGBA32F, 0);
+    fill_pixels(&c, 0);
+    c.target.srgb = 1;
+    deepest = (uintptr_t)(void *)&entry;
+    CHECK_INT(shade_encode_png(note_depth, NULL, &c.target), SHADE_OK);
+    long taken = (long)((uintptr_t)(void *)&entry - deepest);
+    CHECK_SAY(taken > 2816 && taken < 4096, "%ld bytes", taken);
+    canvas_close(&c);
+#else
+    test_skip("frames of this build are larger");
+#endif
 }
 
 /* One bit that changes anywhere is found: the decoder of these tests is no rubber stamp. */

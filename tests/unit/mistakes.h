@@ -404,7 +404,7 @@ MISTAKE(positions_of_integers, BOTH, "mesh.positions|state.model|small")
         memcpy(s->position + i, p, sizeof p);
     }
 }
-MISTAKE(positions_interleaved_without_stride, BOTH, "mesh.normals|mesh.positions|")
+MISTAKE(positions_interleaved_without_stride, BOTH, "both ways|mesh.positions|")
 {
     for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
         s->position[2 * i] = s->position[i];
@@ -461,7 +461,7 @@ MISTAKE(wound_clockwise_without_normals, BOTH, "wound|winding")
     stage_turn(s, 0);
     s->mesh.normals = NULL;
 }
-MISTAKE(half_wound_clockwise, BOTH, "mesh.normals|")
+MISTAKE(half_wound_clockwise, BOTH, "wound both ways")
 {
     stage_turn(s, s->mesh.index_count / 6 * 3);
     s->state.raster.cull = SHADE_CULL_BACK;
@@ -660,7 +660,7 @@ MISTAKE(lamp_without_position, BOTH, "direction without length")    /* filled by
 {
     memset(&stage_one_lamp(s)->position, 0, sizeof s->lamps[0].position);
 }
-MISTAKE(lamp_negative, POT, "") { stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1); }
+MISTAKE(lamp_negative, POT, "negative colour") { stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1); }
 MISTAKE(terms_of_nothing, BOTH, "lighting.terms") { s->state.lighting.terms = SHADE_TERM_EMISSION; }
 MISTAKE(terms_of_highlights, BOTH, "") { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
 MISTAKE(terms_unknown, BOTH, "lighting.terms") { s->state.lighting.terms = 64; }
@@ -744,6 +744,56 @@ MISTAKE(shader_discards_all, BOTH_STATS, "state.fragment")
     s->state.fragment = shader_that_discards;
 }
 MISTAKE(shader_leaves_black, BOTH, "state.fragment") { s->state.fragment = shader_black; }
+static inline void shader_of_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                   shade_colors *SHADE_RESTRICT out)
+{
+    const float *color = (const float *)uniforms;
+    (void)in;
+    for (int k = 0; k < 4; k++) SHADE_EACH_LANE(i) { out->color[k][i] = color[k]; }
+}
+static inline void stage_shade(stage *s, const float *color, shade_blend blend)
+{
+    s->state.fragment = shader_of_color;
+    s->state.uniforms = color;
+    s->state.raster.blend = blend;
+}
+MISTAKE(shader_of_no_alpha_over, BOTH, "Alpha is 0 everywhere")
+{
+    static const float clear[4] = { 1, 0.5f, 0.5f, 0 };
+    stage_shade(s, clear, SHADE_BLEND_OVER);
+}
+MISTAKE(shader_adds_black, BOTH, "adds nothing")
+{
+    static const float black[4] = { 0, 0, 0, 1 };
+    stage_shade(s, black, SHADE_BLEND_ADD);
+}
+MISTAKE(shader_adds_without_alpha, BOTH, "adds nothing")
+{
+    static const float clear[4] = { 1, 0.5f, 0.5f, 0 };
+    stage_shade(s, clear, SHADE_BLEND_ADD);
+}
+MISTAKE(shader_of_nan_in_one_channel, BOTH, "gives NaN")
+{
+    static const float bad[4] = { 0.5f, NAN, 0.5f, 1 };
+    stage_shade(s, bad, SHADE_BLEND_REPLACE);
+}
+MISTAKE(shader_of_alpha_nan_over, BOTH, "gives NaN")
+{
+    static const float bad[4] = { 0.5f, 0.5f, 0.5f, NAN };
+    stage_shade(s, bad, SHADE_BLEND_OVER);
+}
+MISTAKE(shader_of_255, BOTH, "1 is full light, not 255")
+{
+    static const float bytes[4] = { 200, 100, 90, 1 };
+    stage_shade(s, bytes, SHADE_BLEND_REPLACE);
+}
+static inline void shader_of_lane_0(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                    shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int k = 0; k < 3; k++) out->color[k][0] = in->z[0];
+}
+MISTAKE(shader_writes_lane_0, BOTH, "writes lane 0") { s->state.fragment = shader_of_lane_0; }
 MISTAKE(shader_by_vertices, BOTH, "state.shading")
 {
     s->state.fragment = shader_white;
@@ -837,7 +887,7 @@ MISTAKE(near_negative, BOTH, "near and far above 0")
     stage_lens(s, s->fovy, s->aspect, -1, s->z_far);
 }
 MISTAKE(near_is_far, BOTH, "different") { stage_lens(s, s->fovy, s->aspect, s->z_far, s->z_far); }
-MISTAKE(near_and_far_exchanged, BOTH, "depth_test")
+MISTAKE(near_and_far_exchanged, BOTH, "near of state.projection is beyond far")
 {
     stage_lens(s, s->fovy, s->aspect, s->z_far, s->z_near);
 }
@@ -850,7 +900,7 @@ MISTAKE(near_too_far, BOTH, "nearer than the near plane")
 {
     stage_lens(s, s->fovy, s->aspect, s->z_far / 2, s->z_far);
 }
-MISTAKE(projection_by_rows, BOTH, "state.projection looks transposed")
+MISTAKE(projection_by_rows, BOTH, "state.projection looks transposed|row-major")
 {
     s->state.projection = shade_mat4_transpose(s->state.projection);
 }
@@ -1177,7 +1227,7 @@ MISTAKE(spot_attenuated_away, BALL, "Attenuation")
 }
 /* The mesh lies in the cone, and far from its axis. */
 /* Seen from afar and lit at a flat angle: R.V is 0.08 at most and shows nothing, N.H would. */
-MISTAKE(mirror_turned_away, BALL, "grazes")
+MISTAKE(mirror_turned_away, BALL, "graze")
 {
     stage_quad(s);
     s->state.raster.cull = SHADE_CULL_BACK;
@@ -1193,7 +1243,7 @@ MISTAKE(mirror_turned_away, BALL, "grazes")
 }
 /* What the questions ask for beside the mistake itself: other projections, no depth, few lamps. */
 MISTAKE(view_of_w_two, BALL, "state.view") { s->state.view.col[3].w = 2; }
-MISTAKE(left_handed_projection_by_rows, BALL, "state.projection looks transposed")
+MISTAKE(left_handed_projection_by_rows, BALL, "state.projection looks transposed|row-major")
 {
     const shade_mat4 turn = shade_mat4_scaling(shade_v3(1, 1, -1));
     s->state.view = shade_mat4_mul(turn, s->state.view);
@@ -1259,7 +1309,7 @@ MISTAKE(lamp_behind_what_the_map_leaves, BALL, "Every lamp is behind")
     s->state.lighting.light_count = 1;
     s->target.depth = NULL;
 }
-MISTAKE(lamp_behind_what_the_map_leaves_in_ambient_light, BALL, "Every lamp is behind")
+MISTAKE(lamp_behind_what_the_map_leaves_in_ambient_light, BALL, "")
 {
     mistake_lamp_behind_what_the_map_leaves(s);
     s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.1f);
@@ -1364,7 +1414,7 @@ static inline void stage_ambient(stage *s)
 {
     s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
 }
-MISTAKE(ambient_and_lamp_behind, BALL, "Every lamp is behind")
+MISTAKE(ambient_and_lamp_behind, BALL, "")
 {
     stage_ambient(s);
     mistake_lamp_behind(s);
@@ -1379,12 +1429,12 @@ MISTAKE(ambient_and_light_count_forgotten, BALL, "light_count")
     stage_ambient(s);
     mistake_light_count_forgotten(s);
 }
-MISTAKE(ambient_and_normals_zero, BALL, "mesh.normals are zero or NaN")
+MISTAKE(ambient_and_normals_zero, BALL, "mesh.normals are zero|mesh.normals hold")
 {
     stage_ambient(s);
     mistake_normals_never_filled(s);
 }
-MISTAKE(ambient_and_normals_nan, BALL, "mesh.normals are zero or NaN")
+MISTAKE(ambient_and_normals_nan, BALL, "mesh.normals are zero|mesh.normals hold")
 {
     stage_ambient(s);
     for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i].x = NAN;
@@ -1457,7 +1507,7 @@ MISTAKE(around_a_corner_of_the_picture, BALL, "No pixel centre")
     s->position[2] = shade_v3(5.4f, 4.2f, -4);
     s->mesh.index_count = 3;
 }
-MISTAKE_IN(lamp_negative, lamp_negative_of_the_ball, BALL, "diffuse|several of them")
+MISTAKE_IN(lamp_negative, lamp_negative_of_the_ball, BALL, "negative colour")
 MISTAKE_IN(all_in_model, all_in_model_of_the_ball, BALL, "state.model holds a projection")
 
 #endif

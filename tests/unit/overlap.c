@@ -125,7 +125,7 @@ TEST(overlap, meshes_are_not_written_over)
     CHECK_SAY(tried[0] > 3000 && tried[1] > 1500, "%d taken, %d refused", tried[0], tried[1]);
 }
 
-/* The struct of the mesh is read to the end, too; normals where mesh.normals are is README's way. */
+/* The struct of the mesh is read to the end, too.  normals may be mesh.normals, as in README. */
 TEST(overlap, a_mesh_is_not_written_over_itself)
 {
     static shade_vec3 positions[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, normals[3];

@@ -4,12 +4,14 @@
 #define MODEL_REQUEST_H
 
 #include "options.h"
+#include "../../elsewhere/words.h"
 
 #define MODEL_USAGE                                                                                \
     "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"      \
     "                        RRGGBB, #RGB or a name\n"                                             \
     "  --material NAME       one material for all surfaces: clay, or a name that\n"                \
-    "                        --material list prints\n"                                             \
+    "                        --material list prints, or another program's numbers, as in\n"        \
+    "                        'vtk(color=1,.5,.2, specular=.8, power=30)'\n"                        \
     "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"       \
     "                        (blinn-phong)\n"                                                      \
     "  --shading NAME        fragment, vertex, face (fragment)\n"                                  \
@@ -133,6 +135,8 @@ static inline int find_material(const char *name, shade_material *out)
 static inline void list_materials(void)
 {
     puts("clay");
+    for (const elsewhere_row *row = elsewhere_rows; row->name; row++)
+        if (row->look) puts(row->name);
     for (int m = 0; m < SHADE_PRESET_COUNT; m++) puts(shade_preset_name((shade_preset)m));
 }
 
@@ -158,12 +162,15 @@ static inline int model_take_color(void *to, const char *value)
 static inline int model_take_material(void *to, const char *value)
 {
     model_options *o = (model_options *)to;
+    unsigned flags; /* the studio's lamps have their own */
+    char said[400];
     if (!strcmp(value, "list")) {
         list_materials();
         return OPTIONS_ANSWERED;
     }
     o->plain = 1;
-    return find_material(value, &o->material);
+    if (find_material(value, &o->material)) return OPTION_TAKEN;
+    return !elsewhere_apply_text(value, &o->material, &o->model, &flags, said, sizeof said);
 }
 
 static inline int model_take_model(void *to, const char *value)

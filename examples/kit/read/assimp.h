@@ -140,10 +140,18 @@ static float take_material_float(const struct aiMaterial *a, const char *key, fl
     return v >= 0 ? v : none;
 }
 
-static void material_from_gloss(const struct aiMaterial *a, shade_material *k)
+/* What a format calls its shininess, as an exponent.  3DS has percent, which lib3ds and the viewers
+   built on it raise to 2^(10 p), at most 128; the others have exponents, up to 128 in AC3D. */
+static float exponent_of(const char *name, float shininess)
+{
+    if (!(shininess > 0) || strcmp(model_kind_of(name).text, "3ds") != 0) return shininess;
+    return fminf(128, exp2f(fminf(shininess, 100) / 10));
+}
+
+static void material_from_gloss(const struct aiMaterial *a, const char *name, shade_material *k)
 {
     float strength = fminf(1, take_material_float(a, "$mat.shinpercent", 1));
-    k->shininess = take_material_float(a, "$mat.shininess", 0);
+    k->shininess = exponent_of(name, take_material_float(a, "$mat.shininess", 0));
     k->specular = shade_v3(0, 0, 0);
     take_material_color(a, "$clr.specular", &k->specular, NULL);
     k->specular = shade_scale(k->specular, strength);
@@ -225,7 +233,7 @@ static int glow_from(model_surface *s, const struct aiMaterial *a)
     return 0;
 }
 
-static int surface_from(model_surface *s, const struct aiMaterial *a)
+static int surface_from(model_surface *s, const struct aiMaterial *a, const char *name)
 {
     struct aiString text;
     shade_material *k = &s->material;
@@ -242,7 +250,7 @@ static int surface_from(model_surface *s, const struct aiMaterial *a)
         model_rough(s, take_material_float(a, "$mat.metallicFactor", 0),
                     take_material_float(a, "$mat.roughnessFactor", 0.7f));
     else
-        material_from_gloss(a, k);
+        material_from_gloss(a, name, k);
     if (map_from(s, a, base) || relief_from(s, a) || glow_from(s, a)) return 1;
     model_glow(s, 0);
     return 0;
@@ -302,7 +310,8 @@ static int tree_surfaces(tree *t, model *m)
         if (model_find_surface(m, name, (size_t)n, 1) != (int)i)
             return mesh_fail(t->reader, "out of memory, or more than 10000 materials");
         s = &m->surface[i];
-        if (surface_from(s, t->scene->mMaterials[i])) return mesh_fail(t->reader, "out of memory");
+        if (surface_from(s, t->scene->mMaterials[i], t->reader->name))
+            return mesh_fail(t->reader, "out of memory");
         s->picture = tree_picture(t, s->map, 0);
         s->relief.picture = tree_picture(t, s->relief.map, 1);
         s->glow_picture = tree_picture(t, s->glow_map, 0);

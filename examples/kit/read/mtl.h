@@ -1,6 +1,7 @@
-/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd,
-   map_Ke, map_d, and map_Bump, bump and norm with their -bm; -o and -s of map_Kd.  Other statements
-   are told as mtl_known says; surfaces that the model does not use are skipped.  The alpha of
+/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, illum, d or Tr, map_Kd,
+   map_Ke, map_d, and map_Bump, bump and norm with their -bm; -o and -s of map_Kd.  Pr, with Pm,
+   becomes the nearest Phong as in glTF, whatever Ks and Ns say.  Other statements are told as
+   mtl_known says; surfaces that the model does not use are skipped.  The alpha of
    map_Kd counts only where map_d or d < 1 asks for it, because exporters often keep other masks
    there.  Colours are sRGB values.  Ka is ignored, because files hold anything there: k_a = k_d, as
    daylight wants it. */
@@ -16,7 +17,7 @@ static const known_name mtl_known[] = {
     { "tr", KNOWN_DRAWN },      { "map_kd", KNOWN_DRAWN },     { "map_ke", KNOWN_DRAWN },
     { "map_d", KNOWN_DRAWN },   { "map_bump", KNOWN_DRAWN },   { "bump", KNOWN_DRAWN },
     { "norm", KNOWN_DRAWN },    { "map_kn", KNOWN_DRAWN },     { "ka", KNOWN_SILENT },
-    { "map_ka", KNOWN_SILENT }, { "ni", KNOWN_SILENT },        { "illum", KNOWN_SILENT },
+    { "map_ka", KNOWN_SILENT }, { "ni", KNOWN_SILENT },        { "illum", KNOWN_DRAWN },
     { "tf", KNOWN_SILENT },     { "sharpness", KNOWN_SILENT }, { "map_aat", KNOWN_SILENT },
     { "pr", KNOWN_SILENT },     { "pm", KNOWN_SILENT },        { "ps", KNOWN_SILENT },
     { "pc", KNOWN_SILENT },     { "pcr", KNOWN_SILENT },       { "aniso", KNOWN_SILENT },
@@ -77,9 +78,29 @@ typedef struct mtl_clear {
     int has_kd, has_d, mapped, others; /* mapped: there is a map_d; others: another picture */
     char *map;
     float move[4];
-    float white; /* of the colours of all surfaces */
+    float white;        /* of the colours of all surfaces */
+    int dull;           /* illum 1: no highlight */
+    float metal, rough; /* Pm and Pr; rough below 0: not said */
 } mtl_clear;
-static const mtl_clear mtl_fresh = { 0, 0, 0, 0, NULL, { 0, 0, 1, 1 }, 1 };
+static const mtl_clear mtl_fresh = { 0, 0, 0, 0, NULL, { 0, 0, 1, 1 }, 1, 0, 0, -1 };
+
+/* illum 0 is a colour without light.  Few readers obey it, and files have it by accident: it is
+   lit, and told.  illum 1 has no highlight; the numbers above are as 2 here. */
+static inline int mtl_illum(mesh_reader *r, model *m, mtl_clear *c)
+{
+    float number;
+    if (mtl_number(r, 0, 10, &number)) return 1;
+    c->dull = number == 1;
+    return number < 1 ? known_take(r, m, KNOWN_TOLD, 0, "illum 0", 7) : 0;
+}
+
+/* Ps, the sheen of cloth, is told where there is any. */
+static inline int mtl_sheen(mesh_reader *r, model *m)
+{
+    float number;
+    if (mtl_number(r, 0, 1, &number)) return 1;
+    return number > 0 ? known_take(r, m, KNOWN_TOLD, 0, "Ps", 2) : 0;
+}
 
 /* Options of a picture, which begin with a dash: the numbers after one are its own, and of those
    that take a word the word.  *strength becomes the number behind -bm, move the first two numbers
@@ -182,6 +203,10 @@ static inline int mtl_statement(mesh_reader *r, model *m, model_surface *s, mtl_
     if (mesh_take_word(r, "ks")) return mtl_color(r, c->white, &k->specular);
     if (mesh_take_word(r, "ke")) return mtl_color(r, c->white, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
+    if (mesh_take_word(r, "illum")) return mtl_illum(r, m, c);
+    if (mesh_take_word(r, "pr")) return mtl_number(r, 0, 1, &c->rough);
+    if (mesh_take_word(r, "pm")) return mtl_number(r, 0, 1, &c->metal);
+    if (mesh_take_word(r, "ps")) return mtl_sheen(r, m);
     if (mesh_take_word(r, "map_kd")) return mtl_map(r, m, &s->map, NULL, s->move);
     if (mesh_take_word(r, "map_ke")) return mtl_other(r, m, c, &s->glow_map, NULL);
     if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, m, c);
@@ -205,6 +230,11 @@ static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
         model_warn(m, s->map,
                    "the -o and -s of the other pictures are not its own, and do not count");
     if (s && s->map && !c->has_kd) s->material.diffuse = shade_v3(0, 0, 0);
+    if (s && c->dull) s->material.specular = shade_v3(0, 0, 0);
+    if (s && c->rough >= 0) {
+        s->shine = shade_v3(0.04f, 0.04f, 0.04f);
+        model_rough(s, c->metal, c->rough);
+    }
     if (s && s->map) s->opaque = !c->mapped && s->transparency <= 0;
     if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))
         model_warn(m, c->map, "map_d counts only where it is the picture of map_Kd");

@@ -430,7 +430,7 @@ static inline int ply_has(const ply_data *p, int column)
     return has[0] || (column == PLY_NORMAL && (has[1] || has[2]));
 }
 
-/* The colour of a display that a splat has from all sides alike: It is stored as the factor of
+/* The colour of a display that a splat has from all sides alike: it is stored as the factor of
    the constant spherical harmonic, 1 / (2 sqrt(pi)), from the middle of 0 .. 1. */
 static inline double ply_splat(double value)
 {

@@ -39,6 +39,7 @@ typedef struct look {
     shade_vec3 eye;              /* in the studio, without one in the world */
     float alpha, alpha_cutoff;   /* where the map has less alpha than alpha_cutoff are holes */
     int per_vertex, map_is_opaque, shadows, mirrors;
+    int samples;     /* along the edge of a pixel, to share the lamps; 0: each asks all */
     int clipped;     /* light above SHOULDER is not bent toward white */
     int aimed;       /* it is known where in the picture chunks lie */
     look_note *note; /* NULL: none */
@@ -92,10 +93,20 @@ static shade_vec3 look_fresnel(const look *k, shade_vec3 albedo, float cosine)
     return shade_add(front, shade_scale(shade_sub(white, front), grazing));
 }
 
-/* What the studio sends to the lanes from first on, as many as a block has and count allows: the
-   light of its sky, its mirror image, and the part of the large lamp */
+/* Some lanes of a packet, a block at most, and the lamps that they ask: one in so many */
+typedef struct look_share {
+    int lane[STUDIO_BLOCK], count, first, shares;
+} look_share;
+
+/* What the studio sends: the light of its sky, its mirror image, the part of the large lamp */
+typedef struct look_sent {
+    look_rows sky, mirror;
+    float visibility[2 * SHADE_LANES]; /* of the large lamp, and of the other one: 1 */
+} look_sent;
+
+/* What the studio sends to the lanes of a share */
 static void look_studio(const look *k, const float *P, const float *N, const float *albedo,
-                        int first, int count, look_rows sky, look_rows mirror, float *visibility)
+                        const look_share *s, look_sent *out)
 {
     studio_points p = studio_nowhere;
     studio_rows E;
@@ -103,38 +114,54 @@ static void look_studio(const look *k, const float *P, const float *N, const flo
     float open[STUDIO_BLOCK], lamp[STUDIO_BLOCK];
     STUDIO_EACH(i)
     {
-        const int lane = first + i < count ? first + i : count - 1;
-        const float *at = P + lane, *n = N + lane;
-        const shade_vec3 point = shade_v3(at[0], at[SHADE_LANES], at[2 * SHADE_LANES]);
-        shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
-        normal = shade_normalize(normal);
+        const int l = s->lane[i < s->count ? i : s->count - 1];
+        const shade_vec3 point = lane(P, l), normal = shade_normalize(lane(N, l));
         V[i] = shade_normalize(shade_sub(k->eye, point));
         R[i] = shade_mirror(V[i], normal);
         studio_put(p.P, i, point);
         studio_put(p.N, i, normal);
         studio_put(p.R, i, R[i]);
     }
-    studio_sky(k->studio, &p, E, open);
-    studio_lamp(k->studio, &p, lamp);
-    for (int i = 0; i < STUDIO_BLOCK && first + i < count; i++) {
-        const shade_vec3 own = albedo ? lane(albedo, first + i) : shade_v3(1, 1, 1);
+    studio_sky(k->studio, s->first, s->shares, &p, E, open);
+    studio_lamp(k->studio, s->first, s->shares, &p, lamp);
+    for (int i = 0; i < s->count; i++) {
+        const int l = s->lane[i];
+        const shade_vec3 own = albedo ? lane(albedo, l) : shade_v3(1, 1, 1);
         const shade_vec3 normal = shade_v3(p.N[0][i], p.N[1][i], p.N[2][i]);
-        lane_put(sky[0], first + i, shade_v3(E[0][i], E[1][i], E[2][i]));
-        visibility[first + i] = lamp[i];
+        lane_put(out->sky[0], l, shade_v3(E[0][i], E[1][i], E[2][i]));
+        out->visibility[l] = lamp[i];
         if (!k->mirrors) continue;
-        lane_put(mirror[0], first + i,
+        lane_put(out->mirror[0], l,
                  shade_mul(look_fresnel(k, own, shade_dot(normal, V[i])),
                            studio_mirror(k->studio, R[i], k->rough, open[i], lamp[i])));
     }
 }
 
-/* The light that leaves P toward the eye; only the first count lanes are computed.  albedo NULL: 1.
-   glow, which may be NULL, is the light that P sends by itself. */
-static void look_light(const look *k, const float *P, const float *N, const float *albedo,
-                       const float *glow, int count, look_rows out)
+/* What the studio sends to count lanes.  Neighbours among the samples of a pixel ask a share of the
+   lamps each, by their place in the picture alone: bands and strips have the same bits. */
+static void look_send(const look *k, const float *P, const float *N, const float *albedo, int count,
+                      const shade_fragments *in, look_sent *out)
 {
-    float visibility[2 * SHADE_LANES]; /* of the large lamp, and of the other one: 1 */
-    look_rows sky = { { 0 } }, mirror = { { 0 } };
+    const int shares = in && k->samples > 1 ? STUDIO_SHARES : 1;
+    for (int first = 0; first < shares; first++) {
+        look_share s = { .first = first, .shares = shares };
+        for (int i = 0; i < count; i++) {
+            const int own = shares > 1 ? ((int)in->x[i] & 1) | ((int)in->y[i] & 1) << 1 : 0;
+            if (own == first) s.lane[s.count++] = i;
+            if (s.count < STUDIO_BLOCK && (i < count - 1 || !s.count)) continue;
+            look_studio(k, P, N, albedo, &s, out);
+            s.count = 0;
+        }
+    }
+}
+
+/* The light that leaves P toward the eye; only the first count lanes are computed.  albedo NULL: 1.
+   glow, which may be NULL, is the light that P sends by itself.  in: where the lanes lie in the
+   picture; NULL: they are vertices. */
+static void look_light(const look *k, const float *P, const float *N, const float *albedo,
+                       const float *glow, int count, const shade_fragments *in, look_rows out)
+{
+    look_sent sent = { .sky = { { 0 } } };
     shade_rows rows = { .position = P, .normal = N, .albedo = albedo };
     for (int a = 0; a < 3 && k->unlit; a++) SHADE_EACH_LANE(i)
         {
@@ -142,20 +169,21 @@ static void look_light(const look *k, const float *P, const float *N, const floa
             out[a][i] *= albedo ? albedo[i + a * SHADE_LANES] : 1;
         }
     if (k->unlit) return;
-    for (int first = 0; first < count && k->shadows; first += STUDIO_BLOCK)
-        look_studio(k, P, N, albedo, first, count, sky, mirror, visibility);
-    for (int i = k->shadows ? count : 2 * SHADE_LANES; i < 2 * SHADE_LANES; i++) visibility[i] = 1;
-    if (k->shadows) rows.visibility = visibility;
+    if (k->shadows) {
+        look_send(k, P, N, albedo, count, in, &sent);
+        for (int i = count; i < 2 * SHADE_LANES; i++) sent.visibility[i] = 1;
+        rows.visibility = sent.visibility;
+    }
     shade_lit_lanes(&k->lighting, &k->material, k->eye, &rows, out[0]);
     for (int a = 0; a < 3 && k->shadows; a++) {
         const float ambient = component(k->material.ambient, a);
-        float *s = sky[a];
+        float *s = sent.sky[a];
         SHADE_EACH_LANE(i) { s[i] *= ambient; }
         if (albedo) SHADE_EACH_LANE(i)
             {
                 s[i] *= albedo[i + a * SHADE_LANES];
             }
-        SHADE_EACH_LANE(i) { out[a][i] = out[a][i] + mirror[a][i] + s[i]; }
+        SHADE_EACH_LANE(i) { out[a][i] = out[a][i] + sent.mirror[a][i] + s[i]; }
     }
     for (int a = 0; a < 3 && glow; a++) SHADE_EACH_LANE(i)
         {
@@ -216,7 +244,8 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
     if (look_has_pictures(k)) look_fetch(m->texcoords, 2, in, out->varying[look_uv(k)]);
     if (k->per_vertex) {
         look_rows light;
-        look_light(k, p[0], n[0], colors ? out->varying[LOOK_REST] : NULL, NULL, in->count, light);
+        look_light(k, p[0], n[0], colors ? out->varying[LOOK_REST] : NULL, NULL, in->count, NULL,
+                   light);
         SHADE_MEMCPY(out->varying[LOOK_P], light, sizeof light);
     } else if (k->placed)
         look_place(k, p, n, out->varying + LOOK_P, out->varying + LOOK_N);
@@ -273,7 +302,7 @@ static void look_color(const look *k, const shade_fragments *in, look_rows texel
                : own        ? own[0]
                : texel      ? texel[0]
                             : NULL,
-               k->glow_map ? glow[0] : NULL, in->count, out);
+               k->glow_map ? glow[0] : NULL, in->count, in, out);
 }
 
 static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -631,6 +660,7 @@ static inline shade_result exhibit_draw(const exhibit *e, const shade_target *ro
     look k = e->look;
     shade_result result;
     k.clip_from_mesh = shade_mat4_mul(projection, view);
+    k.samples = samples;
     result = draw_opaque(rows, &k, e->options, e->model, e->see_through, e->near_chunks);
     if (!result) result = model_draw_lines(e->model, rows, view, projection, samples);
     if (!result && e->ground.shadow)

@@ -1,6 +1,6 @@
-/* renderer.h - cameras for simulators, learners and graders: a scene of objects that share meshes,
-   and pictures of it that hold colour, depth in the scene's unit, numbers of objects and triangles,
-   and normals, all from one draw.
+/* renderer.h - cameras for simulators, learners and graders: a scene of objects that share
+   meshes, and pictures of it that hold colour, depth in the scene's unit, numbers of objects and
+   triangles, and normals, all from one draw.
 
        renderer_scene *scene = renderer_scene_open();
        renderer *r = renderer_open();
@@ -8,12 +8,12 @@
        renderer_add(scene, &ball, 1);
        renderer_draw(&r, 1, scene, &picture, 1, NULL);
 
-   The scene holds meshes, textures, objects, lamps and the sky.  Any number of threads may draw it
-   and change it: each draws with a renderer of its own, which holds scratch memory and nothing that
-   a picture depends on, and a picture shows the scene as it was when renderer_draw began.  After the
-   first picture of a size nothing is allocated.
-   All arithmetic is that of shade.h or single operations of IEEE floats, so that the bits are equal
-   on every machine; compile with -ffp-contract=off. */
+   The scene holds meshes, textures, objects, lamps and the sky.  Any number of threads may draw
+   it and change it: each draws with a renderer of its own, which holds scratch memory and nothing
+   that a picture depends on, and a picture shows the scene as it was when renderer_draw
+   began.  After the first picture of a size nothing is allocated. All arithmetic is that of
+   shade.h or single operations of IEEE floats, so that the bits are equal on every machine;
+   compile with -ffp-contract=off. */
 #ifndef SHARED_RENDERER_H
 #define SHARED_RENDERER_H
 
@@ -93,8 +93,8 @@ typedef struct renderer_picture {
     float empty_depth;   /* the depth of pixels that show nothing */
     float tolerance;     /* pixels that round shapes may lie inside of the true ones */
     int32_t unused;
-    double view[16];              /* by columns */
-    shade_mat4 projection;        /* row 2 of the projection is not read */
+    double view[16];                /* by columns */
+    shade_mat4 projection;          /* row 2 of the projection is not read */
     const renderer_object *objects; /* NULL: those of the scene */
     const double *poses; /* NULL, or for each object of the scene, by number, 16 row by row */
     uint8_t *color;      /* any of these may be NULL */
@@ -139,6 +139,8 @@ typedef struct renderer_scene {
     renderer_around around;
     int *users;  /* of meshes, textures and objects: the scene, and pictures being drawn */
     int version; /* counts changes of meshes and textures */
+    renderer_shape *spares; /* of meshes that move: see deform.h */
+    int spare_count;
     struct renderer_scene *held; /* what pictures show until a change of several steps is done */
 } renderer_scene;
 
@@ -199,11 +201,11 @@ static inline int renderer_slices(int level)
     return slices[level];
 }
 
-/* ---- one scene and several threads ------------------------------------------------------------ */
+/* ---- one scene and several threads ----------------------------------------------------------- */
 
-/* A state is copied on write: a change while pictures are drawn makes a copy of the records, which
-   costs some microseconds, and draws nothing twice.  Nobody waits for a picture.  One lock for all
-   scenes guards the counts and the change itself, some hundred nanoseconds each. */
+/* A state is copied on write: a change while pictures are drawn makes a copy of the records,
+   which costs some microseconds, and draws nothing twice.  Nobody waits for a picture.  One lock
+   for all scenes guards the counts and the change itself, some hundred nanoseconds each. */
 #if defined(THREAD_NONE)
 static inline void renderer_lock(void) {}
 static inline void renderer_unlock(void) {}
@@ -284,8 +286,8 @@ static inline size_t renderer_plane_row(const renderer_shape *s)
     return ((size_t)s->index_count / 3 + SHADE_LANES - 1) / SHADE_LANES * SHADE_LANES;
 }
 
-/* Planes of the faces.  The halves of a capsule are lifted apart first, so that its cylinder, which
-   is flat until then, has some.  0: out of memory */
+/* Planes of the faces.  The halves of a capsule are lifted apart first, so that its cylinder,
+   which is flat until then, has some.  0: out of memory */
 static inline int renderer_make_planes(renderer_shape *s)
 {
     const size_t row = renderer_plane_row(s);
@@ -449,7 +451,8 @@ static inline void *renderer_twin(const void *from, int count, size_t size)
     return to;
 }
 
-/* Makes the state the scene's own, with the lock, where pictures have it too.  0: out of memory */
+/* Makes the state the scene's own, with the lock, where pictures have it too.  0: out of memory
+   */
 static inline int renderer_own(renderer_scene *s)
 {
     renderer_scene n = *s;
@@ -457,7 +460,8 @@ static inline int renderer_own(renderer_scene *s)
     n.users = renderer_count_new();
     n.objects = (renderer_object *)renderer_twin(s->objects, s->object_count, sizeof *n.objects);
     n.meshes = (renderer_shape *)renderer_twin(s->meshes, s->mesh_count, sizeof *n.meshes);
-    n.textures = (renderer_texture *)renderer_twin(s->textures, s->texture_count, sizeof *n.textures);
+    n.textures =
+        (renderer_texture *)renderer_twin(s->textures, s->texture_count, sizeof *n.textures);
     n.object_room = s->object_count;
     if (!n.users || !n.objects || !n.meshes || !n.textures) {
         free(n.users);
@@ -506,6 +510,8 @@ static inline void renderer_scene_close(renderer_scene *s)
     if (!s->borrowed) renderer_shape_free(&s->box);
     if (!s->borrowed) renderer_shape_free(&s->plane);
     renderer_lock();
+    for (int i = 0; i < s->spare_count; i++) renderer_shape_free(&s->spares[i]);
+    free(s->spares);
     renderer_let_go(s);
     renderer_unlock();
     free(s);
@@ -590,8 +596,8 @@ static inline int renderer_split(renderer_shape *s)
     return 1;
 }
 
-/* An array with room for element number, all new ones zero, and their count.  NULL: out of memory,
-   and the array stays */
+/* An array with room for element number, all new ones zero, and their count.  NULL: out of
+   memory, and the array stays */
 static inline void *renderer_reach_to(void *array, int *count, int number, size_t size)
 {
     const size_t old = (size_t)*count, wanted = (size_t)number + 1;
@@ -645,6 +651,7 @@ static inline int renderer_set_mesh(renderer_scene *scene, int number, const sha
     if (all) {
         scene->meshes = all;
         renderer_shape_free(&all[number]);
+        if (number < scene->spare_count) renderer_shape_free(&scene->spares[number]);
         if (m && origin) memcpy(s.origin, origin, sizeof s.origin);
         all[number] = s;
         scene->version++;
@@ -687,8 +694,8 @@ static inline int renderer_texture_of(renderer_texture *t, const renderer_image 
     return 0;
 }
 
-/* Puts a copy of a picture in the place of texture number; with from NULL that is freed.  0: out of
-   memory, and nothing has changed */
+/* Puts a copy of a picture in the place of texture number; with from NULL that is freed.  0: out
+   of memory, and nothing has changed */
 static inline int renderer_set_texture(renderer_scene *scene, int number,
                                        const renderer_image *from)
 {
@@ -780,7 +787,8 @@ static inline renderer_object *renderer_find(const renderer_scene *s, int number
     return *count ? s->objects + at : NULL;
 }
 
-/* Puts records of one object in the place of those that it has, with the lock.  0: out of memory */
+/* Puts records of one object in the place of those that it has, with the lock.  0: out of memory
+   */
 static inline int renderer_put_in(renderer_scene *s, int number, const renderer_object *from,
                                   int count)
 {
@@ -895,8 +903,8 @@ static inline int renderer_not_rigid(const double *rows, int count)
 }
 
 /* Moves objects: a matrix of 16, row by row, for each of count numbers, or with numbers NULL for
-   each object in their order.  All move at once, or none.  -1: done; else the first matrix that is
-   refused, or -2: an object is missing, or there are others than count, -3: out of memory */
+   each object in their order.  All move at once, or none.  -1: done; else the first matrix that
+   is refused, or -2: an object is missing, or there are others than count, -3: out of memory */
 static inline int renderer_pose(renderer_scene *s, const int32_t *numbers, const double *rows,
                                 int count)
 {
@@ -933,7 +941,8 @@ static inline void renderer_set_lights(renderer_scene *s, const shade_light *lig
     renderer_unlock();
 }
 
-/* Takes what stands behind all objects of from: background, sky, sky_texture, sky_low, sky_high. */
+/* Takes what stands behind all objects of from: background, sky, sky_texture, sky_low, sky_high.
+   */
 static inline void renderer_set_behind(renderer_scene *s, const renderer_around *from)
 {
     renderer_lock();
@@ -986,10 +995,10 @@ static inline void renderer_aim(renderer_view *v)
     }
 }
 
-/* From where a picture counts, so that floats tell what is near its eye apart: from zero, or where
-   the eye is more than 65,536 times near from it, from a round number beside the eye.  65,536 times
-   near floats still tell a hundredth of near, and within a step of 4,096 to 8,192 times near the
-   shadow maps are kept.  step: 0, or that step */
+/* From where a picture counts, so that floats tell what is near its eye apart: from zero, or
+   where the eye is more than 65,536 times near from it, from a round number beside the
+   eye.  65,536 times near floats still tell a hundredth of near, and within a step of 4,096 to
+   8,192 times near the shadow maps are kept.  step: 0, or that step */
 static inline double renderer_step(const renderer_picture *p, const double *eye)
 {
     const double size = p->parallel ? 1 / (double)p->projection.col[1].y : (double)p->near_z;
@@ -1011,7 +1020,8 @@ static inline void renderer_locate(renderer_view *v)
     step = renderer_step(v->p, eye);
     for (int k = 0; k < 3 && step > 0; k++) v->origin[k] = step * floor(eye[k] / step + 0.5);
     for (int k = 0; k < 3; k++)
-        move[k] = m[12 + k] + m[k] * v->origin[0] + m[4 + k] * v->origin[1] + m[8 + k] * v->origin[2];
+        move[k] =
+            m[12 + k] + m[k] * v->origin[0] + m[4 + k] * v->origin[1] + m[8 + k] * v->origin[2];
     for (int k = 0; k < 4; k++)
         v->view.col[k] = shade_v4((float)m[4 * k], (float)m[4 * k + 1], (float)m[4 * k + 2],
                                   (float)m[4 * k + 3]);
@@ -1080,8 +1090,8 @@ static inline float renderer_most(const float *size)
     return m > size[2] ? m : size[2];
 }
 
-/* Turn, place and size of an object as one matrix.  The two halves of a capsule are only scaled by
-   its radius here: they are lifted apart vertex by vertex. */
+/* Turn, place and size of an object as one matrix.  The two halves of a capsule are only scaled
+   by its radius here: they are lifted apart vertex by vertex. */
 static inline shade_mat4 renderer_world(const renderer_object *o, const renderer_entry *e)
 {
     const float *t = e->turn, *s = o->size;
@@ -1104,8 +1114,8 @@ static inline float renderer_height(const renderer_view *v, const renderer_objec
     return (float)sum;
 }
 
-/* An endless plane is a large one below the eye.  Its size stays below 1e5 distances of the eye, so
-   that floats place its corners. */
+/* An endless plane is a large one below the eye.  Its size stays below 1e5 distances of the eye,
+   so that floats place its corners. */
 static inline void renderer_stretch(const renderer_view *v, const renderer_object *o,
                                     renderer_entry *e)
 {
@@ -1205,7 +1215,8 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
         break;
     default: renderer_detail(v, o, e, e->distance);
     }
-    /* all that casts shadows is drawn together; a distant lamp needs no backs of what is closed */
+    /* all that casts shadows is drawn together; a distant lamp needs no backs of what is closed
+       */
     if (v->shadows) {
         const int closed = o->kind != RENDERER_MESH && o->kind != RENDERER_PLANE;
         e->key = closed && v->parallel ? 0 : RENDERER_KEY_TWO_SIDED;
@@ -1531,10 +1542,10 @@ static inline void renderer_cut(const renderer_batch *b, const shade_fragments *
     }
 }
 
-/* Where points of a lamp's clip space lie on its map: the first of 3 x 3 texels, how far beyond the
-   middle one's corner they are, and their depth.  That is -1, before all that is drawn, beside the
-   map, and 1, as deep as what is empty, beyond its far plane: ground that lies far below what casts
-   shadows. */
+/* Where points of a lamp's clip space lie on its map: the first of 3 x 3 texels, how far beyond
+   the middle one's corner they are, and their depth.  That is -1, before all that is drawn,
+   beside the map, and 1, as deep as what is empty, beyond its far plane: ground that lies far
+   below what casts shadows. */
 static inline void renderer_on_map(int size, const float (*clip)[SHADE_LANES],
                                    int32_t *SHADE_RESTRICT at, float *SHADE_RESTRICT u,
                                    float *SHADE_RESTRICT v, float *SHADE_RESTRICT z)
@@ -1558,8 +1569,8 @@ static inline void renderer_on_map(int size, const float (*clip)[SHADE_LANES],
 }
 
 /* The share of 3 x 3 texels, weighted by their nearness, that lets the lamp's light pass.  Texels
-   are fetched one by one.  Depths are compared as integers, because gcc makes no vectors of floats
-   that conditions add to. */
+   are fetched one by one.  Depths are compared as integers, because gcc makes no vectors of
+   floats that conditions add to. */
 static inline void renderer_passes(const renderer_map *m, const float (*clip)[SHADE_LANES],
                                    float *SHADE_RESTRICT passes)
 {
@@ -1595,8 +1606,9 @@ static inline void renderer_face_normals(const renderer_batch *b, const shade_fr
 }
 
 /* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta off the
-   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly unit,
-   by what makes up for it, and for the chords of round shapes, which differ from map to picture. */
+   lamp's axis is nearer to the lamp there by their tangent.  P moves along N, which is nearly
+   unit, by what makes up for it, and for the chords of round shapes, which differ from map to
+   picture. */
 static inline void renderer_shadow(const renderer_map *m, const renderer_surface *s,
                                    const float (*P)[SHADE_LANES], const float (*N)[SHADE_LANES],
                                    float *visible)
@@ -1627,7 +1639,8 @@ static inline void renderer_shadow(const renderer_map *m, const renderer_surface
     SHADE_EACH_LANE(i) { visible[i] = facing[i] > 0 ? visible[i] : 0; }
 }
 
-/* Lanes of another shininess than the first, one shininess after the other: a material has one. */
+/* Lanes of another shininess than the first, one shininess after the other: a material has one.
+   */
 static inline void renderer_light_others(const renderer_surface *s, const shade_lighting *lighting,
                                          shade_material m, shade_vec3 eye, const shade_rows *rows,
                                          int count, float (*rgb)[SHADE_LANES])
@@ -1660,8 +1673,9 @@ static inline void renderer_light(const renderer_batch *b, const renderer_surfac
     if (s->glossy && !s->alike) renderer_light_others(s, &lighting, m, eye, rows, count, rgb);
 }
 
-/* 1: fragment i of a surface with holes lies in one, or what is drawn or a fragment before it hides
-   it.  Fragments of other surfaces have passed the depth test, the nearest of a pixel last. */
+/* 1: fragment i of a surface with holes lies in one, or what is drawn or a fragment before it
+   hides it.  Fragments of other surfaces have passed the depth test, the nearest of a pixel last.
+   */
 static inline int renderer_is_hidden(const renderer_batch *b, const shade_fragments *in,
                                      const uint32_t *discard, const int32_t *at, int i)
 {
@@ -1794,7 +1808,8 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-/* The triangles of its mesh that an entry shows, and how many.  The mesh may have fewer by now. */
+/* The triangles of its mesh that an entry shows, and how many.  The mesh may have fewer by now.
+   */
 static inline int renderer_range(const renderer_view *v, const renderer_entry *e, int *first)
 {
     const renderer_object *o = &v->p->objects[e->object];
@@ -1803,8 +1818,8 @@ static inline int renderer_range(const renderer_view *v, const renderer_entry *e
     return !o->count ? all : o->count < rest ? o->count : rest > 0 ? rest : 0;
 }
 
-/* Room for the triangles of entries, with one more, and for the owners of their vertices.  0: there
-   is not enough memory */
+/* Room for the triangles of entries, with one more, and for the owners of their vertices.  0:
+   there is not enough memory */
 static inline int renderer_room_for(renderer *r, const renderer_view *v, const renderer_entry *e,
                                     int count)
 {
@@ -1854,8 +1869,8 @@ static inline void renderer_facing(const renderer_entry *e, shade_vec4 eye, int 
     }
 }
 
-/* Adds the faces of entry number j that may be seen, and its vertices, to those of a draw; returns
-   how many triangles there are then.  Without a branch: whether a face is seen cannot be
+/* Adds the faces of entry number j that may be seen, and its vertices, to those of a draw;
+   returns how many triangles there are then.  Without a branch: whether a face is seen cannot be
    predicted. */
 static inline int renderer_add_faces(renderer *r, const renderer_view *v, renderer_entry *e, int j,
                                      int triangles)
@@ -2254,8 +2269,8 @@ static inline void renderer_distances(const renderer_picture *p, const float *z,
     }
 }
 
-/* Leaves alpha out.  Of all pixels but the last four bytes are written, the last of which the next
-   pixel covers: that is twice as fast as byte by byte. */
+/* Leaves alpha out.  Of all pixels but the last four bytes are written, the last of which the
+   next pixel covers: that is twice as fast as byte by byte. */
 static inline void renderer_pack(uint8_t *to, const uint8_t *from, size_t pixels)
 {
     for (size_t i = 0; i + 1 < pixels; i++) memcpy(to + 3 * i, from + 4 * i, 4);
@@ -2318,8 +2333,9 @@ static inline void renderer_near_lights(renderer_view *v, shade_light *to)
     v->lights = to;
 }
 
-/* Draws a picture.  Its arrays are complete when the result is SHADE_OK; else those that were begun
-   may hold anything.  Numbers of meshes, textures and lamps must be good: the bindings check. */
+/* Draws a picture.  Its arrays are complete when the result is SHADE_OK; else those that were
+   begun may hold anything.  Numbers of meshes, textures and lamps must be good: the bindings
+   check. */
 static inline shade_result renderer_draw_one(renderer *r, const renderer_scene *s,
                                              const renderer_picture *p)
 {
@@ -2368,9 +2384,9 @@ typedef struct renderer_work {
     const volatile int *stop;
 } renderer_work;
 
-/* The objects that a picture shows: those that it brings, or the scene's, moved where it has poses */
-static inline shade_result renderer_shown(renderer *r, const renderer_scene *s,
-                                            renderer_picture *p)
+/* The objects that a picture shows: those that it brings, or the scene's, moved where it has
+   poses */
+static inline shade_result renderer_shown(renderer *r, const renderer_scene *s, renderer_picture *p)
 {
     const size_t bytes = (size_t)s->object_count * sizeof *s->objects;
     if (p->objects) return SHADE_OK;
@@ -2402,9 +2418,9 @@ static inline void renderer_draw_share(void *data, int share)
 }
 
 /* Draws pictures by at most BANDS_MOST renderers, in equal shares, all of the scene as it is now.
-   Pictures without objects show those of the scene: SHADE_ERROR_ARGUMENT where they have poses for
-   another number of objects than there are now.  Once *stop is set, which may be NULL, the rest is
-   left out. */
+   Pictures without objects show those of the scene: SHADE_ERROR_ARGUMENT where they have poses
+   for another number of objects than there are now.  Once *stop is set, which may be NULL, the
+   rest is left out. */
 static inline shade_result renderer_draw(renderer *const *r, int renderers, const renderer_scene *s,
                                          const renderer_picture *pictures, int count,
                                          const volatile int *stop)

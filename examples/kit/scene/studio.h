@@ -2,9 +2,13 @@
    soft shadows, a weak lamp from behind, and a sky, bright above and dim at the horizon, whose
    light reaches into hollows as far as they are open.
 
-   The sky consists of many weak lamps at infinity.  For each of them, and for some points of the
-   large lamp, a depth-only draw from the lamp makes a shadow map.  A point is lit by the lamps
-   whose maps show it.
+   How bright the whole sky makes a surface depends on the slope of that alone, and stands in a
+   table.  What the model hides of it is asked of many lamps at infinity.  For each of them, and for
+   some points of the large lamp, a depth-only draw from the lamp makes a shadow map.  A point is
+   lit by the lamps whose maps show it.
+
+   The samples of a pixel share the lamps: each of four neighbours asks a quarter of them.  So a
+   picture costs a quarter of the look-ups, and a pixel still shows them all.
 
    Surfaces also reflect the studio, by Fresnel's term [Schlick94]: without that, a black part
    would show no form.  The lamps of the sky around the reflected direction say how much of it the
@@ -17,6 +21,8 @@
 #include "../read/model.h"
 
 enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
+enum { STUDIO_SHARES = 4 };   /* the numbers of lamps are multiples of it */
+enum { STUDIO_SLOPES = 32 };  /* steps of the table, from a floor's underside to level ground */
 enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow on the ground, at most */
 #define STUDIO_REACH 1.02f    /* half the edge of the square that a map sees */
 
@@ -25,6 +31,7 @@ typedef struct studio_map {
     float *depth;                 /* NULL: not drawn, everything is lit */
     float weight;                 /* its part of the sky, or of the large lamp */
     int size;
+    float low[2], high[2]; /* the texels that something is drawn in, and two around them */
 } studio_map;
 
 typedef struct studio {
@@ -32,6 +39,8 @@ typedef struct studio {
     int sky, key;                /* the number of maps of each */
     int ground;                  /* texels along an edge of the shadow on the ground */
     float *memory;
+    float slope[STUDIO_SLOPES + 2]
+               [2]; /* light of an open sky, the part of the zenith and the rest */
     shade_light lamp[2];
     float turn;       /* of the lamps about +y, in radians; the sky looks alike all around */
     shade_vec3 strip; /* toward the strip of light behind, which mirrors show */
@@ -55,6 +64,39 @@ static shade_vec2 studio_spiral(int i, int n)
     return shade_v2(r * m.col[0].x, r * m.col[0].y);
 }
 
+/* How bright the sky is at a height: half as bright at the horizon as above */
+static float studio_height(float y) { return 1 / (0.6f + y); }
+
+/* The mean over a ring of the sky, at height y, of the cosine to a normal of slope ny, where it is
+   above 0: of a cos(angle) + b. */
+static float studio_ring(float y, float ny)
+{
+    const float a = sqrtf((1 - y * y) * (1 - ny * ny)), b = y * ny;
+    const float edge = a > 0 ? fmaxf(-1, fminf(1, -b / a)) : b > 0 ? -1 : 1;
+    const float angle = acosf(edge);
+    return (a * sinf(angle) + b * angle) / 3.1415927f;
+}
+
+/* Fills the table: the light of the whole sky by slope, 1 on level ground. */
+static void studio_fill_slopes(studio *s)
+{
+    enum { RINGS = 256 };
+    for (int k = 0; k <= STUDIO_SLOPES; k++) {
+        const float ny = 2 * (float)k / STUDIO_SLOPES - 1;
+        float sum[2] = { 0 }, level = 0;
+        for (int i = 0; i < RINGS; i++) {
+            const float y = sqrtf(((float)i + 0.5f) / RINGS), weight = studio_height(y);
+            const float part = weight * studio_ring(y, ny);
+            sum[0] += part * y;
+            sum[1] += part * (1 - y);
+            level += weight * y;
+        }
+        s->slope[k][0] = sum[0] / level;
+        s->slope[k][1] = sum[1] / level;
+    }
+    memcpy(s->slope[STUDIO_SLOPES + 1], s->slope[STUDIO_SLOPES], sizeof s->slope[0]);
+}
+
 /* Places the lamps of the sky as densely as Lambert's cosine weights them on level ground, where
    all have the same weight. */
 static void studio_place(studio *s, int sky, int key)
@@ -62,11 +104,12 @@ static void studio_place(studio *s, int sky, int key)
     float sum = 0;
     s->sky = sky;
     s->key = key;
+    studio_fill_slopes(s);
     for (int i = 0; i < sky; i++) {
         shade_vec2 p = studio_spiral(i, sky);
         float y = sqrtf(1 - p.x * p.x - p.y * p.y);
         studio_aim(&s->map[i], shade_v3(p.x, y, p.y));
-        s->map[i].weight = 1 / (0.6f + y); /* half as bright at the horizon as above */
+        s->map[i].weight = studio_height(y);
         sum += s->map[i].weight * y;
     }
     for (int i = 0; i < sky; i++) s->map[i].weight /= sum;
@@ -109,6 +152,27 @@ static shade_mat4 studio_view(const studio_map *m)
     return view;
 }
 
+/* Finds the rectangle outside of which nothing is drawn. */
+static void studio_find_drawn(studio_map *map)
+{
+    int low[2] = { map->size, map->size }, high[2] = { -1, -1 };
+    for (int y = 0; y < map->size; y++) {
+        const float *row = map->depth + (size_t)y * (size_t)map->size;
+        int first = 0, last = map->size - 1;
+        while (first <= last && row[first] >= 1) first++;
+        if (first > last) continue;
+        while (row[last] >= 1) last--;
+        if (first < low[0]) low[0] = first;
+        if (last > high[0]) high[0] = last;
+        if (y < low[1]) low[1] = y;
+        high[1] = y;
+    }
+    for (int k = 0; k < 2; k++) {
+        map->low[k] = (float)low[k] - 2;
+        map->high[k] = (float)high[k] + 2;
+    }
+}
+
 /* Draws the depth of the opaque parts. */
 static shade_result studio_draw(studio_map *map, const model *m)
 {
@@ -127,6 +191,7 @@ static shade_result studio_draw(studio_map *map, const model *m)
             s && s->alpha_cutoff > 0 && s->picture >= 0 ? &m->picture[s->picture].map : NULL;
         result = shade_draw_mesh(&target, &mesh, &state, NULL);
     }
+    studio_find_drawn(map);
     return result;
 }
 
@@ -141,7 +206,14 @@ typedef struct studio_points {
 static const studio_points studio_nowhere;
 #define STUDIO_EACH(i) for (int i = 0; i < STUDIO_BLOCK; i++)
 #if defined(__GNUC__) && !defined(__clang__) /* which makes vectors at -O2 */
-#define STUDIO_VECTORS __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off")))
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                 \
+    !defined(__SANITIZE_THREAD__) /* whose loader chooses */
+#define STUDIO_BUILDS , target_clones("avx2", "default")
+#else
+#define STUDIO_BUILDS
+#endif
+#define STUDIO_VECTORS                                                                             \
+    __attribute__((optimize("O3", "no-trapping-math", "fp-contract=off") STUDIO_BUILDS))
 #else
 #define STUDIO_VECTORS
 #endif
@@ -155,7 +227,8 @@ static void studio_put(studio_rows rows, int i, shade_vec3 v)
 
 /* The parts of the points that the lamp sees: four neighbours in the map, weighted by distance.
    Points are moved so many texels off their surfaces, or these would shade themselves.  *cosine is
-   that between normals and the lamp.  0: all surfaces face away. */
+   that between normals and the lamp.  0: all surfaces face away.  Where all lie beside what is drawn,
+   no texel is looked up. */
 STUDIO_VECTORS static int studio_seen(const studio_map *m, float texels, const studio_points *p,
                                       float *cosine, float *seen)
 {
@@ -165,7 +238,7 @@ STUDIO_VECTORS static int studio_seen(const studio_map *m, float texels, const s
     const float *nx = p->N[0], *ny = p->N[1], *nz = p->N[2];
     float u[STUDIO_BLOCK], v[STUDIO_BLOCK], z[STUDIO_BLOCK], texel[2][2 * STUDIO_BLOCK];
     float within[STUDIO_BLOCK];
-    int at[STUDIO_BLOCK], facing = 0;
+    int at[STUDIO_BLOCK], facing = 0, near = 0;
     STUDIO_EACH(i) { cosine[i] = nx[i] * to.x + ny[i] * to.y + nz[i] * to.z; }
     STUDIO_EACH(i) { facing |= cosine[i] > 0; }
     STUDIO_EACH(i) { seen[i] = 1; }
@@ -180,12 +253,14 @@ STUDIO_VECTORS static int studio_seen(const studio_map *m, float texels, const s
         float x = wx > 0 ? wx : 0, y = wy > 0 ? wy : 0;
         x = x < last ? x : last;
         y = y < last ? y : last;
+        near |= (wx > m->low[0]) & (wx < m->high[0]) & (wy > m->low[1]) & (wy < m->high[1]);
         within[i] = (float)(x == wx) * (float)(y == wy);
         z[i] = depth < 1 ? depth : 1; /* empty texels: 1 */
         u[i] = x - (float)(int)x;
         v[i] = y - (float)(int)y;
         at[i] = (int)((float)(int)y * (float)m->size + (float)(int)x);
     }
+    if (!near) return 1;
     STUDIO_EACH(i)
     {
         memcpy(&texel[0][2 * i], m->depth + at[i], 2 * sizeof(float));
@@ -201,53 +276,93 @@ STUDIO_VECTORS static int studio_seen(const studio_map *m, float texels, const s
     return 1;
 }
 
-/* The light of the sky on surfaces, and the light that the ground throws back; 0.4 on open level
-   ground.  The sky goes from a bluish zenith to a warm horizon.  open becomes the part of the
-   lamps near the direction R that a point sees, 1 where none is near. */
-STUDIO_VECTORS static void studio_sky(const studio *s, const studio_points *p, studio_rows light,
-                                      float *open)
+/* The light of a sky that nothing hides, for normals of slope ny: between two steps of the table */
+static void studio_open_sky(const studio *s, const float *ny, float *high, float *low)
 {
-    const shade_vec3 zenith = shade_v3(0.40f, 0.42f, 0.46f);
-    const shade_vec3 horizon = shade_v3(0.41f, 0.40f, 0.38f);
-    const float *rx = p->R[0], *ry = p->R[1], *rz = p->R[2], *ny = p->N[1];
-    float cosine[STUDIO_BLOCK], seen[STUDIO_BLOCK], near_weight[STUDIO_BLOCK];
-    float high[STUDIO_BLOCK] = { 0 }, low[STUDIO_BLOCK] = { 0 };
-    STUDIO_EACH(i) { open[i] = near_weight[i] = 1e-3f; }
+    STUDIO_EACH(i)
+    {
+        const float at = (0.5f * STUDIO_SLOPES) * fmaxf(0, fminf(2, 1 + ny[i]));
+        const float(*row)[2] = s->slope + (int)at;
+        const float t = at - (float)(int)at;
+        high[i] = row[0][0] + t * (row[1][0] - row[0][0]);
+        low[i] = row[0][1] + t * (row[1][1] - row[0][1]);
+    }
+}
+
+/* Takes from that light, of the zenith and of the rest, and from open, the part of the lamps near the
+   direction R, what the model hides of them.  Only a share of the lamps is asked, one in so many from
+   first on, and what they miss is counted so many times, of the light of all lamps: the mean over
+   all shares is what all lamps say, and where nothing hides the sky each share says so. */
+STUDIO_VECTORS static void studio_hide(const studio *s, int first, int shares,
+                                       const studio_points *p, float *high, float *low, float *open)
+{
+    const float *rx = p->R[0], *ry = p->R[1], *rz = p->R[2];
+    const float *nx = p->N[0], *ny = p->N[1], *nz = p->N[2];
+    float cosine[STUDIO_BLOCK], seen[STUDIO_BLOCK] = { 0 }, all[3][STUDIO_BLOCK],
+                                hidden[3][STUDIO_BLOCK];
+    for (int k = 0; k < 3; k++) STUDIO_EACH(i)
+        {
+            all[k][i] = 1e-3f;
+            hidden[k][i] = 0;
+        }
     for (int k = 0; k < s->sky; k++) {
         const studio_map *m = &s->map[k];
         const shade_vec3 to = m->toward;
         const float weight = m->weight;
-        if (!studio_seen(m, 2, p, cosine, seen)) continue;
+        const int asked = k % shares == first && studio_seen(m, 2, p, cosine, seen);
         STUDIO_EACH(i)
         {
-            float along = rx[i] * to.x + ry[i] * to.y + rz[i] * to.z;
-            const float front = cosine[i] > 0 ? cosine[i] : 0;
-            const float part = front * (weight * seen[i]);
+            const float own = nx[i] * to.x + ny[i] * to.y + nz[i] * to.z;
+            const float front = own > 0 ? own * weight : 0;
+            float along = rx[i] * to.x + ry[i] * to.y + rz[i] * to.z, miss;
             along = along > 0 ? along : 0;
-            along *= along * along * (float)(cosine[i] > 0);
-            near_weight[i] += along;
-            open[i] += along * seen[i];
-            high[i] += part * to.y;
-            low[i] += part * (1 - to.y);
+            along *= along * along * (float)(own > 0);
+            miss = asked ? (float)shares * (1 - seen[i]) : 0;
+            all[0][i] += front * to.y;
+            all[1][i] += front * (1 - to.y);
+            all[2][i] += along;
+            hidden[0][i] += front * to.y * miss;
+            hidden[1][i] += front * (1 - to.y) * miss;
+            hidden[2][i] += along * miss;
         }
     }
     STUDIO_EACH(i)
     {
-        const float back = 0.06f * (1 - ny[i]);
-        open[i] /= near_weight[i];
+        high[i] *= 1 - hidden[0][i] / all[0][i];
+        low[i] *= 1 - hidden[1][i] / all[1][i];
+        open[i] *= 1 - hidden[2][i] / all[2][i];
+    }
+}
+
+/* The light of the sky on surfaces, and the light that the ground throws back; 0.4 on open level
+   ground.  The sky goes from a bluish zenith to a warm horizon.  open becomes the part of the
+   lamps near the direction R that a point sees, 1 where none is near. */
+static void studio_sky(const studio *s, int first, int shares, const studio_points *p,
+                       studio_rows light, float *open)
+{
+    const shade_vec3 zenith = shade_v3(0.40f, 0.42f, 0.46f);
+    const shade_vec3 horizon = shade_v3(0.41f, 0.40f, 0.38f);
+    float high[STUDIO_BLOCK], low[STUDIO_BLOCK];
+    studio_open_sky(s, p->N[1], high, low);
+    STUDIO_EACH(i) { open[i] = 1; }
+    if (s->memory) studio_hide(s, first, shares, p, high, low, open);
+    STUDIO_EACH(i)
+    {
+        const float back = 0.06f * (1 - p->N[1][i]);
         light[0][i] = back + high[i] * zenith.x + low[i] * horizon.x;
         light[1][i] = back + high[i] * zenith.y + low[i] * horizon.y;
         light[2][i] = back + high[i] * zenith.z + low[i] * horizon.z;
     }
 }
 
-/* How much of the large lamp points see */
-STUDIO_VECTORS static void studio_lamp(const studio *s, const studio_points *p, float *lit)
+/* How much of the large lamp points see, by a share of its maps */
+STUDIO_VECTORS static void studio_lamp(const studio *s, int first, int shares,
+                                       const studio_points *p, float *lit)
 {
     float cosine[STUDIO_BLOCK], seen[STUDIO_BLOCK];
     STUDIO_EACH(i) { lit[i] = 0; }
-    for (int k = s->sky; k < s->sky + s->key; k++) {
-        const float weight = s->map[k].weight;
+    for (int k = s->sky + first; k < s->sky + s->key; k += shares) {
+        const float weight = s->map[k].weight * (float)shares;
         if (!studio_seen(&s->map[k], 2.5f, p, cosine, seen)) continue;
         STUDIO_EACH(i) { lit[i] += weight * seen[i] * (float)(cosine[i] > 0); }
     }
@@ -302,43 +417,47 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
 
 /* ---- a coarser mesh -------------------------------------------------------------------------- */
 
-/* 1: the maps have 256 x 256 texels, and the picture has no more pixels. */
-static int studio_is_small(int pixels) { return pixels > 128 && pixels <= 256; }
-
-/* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell become one, at
-   their mean; triangles with two corners in a cell vanish.  A cell is as large as a texel, for
-   small pictures 4/3 of one.  Of 2 million triangles of a sphere 0.4 are left. */
+/* Many lamps, each for a share of the samples, blur what is smaller than some texels of a map.  All
+   vertices of a cell become one, at their mean; triangles with two corners in a cell vanish.  Cells
+   are 8/3 texels wide, for pictures of more than 256 pixels 4/3. */
+enum { STUDIO_THIN = 10000 }; /* triangles of models that are worth it */
 static int studio_may_thin(const model *m)
 {
     for (int i = 0; i < m->surface_count; i++)
         if (m->surface[i].alpha_cutoff > 0) return 0; /* its map would be needed */
-    return m->mesh.view.index_count / 3 > MESH_LARGE;
+    return m->mesh.view.index_count / 3 > STUDIO_THIN;
 }
 
-/* The cell of each vertex, of so many from the middle to an edge; *mean becomes four floats a cell:
-   the mean position, and a count.  NULL: out of memory */
-static uint32_t *studio_cells(const owned_mesh *m, float cells, float **mean, size_t *count)
+/* The cell of a coordinate, of so many */
+static size_t studio_cell(float x, size_t along)
 {
-    static const mesh_set empty;
+    const float at = (x + STUDIO_REACH) * (0.5f * (float)along / STUDIO_REACH);
+    return at > 0 ? at < (float)along ? (size_t)at : along - 1 : 0;
+}
+
+/* The cell of each vertex, of so many along an edge, numbered as they are met; *mean becomes four
+   floats a cell: the mean position, and a count.  NULL: out of memory */
+static uint32_t *studio_cells(const owned_mesh *m, size_t along, float **mean, size_t *count)
+{
     const size_t n = (size_t)m->view.vertex_count;
-    const float scale = cells / STUDIO_REACH;
-    mesh_set set = empty;
     uint32_t *cell = (uint32_t *)malloc((n + 1) * sizeof *cell);
-    int failed = !cell;
-    for (size_t i = 0; i < n && !failed; i++) {
-        mesh_triple t;
+    uint32_t *number = (uint32_t *)calloc(along * along * along, sizeof *number); /* 0: not met */
+    *count = 0;
+    *mean = NULL;
+    for (size_t i = 0; i < n && cell && number; i++) {
+        size_t at = 0;
         for (size_t k = 0; k < 3; k++)
-            t.k[k] = (uint32_t)((m->positions[3 * i + k] + STUDIO_REACH) * scale);
-        failed = mesh_set_add(&set, t, &cell[i]);
+            at = at * along + studio_cell(m->positions[3 * i + k], along);
+        if (!number[at]) number[at] = (uint32_t)++ * count;
+        cell[i] = number[at] - 1;
     }
-    *count = set.count;
-    *mean = failed ? NULL : (float *)calloc(set.count + 1, 4 * sizeof **mean);
+    if (cell && number) *mean = (float *)calloc(*count + 1, 4 * sizeof **mean);
     for (size_t i = 0; i < n && *mean; i++) {
         float *to = *mean + 4 * (size_t)cell[i];
         for (size_t k = 0; k < 3; k++) to[k] += (m->positions[3 * i + k] - to[k]) / (to[3] + 1);
         to[3] += 1;
     }
-    mesh_set_free(&set);
+    free(number);
     if (*mean) return cell;
     free(cell);
     return NULL;
@@ -359,8 +478,7 @@ static int studio_thin(model *thin, const model *m, int pixels)
     static const owned_mesh none;
     size_t cells = 0;
     float *mean = NULL;
-    const float across = studio_is_small(pixels) ? 96 : 128;
-    uint32_t *cell = studio_cells(&m->mesh, across, &mean, &cells);
+    uint32_t *cell = studio_cells(&m->mesh, pixels <= 256 ? 96 : 192, &mean, &cells);
     int count = 0;
     *thin = *m;
     thin->mesh = none;
@@ -390,17 +508,14 @@ static int studio_thin(model *thin, const model *m, int pixels)
     return 0;
 }
 
-/* Draws all maps for a picture whose longer edge has so many pixels.  There are fewer for large
-   models, because each map draws the whole model, and for small pictures, which show less: all maps
-   of the sky together draw so many corners, but there are 12 at least. */
-static shade_result studio_open_for(studio *s, const model *m, double corners, int pixels,
-                                    float turn, int threads, mesh_progress *progress, void *user)
+/* Draws all maps for a picture whose longer edge has so many pixels.  Small pictures show less, and
+   have fewer. */
+static shade_result studio_open_for(studio *s, const model *m, int pixels, float turn, int threads,
+                                    mesh_progress *progress, void *user)
 {
-    const int most = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
+    const int sky = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
+    const int key = pixels <= 256 ? 8 : STUDIO_KEY;
     const int sky_size = pixels <= 128 ? 128 : 256, key_size = 2 * sky_size;
-    double draws = corners / (double)m->mesh.view.index_count;
-    int sky = draws > most ? most : draws > 12 ? (int)draws : 12;
-    int key = sky > 16 ? STUDIO_KEY * sky / STUDIO_SKY : 4;
     size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
     s->ground = pixels <= 128 ? STUDIO_GROUND / 2 : STUDIO_GROUND;
     studio_place(s, sky, key);
@@ -417,20 +532,15 @@ static shade_result studio_open_for(studio *s, const model *m, double corners, i
     return studio_draw_maps(s, m, 0, threads, progress, user);
 }
 
-/* Opens the studio of a model, by the coarser copy of a large one, which has taken a fifth of the
-   time already. */
+/* Opens the studio of a model, by the coarser copy of a large one. */
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
-    const double own = pixels <= 256 ? 8e6 : 40e6; /* small pictures: half of all time was maps */
-    const double thinned =
-        studio_is_small(pixels) ? 10e6 : 16e6; /* as many maps of fewer corners */
     shade_result result = SHADE_ERROR_CAPACITY;
     model thin;
-    if (!studio_may_thin(m))
-        return studio_open_for(s, m, own, pixels, turn, threads, progress, user);
+    if (!studio_may_thin(m)) return studio_open_for(s, m, pixels, turn, threads, progress, user);
     if (!studio_thin(&thin, m, pixels))
-        result = studio_open_for(s, &thin, thinned, pixels, turn, threads, progress, user);
+        result = studio_open_for(s, &thin, pixels, turn, threads, progress, user);
     studio_thin_free(&thin);
     return result;
 }
@@ -440,7 +550,7 @@ static inline void studio_open_quick(studio *s)
 {
     static const studio none;
     *s = none;
-    studio_place(s, 12, 1);
+    studio_place(s, 0, 1);
     studio_place_key(s, 0);
 }
 
@@ -468,7 +578,8 @@ typedef struct studio_shadow {
     float *dark; /* how much of the light of open ground is missing, 0 .. 1, by texel */
 } studio_shadow;
 
-/* One row of texels: how much of the light of open ground is missing there */
+/* One row of texels: how much of the light of open ground is missing there.  Neighbours ask a share
+   of the lamps each, whose mean the blur makes: its weights are the same for all four. */
 static void studio_shadow_row(void *data, int row)
 {
     const studio_shadow *w = (const studio_shadow *)data;
@@ -484,29 +595,32 @@ static void studio_shadow_row(void *data, int row)
         studio_put(p.N, i, up);
         studio_put(p.R, i, up);
     }
-    studio_sky(w->light, &p, sky, unused);
+    studio_sky(w->light, 0, 1, &p, sky, unused);
     open = sky[1][0];
-    for (int first = 0; first < size; first += STUDIO_BLOCK) {
-        float fade[STUDIO_BLOCK], brightest = 0;
-        STUDIO_EACH(i)
-        {
-            const float x = ((float)(first + i) + 0.5f) * step - half;
-            const float z = ((float)row + 0.5f) * step - half;
-            studio_put(p.P, i, shade_v3(x, w->level, z));
-            fade[i] = 1 - (x * x + z * z) / (half * half);
-            fade[i] = fade[i] > 0 ? fade[i] : 0;
-            brightest = fade[i] > brightest ? fade[i] : brightest;
+    for (int first = 0; first < size; first += 2 * STUDIO_BLOCK)
+        for (int odd = 0; odd < 2; odd++) {
+            float *dark = w->dark + row * size + first + odd;
+            const int share = odd + 2 * (row & 1);
+            float fade[STUDIO_BLOCK], brightest = 0;
+            STUDIO_EACH(i)
+            {
+                const float x = ((float)(first + odd + 2 * i) + 0.5f) * step - half;
+                const float z = ((float)row + 0.5f) * step - half;
+                studio_put(p.P, i, shade_v3(x, w->level, z));
+                fade[i] = 1 - (x * x + z * z) / (half * half);
+                fade[i] = fade[i] > 0 ? fade[i] : 0;
+                brightest = fade[i] > brightest ? fade[i] : brightest;
+            }
+            STUDIO_EACH(i) { dark[2 * i] = 0; }
+            if (!(brightest > 0)) continue;
+            studio_sky(w->light, share, STUDIO_SHARES, &p, sky, unused);
+            studio_lamp(w->light, share, STUDIO_SHARES, &p, lamp);
+            STUDIO_EACH(i)
+            {
+                const float bright = (0.72f * (sky[1][i] / open) + 0.28f) * (0.4f * lamp[i] + 0.6f);
+                dark[2 * i] = fade[i] * (1 - bright);
+            }
         }
-        STUDIO_EACH(i) { w->dark[row * size + first + i] = 0; }
-        if (!(brightest > 0)) continue;
-        studio_sky(w->light, &p, sky, unused);
-        studio_lamp(w->light, &p, lamp);
-        STUDIO_EACH(i)
-        {
-            const float bright = (0.72f * (sky[1][i] / open) + 0.28f) * (0.4f * lamp[i] + 0.6f);
-            w->dark[row * size + first + i] = fade[i] * (1 - bright);
-        }
-    }
 }
 
 /* Weighted means over three texels along a line of steps */

@@ -1,4 +1,5 @@
-/* cases.c - runs cases.json against the core: cases.c, then the table's path.  Prints how many hold. */
+/* cases.c - runs cases.json against the core: cases.c, then the table's path.  Prints how many
+   hold. */
 #define _DEFAULT_SOURCE
 #define SHADE_IMPLEMENTATION
 #include "examples/kit/scene/renderer.h"
@@ -25,7 +26,8 @@ static int numbers_at(const json_doc *j, uint32_t at, double *out, int room)
 {
     int count = 0;
     for (uint32_t i = at; i < j->value[at].end; i++)
-        if (j->value[i].kind == JSON_NUMBER && count < room) out[count++] = json_number_at(j, i, NAN);
+        if (j->value[i].kind == JSON_NUMBER && count < room)
+            out[count++] = json_number_at(j, i, NAN);
     return count;
 }
 
@@ -68,7 +70,8 @@ static int run_colors(asked *a)
 {
     double rows[MOST], want[MOST], got[MOST], alpha;
     float out[MOST];
-    const int count = numbers(a, "rows", rows, MOST), whole = a->j->value[member(a, "whole")].kind == JSON_TRUE;
+    const int count = numbers(a, "rows", rows, MOST),
+              whole = a->j->value[member(a, "whole")].kind == JSON_TRUE;
     if (core_colors(&a->why, "colors", rows, (size_t)count / 3, 3, whole, 0, out, &alpha)) return 0;
     for (int k = 0; k < count; k += 3) {
         const shade_vec3 c = shade_linear_from_srgb(shade_v3(out[k], out[k + 1], out[k + 2]));
@@ -87,7 +90,8 @@ static int run_look_at(asked *a)
     numbers(a, "target", target, 3);
     numbers(a, "up", up, 3);
     return !core_look_at(&a->why, eye, target, up, number(a, "fov"), number(a, "aspect"),
-                         number(a, "near"), number(a, "far"), &got) && near_camera(a, &got);
+                         number(a, "near"), number(a, "far"), &got) &&
+           near_camera(a, &got);
 }
 
 static int run_opencv(asked *a)
@@ -98,7 +102,8 @@ static int run_opencv(asked *a)
     numbers(a, "extrinsics", extrinsics, 16);
     numbers(a, "size", size, 2);
     return !core_opencv(&a->why, K, extrinsics, (int)size[0], (int)size[1], number(a, "near"),
-                        number(a, "far"), &got) && near_camera(a, &got);
+                        number(a, "far"), &got) &&
+           near_camera(a, &got);
 }
 
 static int run_opengl(asked *a)
@@ -136,7 +141,8 @@ static int run_faces(asked *a)
 {
     double rows[MOST], want[MOST];
     uint32_t out[MOST];
-    const int count = numbers(a, "rows", rows, MOST), height = (int)a->j->value[member(a, "rows")].count;
+    const int count = numbers(a, "rows", rows, MOST),
+              height = (int)a->j->value[member(a, "rows")].count;
     const int64_t made = core_faces(&a->why, "faces", rows, (size_t)height, count / height,
                                     number(a, "vertices"), out);
     int same = numbers(a, "want", want, MOST) == made;
@@ -152,8 +158,10 @@ static int run_pose(asked *a)
     renderer_scene *s = renderer_scene_open();
     renderer_object o = { .kind = RENDERER_SPHERE, .size = { 1, 1, 1 } };
     int same = s && renderer_add(s, &o, 1) == 0;
-    if (!core_rigid(&a->why, "pose", m)) same = same && renderer_pose(s, NULL, m, 1) == -1;
-    else same = same && renderer_pose(s, NULL, m, 1) == 0;
+    if (!core_rigid(&a->why, "pose", m))
+        same = same && renderer_pose(s, NULL, m, 1) == -1;
+    else
+        same = same && renderer_pose(s, NULL, m, 1) == 0;
     same = same && renderer_records(s, 0, &o, 1) == 1 && !a->why.code && near(o.place, want, 3, 0);
     renderer_scene_close(s);
     return same;
@@ -172,7 +180,8 @@ static int step_of(const asked *a, renderer_scene *s, uint32_t at)
     if (json_is(a->j, at + 1, "pose")) return renderer_pose(s, &number, still, 1) == -1;
     if (json_is(a->j, at + 1, "clear")) return renderer_put_all(s, NULL, 0);
     if (json_is(a->j, at + 1, "stale"))
-        return renderer_pose(s, &number, still, 1) == -2 && renderer_put_object(s, number, &o, 1) == -1;
+        return renderer_pose(s, &number, still, 1) == -2 &&
+               renderer_put_object(s, number, &o, 1) == -1;
     if (!json_is(a->j, at + 1, "objects") || renderer_records(s, -1, all, MOST) != count) return 0;
     for (int k = 0; k < count; k++)
         if (all[k].id != (int)n[k]) return 0;
@@ -211,7 +220,9 @@ static int run_scene(asked *a)
     }
     same = same && !core_look_at(&a->why, eye, target, up, number(a, "fov"), 1, 0.01, 1000, &c);
     for (int i = 0; i < count && same; i++) {
-        renderer_object o = { .kind = RENDERER_SPHERE, .turn = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, .rgba = { 1, 1, 1, 1 } };
+        renderer_object o = { .kind = RENDERER_SPHERE,
+                              .turn = { 1, 0, 0, 0, 1, 0, 0, 0, 1 },
+                              .rgba = { 1, 1, 1, 1 } };
         for (int k = 0; k < 3; k++) {
             o.place[k] = balls[4 * i + k] + far[k];
             o.size[k] = (float)balls[4 * i + 3];
@@ -223,12 +234,15 @@ static int run_scene(asked *a)
     p.tolerance = 0.25f;
     p.ids = ids;
     if (same) memcpy(p.view, c.view, sizeof p.view);
-    for (int k = 0; k < 16 && same; k++) (&p.projection.col[k / 4].x)[k % 4] = (float)c.projection[k];
+    for (int k = 0; k < 16 && same; k++)
+        (&p.projection.col[k / 4].x)[k % 4] = (float)c.projection[k];
     same = same && !renderer_draw(&r, 1, s, &p, 1, NULL);
     for (int i = 0; i < size * size && same; i++)
         if (ids[2 * i] >= 0) seen[ids[2 * i]]++;
-    /* round shapes lie within a quarter of a pixel of the true ones, along 3.545 roots of the area */
-    for (int i = 0; i < count && same; i++) same = fabs(seen[i] - want[i]) <= 3 + 0.886 * sqrt(want[i]);
+    /* round shapes lie within a quarter of a pixel of the true ones, along 3.545 roots of the
+       area */
+    for (int i = 0; i < count && same; i++)
+        same = fabs(seen[i] - want[i]) <= 3 + 0.886 * sqrt(want[i]);
     renderer_close(r);
     renderer_scene_close(s);
     return same;
@@ -277,7 +291,10 @@ int main(int argc, char **argv)
     mesh_reader r = mesh_of((const unsigned char *)bytes, size, "cases.json", error, sizeof error);
     json_doc j = { 0 };
     int good = 0, all = 0;
-    if (!size || json_read(&r, &j)) return printf("cases: no table %s\n", error), 1;
+    if (!size || json_read(&r, &j)) {
+        printf("cases: no table %s\n", error);
+        return 1;
+    }
     const uint32_t list = json_member(&j, JSON_ROOT, "cases");
     for (uint32_t at = list + 1; at < j.value[list].end; at = j.value[at].end, all++) {
         const int right = run(&j, at);

@@ -1,8 +1,10 @@
-/* race.c - two threads draw a scene while a third changes all that can be changed of it: each picture
-   shows a state that the scene had, and ThreadSanitizer finds nothing (tests/scripts/threads.sh).
+/* race.c - two threads draw a scene while a third changes all that can be changed of it: each
+   picture shows a state that the scene had, and ThreadSanitizer finds nothing
+   (tests/scripts/threads.sh).
 
-   Three balls always stand side by side in one colour, and the lamp has the brightness of the colour:
-   a picture with two of them, or with two colours, is torn.  Prints how many were drawn. */
+   Three balls always stand side by side in one colour, and the lamp has the brightness of the
+   colour: a picture with two of them, or with two colours, is torn.  Prints how many were drawn.
+   */
 #define _DEFAULT_SOURCE
 #define SHADE_IMPLEMENTATION
 #include "examples/kit/scene/renderer.h"
@@ -100,7 +102,8 @@ static int set_lamp(renderer_scene *s, float x)
     return 1;
 }
 
-/* All three balls in another colour, as one change of several steps; and one that comes and goes */
+/* All three balls in another colour, as one change of several steps; and one that comes and goes
+   */
 static int change(renderer_scene *s, int step)
 {
     const renderer_around behind = { .background = { 1, 1, 1, (float)(step % 2) } };
@@ -145,7 +148,8 @@ int main(void)
     r.ended = 1;
     thread_lock_give(&r.lock);
     while (running > 0) thread_join(&draws[--running]);
-    printf("race: %d pictures, %d torn, %s\n", r.drawn, r.bad, good ? "all changes done" : "a change failed");
+    printf("race: %d pictures, %d torn, %s\n", r.drawn, r.bad,
+           good ? "all changes done" : "a change failed");
     thread_lock_close(&r.lock);
     renderer_scene_close(r.scene);
     return r.bad || !good || !r.drawn;

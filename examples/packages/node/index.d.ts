@@ -87,7 +87,8 @@ export class Mesh {
 }
 
 /** Matrices of WebGL, 4 x 4 by columns.  view is a rotation and a translation. */
-export interface Camera { view: Numbers; projection: Numbers; }
+/** With a size it serves pictures of that size alone. */
+export interface Camera { view: Numbers; projection: Numbers; size?: [number, number]; }
 
 /** A lamp, in linear light. */
 export interface Light {
@@ -125,6 +126,8 @@ export interface Options {
     /** "quick", three lamps that stay with the camera; "studio", a large lamp and a sky that throw soft
         shadows, also on a ground below; or lamps of your own.  default "quick" */
     light?: "quick" | "studio" | Lighting;
+    /** Another program's material for all meshes, with its model of light: elsewhere.vtk({ power: 30 }). */
+    look?: string;
     /** Where it is seen from: a camera that is fitted to the meshes, or your own; default "iso". */
     view?: Viewpoint | Camera;
     /** [width, height], or one number for both, 1 .. 16384; default [640, 480]. */
@@ -146,13 +149,22 @@ export class Picture {
     readonly width: number;
     readonly height: number;
     /** R, G, B, A bytes: what ImageData takes. */
+<<<<<<< HEAD
     readonly data: Uint8ClampedArray<ArrayBuffer>;
+=======
+    readonly data: ReturnType<Uint8ClampedArrayConstructor["from"]>;
+>>>>>>> main
     /** Along the axis of view at the centre of each pixel; Infinity where there is nothing. */
     readonly depth: Float32Array | null;
     /** The number of the mesh at the centre of each pixel; -1 where there is none. */
     readonly ids: Int32Array | null;
+<<<<<<< HEAD
     /** The bytes of a PNG file: what Blob and Response take. */
     png(): Promise<Uint8Array<ArrayBuffer>>;
+=======
+    /** The bytes of a PNG file. */
+    png(): Promise<ReturnType<Uint8ArrayConstructor["from"]>>;
+>>>>>>> main
 }
 
 /** What is thrown for a bad argument; the message begins with its name. */
@@ -160,6 +172,12 @@ export class ShadeError extends TypeError {}
 
 /** The names of the 24 classic materials. */
 export const PRESETS: readonly string[];
+
+/** Materials of other programs by their own names, as text for the option look:
+    elsewhere.vtk({ specular: 0.5, power: 30 }).  What is left out has the program's default. */
+export const elsewhere: { readonly [program: string]: (numbers?: { [name: string]: number | readonly number[] }) => string };
+/** The programs of elsewhere, each with its numbers and their defaults. */
+export const PROGRAMS: { readonly [program: string]: string };
 
 /** Draws one mesh or several.  Throws ShadeError for a bad
     argument and RangeError where memory is not enough. */
@@ -189,7 +207,7 @@ export type ShapeName = "plane" | "sphere" | "ellipsoid" | "capsule" | "cylinder
 
 /** A camera as WebGL has it: view from the world, projection to clip space, 16 numbers by columns each.  With a size
     it serves pictures of that size alone. */
-export interface CameraMatrices { view: Float64Array; projection: Float64Array; size?: [number, number] }
+export interface CameraMatrices extends Camera { view: Float64Array; projection: Float64Array; }
 
 /** Cameras in double precision. */
 export const Camera: {
@@ -243,11 +261,11 @@ export class Renderer {
     /** An object by its number: ids hold numbers, and this has the rest. */
     object(number: number | Solid): Solid;
     /** What is not given stays; undefined is as if add() had not been given it. */
-    change(number: number, options: Looks & { size?: number | Numbers }): void;
+    change(number: number | Solid, options: Looks & { size?: number | Numbers }): void;
     pose(number: number | Solid, pose: Numbers): void;
     /** A matrix for each of numbers, or for all objects in order; nothing moves where one is refused. */
-    poses(poses: readonly Numbers[], numbers?: readonly number[]): void;
-    show(number: number, visible?: boolean): void;
+    poses(poses: readonly Numbers[], numbers?: readonly (number | Solid)[]): void;
+    show(number: number | Solid, visible?: boolean): void;
     /** Gives a shape other vertices, as mesh() takes them, or heights.  Its objects show it. */
     update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers): void;
     update_texture(number: number, picture: Texture & { faces?: 1 | 6 }): void;

@@ -138,6 +138,38 @@ function preset(name) {
     });
 }
 
+/** The names of the programs of `elsewhere`, each with its numbers and their defaults. */
+export const PROGRAMS = withMemory((room) => {
+    const rows = {}, numbers = room(4);
+    for (let i = 0, name; (name = library.look_name(i, numbers)) !== 0; i++) {
+        rows[text(name)] = text(words(numbers, 1)[0]);
+    }
+    return rows;
+});
+
+/** The look of text such as "vtk(specular=.5, power=30)": 13 numbers, model and flags */
+function look(value) {
+    if (typeof value !== "string") throw new ShadeError("look must be text, as that of elsewhere.vtk({ power: 30 })");
+    return withMemory((room) => {
+        const spelled = new TextEncoder().encode(`${value}\0`);
+        const at = put(room(spelled.length), spelled), row = room(52), lit = room(8), said = room(400);
+        if (library.look(at, row, lit, said, 400)) throw new ShadeError(`look: ${text(said)}`);
+        const [model, flags] = words(lit, 2);
+        return { material: floats(row, 13).slice(), model, flags };
+    });
+}
+
+/** Looks by the names of other programs, as text for render: elsewhere.vtk({ specular: .5, power: 30 }). */
+export const elsewhere = Object.fromEntries(Object.keys(PROGRAMS).map((name) => [name, (numbers = {}) => {
+    const parts = Object.entries(check.record("numbers", numbers, Object.keys(numbers))).map(([key, value]) => {
+        const row = check.isArray(value) ? [...value] : [value];
+        return `${key}=${row.map((x) => check.number(key, x, -1e9, 1e9)).join(",")}`;
+    });
+    const made = `${name}(${parts.join(" ")})`;
+    look(made);
+    return made;
+}]));
+
 /** k_e, k_a, k_d, k_s and n in a row. */
 function material(value) {
     if (typeof value === "string") return preset(value);
@@ -315,13 +347,13 @@ function quick({ view }) {
     return { lights, ambient: QUICK_AMBIENT, model: 0, flags: 0, bent: true };
 }
 
-function writeItems(at, meshes, camera) {
+function writeItems(at, meshes, camera, surface) {
     meshes.forEach(({ mesh, pose }, i) => {
         const start = at + 4 * ITEM * i, from = eyeOf(camera, pose);
         new Float64Array(library.memory.buffer, start, 3).set(from?.eye ?? [0, 0, 0]);
         words(start + 24, 4).set([mesh.address, mesh.edges && from ? 1 : 0, mesh.twoSided ? 1 : 0,
                                   from?.parallel ? 1 : 0]);
-        floats(start + 40, 13).set(mesh.material);
+        floats(start + 40, 13).set(surface ?? mesh.material);
         floats(start + 92, 16).set(pose);
         words(start + 156, 1)[0] = mesh.blend ? 1 : 0;
         floats(start + 160, 8).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness, mesh.strength,
@@ -331,7 +363,7 @@ function writeItems(at, meshes, camera) {
 }
 
 /** Draws into memory of the module, and copies the picture out. */
-function drawn(meshes, camera, { width, height, samples, background, depth, light, toStudio }) {
+function drawn(meshes, camera, { width, height, samples, background, depth, light, surface, toStudio }) {
     const pixels = width * height;
     return withMemory((room) => {
         const [view, items] = [room(4 * VIEW), room(4 * ITEM * meshes.length)];
@@ -339,7 +371,7 @@ function drawn(meshes, camera, { width, height, samples, background, depth, ligh
         const [depths, ids] = depth ? [room(4 * pixels), room(4 * pixels)] : [0, 0];
         const flags = light.flags | (camera.projection[15] !== 0 ? INFINITE_VIEWER : 0);
         light.lights.forEach((row, i) => floats(lights, light.lights.length * LIGHT).set(row, i * LIGHT));
-        writeItems(items, meshes, camera);
+        writeItems(items, meshes, camera, surface);
         words(view, 10).set([lights, rgba, depths, ids, light.lights.length, width, height, samples, flags,
                              light.model]);
         floats(view + 40, 3).set(light.ambient);
@@ -356,7 +388,7 @@ function drawn(meshes, camera, { width, height, samples, background, depth, ligh
     });
 }
 
-const OPTIONS = ["view", "size", "samples", "background", "ortho", "up", "depth", "light"];
+const OPTIONS = ["view", "size", "samples", "background", "ortho", "up", "depth", "light", "look"];
 
 export function render(meshes, options) {
     const got = check.record("options", options, OPTIONS);
@@ -364,6 +396,7 @@ export function render(meshes, options) {
     const { ortho = false, up = "z", depth = false, light = "quick" } = got;
     const named = typeof light === "string" ? check.choice("light", light, ["quick", "studio"]) : null;
     const own = named ? null : check.lighting("light", light);
+    const seen = got.look === undefined ? null : look(got.look);
     const [width, height] = check.size("size", size);
     check.integer("samples", samples, 1, 8);
     if (Math.max(width, height) * samples > 16384) {
@@ -387,8 +420,9 @@ export function render(meshes, options) {
             row.set(origin.map((x, k) => row[k] - row[3] * x));
         });
         check.flag("depth", depth);
-        return drawn(near, camera, { width, height, samples, background: behind, depth,
-                                        light: own ?? quick(camera),
+        const lit = own ?? quick(camera);
+        return drawn(near, camera, { width, height, samples, background: behind, depth, surface: seen?.material,
+                                        light: seen ? { ...lit, model: seen.model, flags: seen.flags } : lit,
                                         toStudio: soft ? cameras.studio(near, camera, up) : null });
     } finally {
         made.forEach((mesh) => mesh.free());

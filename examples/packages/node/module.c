@@ -116,8 +116,8 @@ static float *corner_values(module_mesh *m, const float *normals, const float *c
     return value;
 }
 
-/* Gives corners with a normal or a colour of their own a vertex for each of these, or without weld
-   one for each corner. */
+/* Gives corners with a normal or a colour of their own a vertex for each of these, or without
+   weld one for each corner. */
 static void use_corners(module_mesh *m, const float *normals, int colors_by_face, int weld)
 {
     shade_mesh *s = &m->mesh;
@@ -292,8 +292,8 @@ module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result)
 
 /* ---- where they are ------------------------------------------------------------------------- */
 
-/* How far the vertices that can be seen reach from the origin of a mesh, which notes them; below 0:
-   out of memory */
+/* How far the vertices that can be seen reach from the origin of a mesh, which notes them; below
+   0: out of memory */
 EXPORT(mesh_reach) double module_mesh_reach(module_mesh *m);
 double module_mesh_reach(module_mesh *m)
 {
@@ -312,7 +312,8 @@ double module_mesh_reach(module_mesh *m)
     return most * sqrt(3);
 }
 
-/* Meshes in their places.  fit: the nearest camera that sees all from a side; studio: to the studio */
+/* Meshes in their places.  fit: the nearest camera that sees all from a side; studio: to the
+   studio */
 EXPORT(place_all) void module_place_all(core_place *places, int count, double *origin);
 void module_place_all(core_place *places, int count, double *origin)
 {
@@ -329,23 +330,26 @@ int module_fit(core_refusal *r, const core_side *side, module_mesh *const *meshe
     if (core_cloud_open(r, side, &cloud)) return r->code;
     for (int i = 0; i < count; i++) {
         const shade_mesh *s = &meshes[i]->source;
-        core_cloud_add(&cloud, s->positions, meshes[i]->used, (size_t)s->vertex_count, places[i].pose);
+        core_cloud_add(&cloud, s->positions, meshes[i]->used, (size_t)s->vertex_count,
+                       places[i].pose);
     }
     core_fit(&cloud, side, out);
     return 0;
 }
 
 EXPORT(studio)
-void module_studio(module_mesh *const *meshes, const core_place *places, int count, const double *view,
-                   int up, double *out);
-void module_studio(module_mesh *const *meshes, const core_place *places, int count, const double *view,
-                   int up, double *out)
+void module_studio(module_mesh *const *meshes, const core_place *places, int count,
+                   const double *view, int up, double *out);
+void module_studio(module_mesh *const *meshes, const core_place *places, int count,
+                   const double *view, int up, double *out)
 {
     core_ball ball = { .some = 0 };
-    for (int i = 0; i < 2 * count; i++) {    /* first the box around all, then the distance from its middle */
+    for (int i = 0; i < 2 * count; i++) { /* the box around all, then distances from its middle */
         const module_mesh *m = meshes[i % count];
-        (i < count ? core_ball_add : core_ball_reach)(&ball, m->source.positions, m->used,
-                                                      (size_t)m->source.vertex_count, places[i % count].pose);
+        const size_t vertices = (size_t)m->source.vertex_count;
+        const double *pose = places[i % count].pose;
+        if (i < count) core_ball_add(&ball, m->source.positions, m->used, vertices, pose);
+        else core_ball_reach(&ball, m->source.positions, m->used, vertices, pose);
     }
     core_studio(&ball, view, up, out);
 }

@@ -13,7 +13,7 @@ from setuptools.command.sdist import sdist
 from wheel.bdist_wheel import bdist_wheel
 
 HERE = Path(__file__).resolve().parent
-FOLDERS = ("examples/kit", "examples/shared")
+FOLDERS = ("examples/elsewhere", "examples/kit", "examples/shared")
 
 
 def top() -> Path:

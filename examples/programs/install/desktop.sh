@@ -22,7 +22,7 @@ types() {
 case $2 in
 thumbnailer)    # with bounds of time and memory, because folders hold any files
     png=
-    ! has thumbnail IHDR || png=' --png'
+    ! has thumbnail 'bad png sig' || png=' --png'    # stb's
     cat <<END
 [Thumbnailer Entry]
 TryExec=$1/bin/shade-thumbnail

@@ -60,6 +60,12 @@ local function mathml(math)
     local body, note = text:match('^(.-)(<annotation.*)$')
     if not body then return nil end
     body = body:gsub('minsize="[%d.]+" maxsize="[%d.]+" stretchy="false"', 'minsize="2.4em" stretchy="true" symmetric="true"')
+    -- what holds nothing tall does not stretch: Latin Modern Math draws signs that may stretch too wide
+    local held = '<mo stretchy="true" form="prefix">%(</mo>(.-)<mo stretchy="true" form="postfix">%)</mo>'
+    body = body:gsub(held, function(inner)
+        if inner:match('<mfrac') or inner:match('<munder') or inner:match('<mtable') then return nil end
+        return '<mo stretchy="false" form="prefix">(</mo>' .. inner .. '<mo stretchy="false" form="postfix">)</mo>'
+    end)
     body = body:gsub('<mtable>', '<mtable displaystyle="true">')
     body = body:gsub('<mover>(.-)<mo accent="true">¯</mo></mover>', '<mrow class="over">%1</mrow>')
     if body:match('∝') then body = body:gsub('(</?)mtext', '%1mi') end          -- words beside a sign take its room
@@ -147,8 +153,12 @@ local function aspect_of(path)
     return (((a * 256 + b) * 256 + c) * 256 + d) / (((e * 256 + f) * 256 + g) * 256 + h)
 end
 local function alt_of(image) return escaped(pandoc.utils.stringify(image.caption)) end
+-- Links to other rooms lead somewhere in the sources alone: in pages and slides they are words.
 local function with_links(blocks, change)
-    return pandoc.walk_block(pandoc.Div(blocks), { Link = change }).content
+    return pandoc.walk_block(pandoc.Div(blocks), { Link = function(link)
+        if link.target:match('^%.%./%.%./') then return link.content end
+        return change(link)
+    end }).content
 end
 
 -- ---- a page

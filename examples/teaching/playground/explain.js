@@ -8,7 +8,11 @@ const short = v => {
         : String(+v.toFixed(ROOM)).replace(/^(-?)0\./, '$1.');
     return v < 0 ? `(${text})` : text;
 };
-const triad = v => `(${v.map(x => short(x).replace(/[()]/g, '')).join(',\\,')})`;
+// what rounding leaves beside a component that is a million times as large is 0
+const triad = v => {
+    const most = Math.max(...v.map(Math.abs));
+    return `(${v.map(x => short(Math.abs(x) < 1e-6 * most ? 0 : x).replace(/[()]/g, '')).join(',\\,')})`;
+};
 const write = value => Array.isArray(value) ? triad(value) : short(value).replace(/^\((.*)\)$/, '$1');
 // as few digits as give the same float
 const inC = v => {
@@ -287,6 +291,9 @@ function showFromSide({ panel }) {
     const lines = !on ? [`lamp ${S.lamp} is off`] : [`lamp ${S.lamp}`, `${bare('\\theta')} = ${degrees(a.nl)}°`, `${dot('N', 'L')} = ${figure(a.nl)}`,
         ...(!lobe ? [] : [`${bare(panel.model === 1 ? '\\phi' : '\\omega')} = ${degrees(a.base)}°`,
             `${panel.model === 1 ? dot('H', 'V') : dot('N', 'H')} = ${figure(a.base)}`])];
+    // an angle to one of these is not as it is drawn
+    const leaning = vectors.filter(({ long }) => long < 0.97).map(({ css }) => letter(css));
+    if (leaning.length) lines.push(`${leaning.join(', ')}: foreshortened`);
     const arc = on && turned(degrees(a.nl), 0.42 * far);
     svg.innerHTML = `<line class="surface" x2="${2 * x}" y1="${y}" y2="${y}"/>` +
         (on ? `<path class="arc" d="M${x} ${y - 0.42 * far}A${0.42 * far} ${0.42 * far} 0 0 0 ${x - arc[0]} ${y + arc[1]}"/>` : '') +

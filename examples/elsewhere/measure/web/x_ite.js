@@ -1,6 +1,19 @@
 import X3D from '/node_modules/x_ite/dist/x_ite.min.mjs'
 const vec = v => v.slice(0, 3).join(' ')
 const frames = async n => { for (let i = 0; i < n; i++) await new Promise(requestAnimationFrame) }
+// X_ITE's own Sphere has fewer faces
+function mesh(rings, sectors) {
+    const points = [], index = []
+    for (let i = 0; i <= rings; i++)
+        for (let j = 0; j < sectors; j++) {
+            const t = Math.PI * i / rings, p = 2 * Math.PI * j / sectors, a = i * sectors + j, b = i * sectors + (j + 1) % sectors
+            points.push([Math.sin(t) * Math.cos(p), Math.cos(t), -Math.sin(t) * Math.sin(p)].map(x => x.toFixed(6)).join(' '))
+            if (i < rings) index.push(a, a + sectors, b, b, a + sectors, b + sectors)
+        }
+    const list = points.join(', ')
+    return `geometry IndexedTriangleSet { index [ ${index.join(' ')} ] coord Coordinate { point [ ${list} ] } normal Normal { vector [ ${list} ] } }`
+}
+const ball = mesh(120, 240)
 let element
 export default async function draw(c, size) {
     const m = c.material
@@ -17,7 +30,7 @@ NavigationInfo { headlight FALSE type "NONE" }
 ${view}
 ${lights}
 Shape { appearance Appearance { material Material { diffuseColor ${m.diffuseColor.join(' ')} specularColor ${(m.specularColor || [0, 0, 0]).join(' ')}
-emissiveColor ${(m.emissiveColor || [0, 0, 0]).join(' ')} shininess ${m.shininess} ambientIntensity 0 } } geometry Sphere { } }`
+emissiveColor ${(m.emissiveColor || [0, 0, 0]).join(' ')} shininess ${m.shininess} ambientIntensity 0 } } ${ball} }`
     if (element) element.remove()
     const place = document.getElementById('place')
     place.innerHTML = `<x3d-canvas preserveDrawingBuffer="true" style="width:${size}px;height:${size}px;border:none;display:block"></x3d-canvas>`

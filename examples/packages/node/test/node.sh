@@ -8,7 +8,7 @@ there node && there npm || { left_out "everything: no node with npm"; finish; }
 mkdir -p "$T/tree" "$T/use"
 cp shade.h LICENSE "$T/tree"
 mkdir -p "$T/tree/examples/packages"
-cp -R examples/shared examples/kit "$T/tree/examples"
+cp -R examples/elsewhere examples/shared examples/kit "$T/tree/examples"
 cp -R examples/packages/python examples/packages/node "$T/tree/examples/packages"
 N=$T/tree/examples/packages/node
 rm -f "$N/module.js"
@@ -91,6 +91,7 @@ else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
 check "the cases that C and Python run too" env CASES="$PWD/examples/kit/test/cases.json" \
     sh -c "cd '$T/use' && node --test test/cases.test.js"
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
+check "looks of other programs" sh -c "cd '$T/use' && node --test test/elsewhere.test.js"
 
 find_python "numpy, setuptools, wheel, PIL"
 if [ "$python" ]; then

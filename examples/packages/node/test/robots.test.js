@@ -1,5 +1,5 @@
 // MuJoCo's own engine, from MUJOCO (a path of its mujoco.js): what it steps is drawn by the Renderer that
-// has its names.  RECORDING is python/tests/robots.json, which holds one state and the hashes of
+// has its names.  RECORDING is python/test/robots.json, which holds one state and the hashes of
 // its pictures; with UPDATE=1 it is written.
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";

@@ -6,13 +6,16 @@ import { join } from "node:path";
 
 const [folder, modules] = process.argv.slice(2);
 const right = `
-import { Mesh, PRESETS, Picture, Renderer, ShadeError, mujoco, read3mf, readModel, render } from "shade-h";
-import type { Camera, Color, Frame, Light, Lighting, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
+import { Camera, Mesh, PRESETS, Picture, Renderer, ShadeError, mujoco, read3mf, readModel, render } from "shade-h";
+import type { CameraMatrices, Color, Frame, Light, Lighting, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
 const positions: Numbers = new Float64Array(9), texture: Texture = { data: [1, 2, 3], width: 1, height: 1 };
 const material: Material = { diffuse: [1, 0, 0], shininess: 3 }, color: Color = "steel";
 const source: MeshSource = { positions, indices: [0, 1, 2], normals: "flat", color, material, edges: true,
     colors: new Uint8Array(9), pose: new Float32Array(16), twoSided: false, opacity: 0.5, blend: true, cutoff: 0.1 };
 const view: Viewpoint = [30, 20], camera: Camera = { view: [], projection: [] };
+const made: CameraMatrices = Camera.lookAt([1, 2, 3], [0, 0, 0], { aspect: 2 });
+const image = new ImageData(render({ positions }).data, 640, 480), file0 = render({ positions }).png().then((png) => new Blob([png]));
+void [Camera.opencv([], [], 64), Camera.opengl([], []), Camera.fitted([], { view: "top" }), made, image, file0];
 const lamp: Light = { position: [1, 2, 3, 0], color: [1, 1, 1], spotCosCutoff: 0.5, linear: 1 };
 const light: Lighting = { lights: [lamp], ambient: [0, 0, 0], model: "phong", flags: 4 };
 const options: Options = { light, view, size: 64, samples: 2, background: null, ortho: true, up: "y", depth: true };
@@ -31,10 +34,18 @@ const batch: Frame = sim.render_batch([camera], [[new Float32Array(16)]], sim.fr
 const robot = new mujoco.Renderer({}, {}, 8, 8), rgb: Uint8Array = robot.render();
 const parts: Promise<MeshSource[]> = read3mf(new Uint8Array(9), { picture: () => null });
 const read: Promise<MeshSource[]> = readModel(new Uint8Array(9), { format: "obj", beside: (name) => (name ? null : new Uint8Array(1)) });
+<<<<<<< HEAD
 void [ball, batch, pairs, parts, read, rgb];
 const shown = new ImageData(picture.data, picture.width, picture.height);
 const kept = async () => [new Blob([await picture.png()]), new Response(await picture.png()), new Blob([picture.data])];
 void [shown, kept, readModel(new Uint8Array(9), { color: "red" })];
+=======
+const solid = sim.object(ball);
+solid.pose = [1, 2, 3];
+solid.color = "tomato";
+sim.pose(solid, solid.pose);
+void [solid.number, ball, batch, pairs, parts, read, rgb];
+>>>>>>> main
 export { bytes, depth, file, ids, names, wrong };
 `;
 const mistakes = ['render({})', 'render({ positions: "0" })', 'render({ positions: [], edges: 1 })',
@@ -44,8 +55,13 @@ const mistakes = ['render({})', 'render({ positions: "0" })', 'render({ position
 function compile(name, text) {
     writeFileSync(join(folder, name), text);
     const flags = ["--strict", "--noEmit", "--module", "node16", "--moduleResolution", "node16", "--target",
+<<<<<<< HEAD
                    "es2022", "--lib", "es2022,dom", "--skipLibCheck"];
     execFileSync(process.execPath, [join(modules, "typescript/bin/tsc"), ...flags, name],
+=======
+                   "es2022", "--lib", "es2022,dom"];
+    execFileSync(process.execPath, [join(modules, "typescript/lib/tsc.js"), ...flags, name],
+>>>>>>> main
                  { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
 }
 for (const name of ["right.mts", "right.cts"]) {

@@ -3,6 +3,7 @@
     import shade_h
     shade_h.render("part.stl", edges=True).save("part.png")
 """
+from . import elsewhere
 from ._native import Error
 from .camera import VIEWS, Camera, fitted
 from .files import load
@@ -16,5 +17,5 @@ from .scene import Part, Scene, export_png, render, sheet
 __version__ = "1.4.0"
 __all__ = ["Camera", "Error", "Flag", "Frame", "Light", "Lighting", "Material", "Mesh", "Model",
            "PRESETS", "Part", "Picture", "Renderer", "Scene", "Shape", "Surface", "Term", "VIEWS",
-           "assert_same", "berkeley", "export_png", "fitted", "light_at", "lit", "load", "massey",
+           "assert_same", "berkeley", "elsewhere", "export_png", "fitted", "light_at", "lit", "load", "massey",
            "preset", "render", "sheet", "shirley", "shirley_surface", "uw"]

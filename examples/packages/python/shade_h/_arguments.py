@@ -44,6 +44,22 @@ def array(name: str, value: object, shape: tuple[int | None, ...]) -> Array:
     return got
 
 
+def dimensions(name: str, value: object) -> int:
+    """How many dimensions an array or a number has."""
+    try:
+        return int(np.ndim(value))    # type: ignore[arg-type]
+    except Exception as why:
+        raise Error(f"{name} is no array: {shown(value)} ({why})") from None
+
+
+def several(name: str, value: object) -> list[Any]:
+    """What a list, a tuple or an array of any things holds."""
+    try:
+        return list(value)    # type: ignore[call-overload,no-any-return]
+    except TypeError:
+        raise Error(f"{name} must be a list, not {shown(value)}") from None
+
+
 def floats(name: str, value: object, shape: tuple[int | None, ...], finite: bool = False) -> Floats:
     """A contiguous array of float32, the caller's own never; with finite, one without NaN and
     infinity."""

@@ -182,6 +182,12 @@ class Range(Structure):
     _fields_ = [("near", c_double), ("far", c_double), ("parallel", c_int)]
 
 
+class Moved(Structure):
+    """renderer_moved"""
+    _fields_ = [("positions", c_void_p), ("given", c_void_p), ("faces", c_void_p), ("vertex_count", c_int),
+                ("index_count", c_int), ("normals", c_int), ("unused", c_int), ("origin", c_double * 3)]
+
+
 #: zip_inflate
 INFLATE = ctypes.CFUNCTYPE(c_int, c_void_p, c_size_t, c_void_p, c_size_t)
 
@@ -238,6 +244,7 @@ def _open() -> Any:
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
             ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
+            ("python_scene_deform", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
             ("python_scene_put", c_int, [c_void_p, c_int, c_void_p, c_int]),
@@ -264,6 +271,8 @@ def _open() -> Any:
             ("shade_mesh_edges", c_int, [c_void_p, c_void_p, c_int, c_void_p]),
             ("shade_mipmap_count", c_int, [c_int, c_int]),
             ("shade_mipmap_bytes", c_size_t, [c_int, c_int, c_int]),
+            ("python_look_name", c_char_p, [c_int, c_void_p]),
+            ("python_look", c_int, [c_char_p, c_void_p, c_void_p, c_char_p, c_int]),
             ("shade_preset_material", Material, [c_int]),
             ("shade_preset_name", c_char_p, [c_int]),
             ("shade_linear_material", Material, [Material])):

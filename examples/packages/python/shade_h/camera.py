@@ -14,7 +14,8 @@ Viewpoint = Union[str, Sequence[float]]
 
 
 def _views() -> dict[str, tuple[float, float]]:
-    angles, views = np.zeros(2), {}
+    views: dict[str, tuple[float, float]] = {}
+    angles = np.zeros(2)
     while name := library.python_view_name(len(views), pointer(angles)):
         views[name.decode()] = float(angles[0]), float(angles[1])
     return views
@@ -159,7 +160,7 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     room is how much deeper than the points the picture reaches, as a part of their extent.  Points
     with NaN or infinity do not count.
     """
-    side = Side(*_angles(view, up), *size, arguments.flag("ortho", ortho),
+    side = Side(*_angles(view, up), *arguments.size("size", size), arguments.flag("ortho", ortho),
                 *(arguments.number(name, value) for name, value in (("fov", fov), ("margin", margin), ("room", room))))
     at = arguments.floats("points", points, (None, 3))
     return _moved(_made(library.python_fit, ctypes.byref(side), at, len(at)), origin)

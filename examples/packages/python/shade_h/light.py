@@ -173,7 +173,8 @@ class Lighting:
         return out
 
 
-def _unpacked(m: NativeMaterial) -> Material:
+def unpacked(m: NativeMaterial) -> Material:
+    """The material of a struct of the library"""
     e, a, d, s = (tuple(float(x) for x in c)
                   for c in (m.emission, m.ambient, m.diffuse, m.specular))
     return Material(e, a, d, s, float(m.shininess))
@@ -186,7 +187,7 @@ def preset(name: str, linear: bool = True) -> Material:
     """One of the 24 classic materials of PRESETS; with linear=False its numbers as printed, which
     are display colours."""
     m = library.shade_preset_material(PRESETS.index(arguments.choice("name", name, PRESETS)))
-    return _unpacked(library.shade_linear_material(m) if linear else m)
+    return unpacked(library.shade_linear_material(m) if linear else m)
 
 
 def lit(lighting: Lighting, material: Material, eye: Vector, points: object, normals: object,

@@ -15,6 +15,7 @@ from ._native import (Array, Bytes, Chunk, Doubles, Edge, Error, Floats, Indices
 from ._native import Mesh as NativeMesh
 from .annotate import NONE, Bar, bar_of, sampled
 from .camera import UPRIGHT
+from .others import parts_of
 from .cloud import balls
 from .light import Material
 
@@ -37,6 +38,26 @@ def _box(points: Doubles) -> tuple[Doubles, Doubles]:
         good = (np.abs(points) <= 1e30).all(1)
     some = points if good.all() else points[good]
     return (some.min(0), some.max(0)) if len(some) else (np.zeros(3), np.zeros(3))
+
+
+def used_of(rows: Array, faces: Array) -> Array:
+    """The rows that faces have; not of those alone that have two corners at one place, which cannot
+    be seen."""
+    used = np.zeros(len(rows), bool)
+    at = np.ascontiguousarray(rows, np.float64)
+    library.python_seen(pointer(at), pointer(faces), faces.size, pointer(used))
+    out: Array = rows if used.all() else rows[used]
+    return out
+
+
+def counted(exact: Array, faces: Array) -> tuple[Array, Doubles]:
+    """Vertices as they count from an origin, and that: zero but for doubles far away."""
+    origin = np.zeros(3)
+    if exact.dtype.itemsize > 4 and len(exact):
+        exact = exact.astype(np.float64)
+        origin = origin_of(*_box(used_of(exact, faces) if len(faces) else exact))
+        exact = exact - origin if origin.any() else exact
+    return exact, origin
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,10 +196,7 @@ class Mesh:
         self.faces = arguments.faces("faces", _listed(faces), len(exact))
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
-        if exact.dtype.itemsize > 4 and len(exact):
-            exact = exact.astype(np.float64)
-            self.origin = origin_of(*_box(self._used(exact) if len(self.faces) else exact))
-            exact = exact - self.origin if self.origin.any() else exact
+        exact, self.origin = counted(exact, self.faces)
         self.local = arguments.floats("vertices", exact, (None, 3))
         lost = _not_finite(self.local)[self.faces].any(1).sum()
         if lost:
@@ -197,6 +215,7 @@ class Mesh:
         order, runs, looks = self._sorted(surfaces, np.asarray(_listed(faces)), texture)
         if order is not None:
             self.faces = np.ascontiguousarray(self.faces[order])
+            arguments.dimensions("color", color)
             tints = None if isinstance(color, str) else np.asarray(color)
             if tints is not None and tints.ndim == 2 and len(tints) == len(order) and \
                     len(order) != len(self.local):
@@ -270,6 +289,8 @@ class Mesh:
         """Colours by face of numbers by face; of numbers by vertex the place in a map, so that they
         are mixed before they become colours, and the surfaces with the map."""
         got = arguments.array("scalars", scalars, (None,)).astype(np.float64)
+        if np.isinf(got).any() and not np.isfinite(got).any() and options[1] is None:
+            raise Error("scalars must have a finite number, or clim: all are infinite")
         count, faces = len(self.local), len(self.faces)
         if len(got) not in (count, rows, faces):
             raise Error(f"scalars must have a number for each of {count} vertices or {rows} faces, "
@@ -299,8 +320,7 @@ class Mesh:
         if color is None or isinstance(color, str):
             self.color = None if color is None else arguments.color("color", color)
             return False
-        got = np.asarray(color)
-        if got.ndim == 1:
+        if arguments.dimensions("color", color) == 1:
             self.color = arguments.color("color", color)
             return False
         self.colors = arguments.linear("color", color)
@@ -395,13 +415,7 @@ class Mesh:
         return out
 
     def _used(self, rows: Array) -> Array:
-        """The rows that faces have; not of those alone that have two corners at one place, which
-        cannot be seen."""
-        used = np.zeros(len(rows), bool)
-        at = np.ascontiguousarray(rows, np.float64)
-        library.python_seen(pointer(at), pointer(self.faces), self.faces.size, pointer(used))
-        out: Array = rows if used.all() else rows[used]
-        return out
+        return used_of(rows, self.faces)
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what points into this mesh."""
@@ -530,13 +544,17 @@ def is_file(value: object) -> bool:
 
 def mesh(value: Like, **options: Any) -> Mesh:
     """Makes a Mesh of a path, of a pair (vertices, faces), of an object with .vertices and .faces
-    (trimesh), or of one with .tessellate (cadquery, build123d); of points alone, (n, 3), small
-    balls.  options are those of Mesh."""
+    (trimesh), of a mesh of PyVista, VTK, meshio or Open3D, or of one with .tessellate (cadquery,
+    build123d); of points alone, (n, 3), small balls.  options are those of Mesh."""
     if isinstance(value, Mesh) and not options:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
+<<<<<<< HEAD
     if isinstance(value, (str, bytes, os.PathLike)) or is_file(value):
+=======
+    if is_file(value) and not hasattr(value, "cells"):    # a meshio.Mesh has read() too
+>>>>>>> main
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
@@ -544,7 +562,13 @@ def mesh(value: Like, **options: Any) -> Mesh:
     if isinstance(value, np.ndarray) and value.ndim == 2:
         corners, triangles, more = balls(value, options)
         return Mesh(corners, triangles, **more)
-    shape = value.val() if callable(getattr(value, "val", None)) else value
+    given = {k: v for k, v in options.items() if v is not None}
+    parts = parts_of(value)
+    if parts is not None:
+        look = {} if "color" in given or "texture" in given else parts[2]
+        return Mesh(parts[0], parts[1], **{**look, **given})
+    other: Any = value
+    shape = other.val() if callable(getattr(other, "val", None)) else other
     faces = getattr(shape, "faces", None)
     if callable(getattr(shape, "tessellate", None)) and (faces is None or callable(faces)):
         vertices, faces = shape.tessellate(0.1)
@@ -553,6 +577,5 @@ def mesh(value: Like, **options: Any) -> Mesh:
         raise Error("mesh must have .vertices and .faces, or be (vertices, faces) or a path, "
                     f"not {arguments.shown(value)}")
     count = len(np.asarray(shape.vertices)), len(np.asarray(faces))
-    given = {k: v for k, v in options.items() if v is not None}
     extra = {} if "color" in given or "texture" in given else _visual(shape, count)
     return Mesh(shape.vertices, faces, **{**extra, **given})

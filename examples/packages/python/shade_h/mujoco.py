@@ -295,8 +295,8 @@ class Renderer:
         frame = Frame(None if self._depth or self._segmentation else to, to if self._depth else None,
                       to if self._segmentation else None, None)
         view, projection, near, far, parallel = self._camera
-        self._base._draw(frame, view.T.ravel().tolist(), projection.T.ravel().tolist(), near, far, parallel,
-                         solid, far, self._geoms)
+        seen = view.T.ravel().tolist(), projection.T.ravel().tolist(), near, far, parallel
+        self._base._draw(frame, seen, solid, far, self._geoms)
         if self._segmentation:
             to[...] = self._pairs[to[..., 0] + 1]
         return to

@@ -14,11 +14,11 @@ import numpy as np
 
 from . import _arguments as arguments
 from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Image, Integers,
-                      Light as NativeLight, Mesh as NativeMesh, check, interruptible, library, pointer)
+                      Light as NativeLight, Mesh as NativeMesh, Moved, check, interruptible, library, pointer)
 from .annotate import display
 from .camera import Camera
 from .light import Light, lamps_of
-from .mesh import Mesh
+from .mesh import Mesh, counted, mesh as as_mesh
 from .picture import Picture
 
 #: The shapes that are made once for all scenes, and the numbers that their size is.
@@ -112,6 +112,7 @@ class Shape:
         self.number, self.records, self.world = number, records, world
         self.textures: list[int] = []    # those that came with it
         self.source: tuple[Any, ...] = ()    # what update() makes it of; (): it was removed
+        self.quick: tuple[Array, int] | None = None    # faces and vertices, where these alone can be moved
 
     @property
     def count(self) -> int:
@@ -256,6 +257,7 @@ class Renderer:
         self._world = _World()
         self._meshes: dict[int, tuple[Any, ...]] = {}      # what they were made of, by their numbers
         self._textures: dict[int, tuple[Any, ...]] = {}    # where the library has them, and as what
+        self._moved: dict[int, tuple[Any, ...]] = {}       # those whose vertices are others by now
         self._next_texture = 0
         self._shown: dict[int, tuple[str | Shape, dict[str, Any]]] = {}    # objects, as add() took them
         self._owned: set[int] = set()    # textures that came with shapes
@@ -274,15 +276,19 @@ class Renderer:
     def mesh(self, vertices: object, faces: object = None, *, normals: object = "auto",
              uv: object = None, colors: object = None) -> Shape:
         """A mesh for add(): arrays as for shade_h.Mesh, of which uv needs a texture in add(); or a
-        Mesh, as load() gives it, with the materials, colours, pictures, transparency and holes of its
+        Mesh, as load() gives it, or a mesh of another library, as render() takes it, with the materials, colours, pictures, transparency and holes of its
         surfaces."""
         made = self._made_of(vertices, faces, normals, uv, colors)
-        return self._shape(made, (made is vertices, *map(_own, (faces, normals, uv, colors))), None)
+        return self._shape(made, (_is_whole(vertices, faces), *map(_own, (faces, normals, uv, colors))), None)
 
     @staticmethod
     def _made_of(vertices: object, faces: object, normals: object, uv: object, colors: object) -> Mesh:
         if isinstance(vertices, Mesh):
             return vertices
+        if faces is None and not isinstance(vertices, (np.ndarray, list, tuple)):
+            if uv is not None or not (isinstance(normals, str) and normals == "auto") or colors is not None:
+                raise Error("normals, uv and colors go with vertices and faces, not with a mesh of another library")
+            return as_mesh(vertices)
         texture = None if uv is None else np.full((1, 1, 3), 255, np.uint8)
         return Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
 
@@ -295,6 +301,10 @@ class Renderer:
         shape = self._keep_mesh(number, made.positions, made.normals, made.uv, colors, made.indices,
                                 origin=made.origin)
         shape.source = source
+        kind = source[2]
+        flat = isinstance(kind, str) and kind == "flat"
+        if not source[0] and made.normals is not None and (flat or made.positions is made.local):
+            shape.quick = made.faces, len(made.local)
         pieces = [piece for piece in made.pieces if piece.count]
         if source[0] and pieces:
             known: dict[Any, int] = {}
@@ -335,8 +345,8 @@ class Renderer:
     def _keep_mesh(self, number: int | None, positions: Any, normals: Any, uv: Any, colors: Any,
                    indices: Any, smooth: bool = False, origin: Any = (0.0, 0.0, 0.0)) -> Shape:
         """Gives the library a mesh whose positions count from an origin, and keeps copies."""
-        kept = [None if a is None else np.array(a, np.float32, order="C")
-                for a in (positions, normals, uv, colors)]
+        kept: list[Any] = [None if a is None else np.array(a, np.float32, order="C")
+                           for a in (positions, normals, uv, colors)]
         corners, origin = np.array(indices, np.uint32, order="C"), np.array(origin, np.float64)
         mesh = NativeMesh()
         for name, array in zip(("positions", "normals", "texcoords", "colors", "indices"),
@@ -349,6 +359,7 @@ class Renderer:
                                          pointer(origin)):
             raise MemoryError("memory is not enough for the mesh")
         self._meshes[number] = *kept, corners, smooth, origin
+        self._moved.pop(number, None)
         records = _PLAIN.copy()
         records["mesh"], records["count"] = number, corners.size // 3
         return Shape(number, records, self._world)
@@ -382,6 +393,8 @@ class Renderer:
         """Gives a shape other vertices, and what else is not None; the rest stays as mesh() was given
         it.  A shape of a Mesh takes another Mesh, ground takes heights.  Its objects show it."""
         self._known(shape)
+        if faces is None and uv is None and colors is None and self._move(shape, vertices, normals):
+            return
         if not library.python_scene_hold(self._scene.handle):
             raise MemoryError("memory is not enough for the mesh")
         try:
@@ -389,17 +402,48 @@ class Renderer:
         finally:
             library.python_scene_done(self._scene.handle)
 
+    def _move(self, shape: Shape, vertices: Any, normals: Any) -> bool:
+        """Moves the vertices of a shape, where nothing else of it changes."""
+        kind = shape.source[2] if normals is None and len(shape.source) > 2 else normals
+        if shape.quick is None or isinstance(kind, str) != isinstance(shape.source[2], str) or \
+                isinstance(kind, str) and kind != shape.source[2]:
+            return False
+        faces, rows = shape.quick
+        exact = arguments.array("vertices", vertices, (None, 3))
+        if len(exact) != rows:
+            return False
+        local, origin = counted(exact, faces)
+        at = np.ascontiguousarray(local, np.float32)
+        moved = Moved(pointer(at), None, pointer(faces), len(at), faces.size,
+                      2 if not isinstance(kind, str) else int(kind == "smooth"), 0, (ctypes.c_double * 3)(*origin))
+        if moved.normals == 2:
+            given = arguments.floats("normals", kind, at.shape)
+            mesh = NativeMesh(positions=pointer(at), vertex_count=len(at), indices=pointer(faces),
+                              index_count=faces.size)
+            check(library.python_direct_normals(ctypes.byref(mesh), pointer(given)), "normals")
+            moved.given = pointer(given)
+        done = library.python_scene_deform(self._scene.handle, shape.number, ctypes.byref(moved))
+        if done == -2:
+            raise Error("vertices must hold finite numbers that fit float32")
+        if done == 0:
+            raise MemoryError("memory is not enough for the mesh")
+        if done > 0:
+            self._moved[shape.number] = shape, np.array(vertices)
+            if normals is not None:
+                shape.source = (*shape.source[:2], _own(normals), *shape.source[3:])
+        return bool(done > 0)
+
     def _put_shape(self, shape: Shape, vertices: object, others: tuple[Any, ...]) -> None:
         if len(shape.source) == 1:
             made = self._ground(shape.number, vertices, shape.source[0])
         else:
             given = [old if new is None else _own(new) for new, old in zip(others, shape.source[1:])]
-            if shape.source[0] and not isinstance(vertices, Mesh):
+            if shape.source[0] and not _is_whole(vertices, given[0]):
                 raise Error("vertices must be a Mesh: the shape was made of one")
-            mesh = self._made_of(vertices, *given)
-            made = self._shape(mesh, (mesh is vertices, *given), shape.number)
-        gone, shape.records, shape.textures, shape.source = \
-            shape.textures, made.records, made.textures, made.source
+            made = self._shape(self._made_of(vertices, *given), (_is_whole(vertices, given[0]), *given), shape.number)
+        gone = shape.textures
+        shape.records, shape.textures, shape.source, shape.quick = \
+            made.records, made.textures, made.source, made.quick
         for number in [n for n, (of, _) in self._shown.items() if of is shape]:
             self._put(number, self._dressed(number, *self._shown[number]))
         self._drop(gone)
@@ -410,10 +454,12 @@ class Renderer:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
         -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
         Surface."""
-        return Texture(self._make_texture(picture, wrap, squares, None), self)
+        made: Texture = Texture(self._make_texture(picture, wrap, squares, None), self)
+        return made
 
     def _make_texture(self, picture: object, wrap: tuple[str, str], squares: bool,
                       number: int | None, colors: bool = True) -> int:
+        arguments.dimensions("picture", picture)
         given = np.asarray(picture)
         faces = 6 if given.ndim == 4 else 1
         if faces == 6:
@@ -445,7 +491,7 @@ class Renderer:
         """Puts another picture in the place of a texture, as texture() takes it; objects and a sky that
         have the texture show it."""
         self._texture_number("number", number)
-        if (np.asarray(picture).ndim == 4) != (self._textures[number][2] == 6):
+        if (arguments.dimensions("picture", picture) == 4) != (self._textures[number][2] == 6):
             raise Error(f"picture: texture {number} is {'' if self._textures[number][2] == 6 else 'no '}"
                         "cube, and the picture is not")
         self._make_texture(picture, wrap, squares, number)
@@ -461,11 +507,12 @@ class Renderer:
         if isinstance(number, _Number) and number.renderer is not self:
             raise Error(f"{name}: {what} {int(number)} is of another Renderer")
 
-    def checker(self, one: object = "#5a6e82", other: object = "#8fa3b5") -> int:
+    def checker(self, one: object = "#5a6e82", other: object = "#8fa3b5") -> Any:
         """A texture of 2 x 2 squares, which repeats."""
         squares = np.zeros((64, 64, 3), np.uint8)
         odd = (np.arange(64)[:, None] < 32) ^ (np.arange(64)[None] < 32)
-        for color, where in ((one, odd), (other, ~odd)):
+        for name, color, where in (("one", one, odd), ("other", other, ~odd)):
+            arguments.color(name, color)    # refuses what is none
             shown = arguments.displayed("color", color)[:3]
             squares[where] = shown if shown.dtype.kind in "iu" else np.round(255 * shown)
         return self.texture(squares)
@@ -517,7 +564,8 @@ class Renderer:
         if number < 0:
             raise MemoryError("memory is not enough for the object")
         self._shown[number] = shape, options
-        return Solid(number, self)
+        made: Solid = Solid(number, self)
+        return made
 
     @_changes
     def change(self, number: int, *, size: object = None, **options: Any) -> None:
@@ -559,7 +607,7 @@ class Renderer:
         records["rgba"][:, 3] *= own * arguments.number("alpha", options.get("alpha", 1), 0, 1)
         for name in ("specular", "shininess", "emission"):
             value: Any = options.get(name)
-            if name == "specular" and (np.ndim(value) == 1 or isinstance(value, str)):
+            if name == "specular" and (arguments.dimensions(name, value) == 1 or isinstance(value, str)):
                 records[name] = self._color(name, value)
             elif value is not None:
                 records[name] = arguments.number(name, value, 0, 1e6)
@@ -585,13 +633,17 @@ class Renderer:
 
     @staticmethod
     def _size(shape: str | Shape, size: object) -> Floats:
+        given: object = size if isinstance(size, (list, tuple, range)) or isinstance(size, np.ndarray) and size.ndim else [size]
         if isinstance(shape, Shape):
-            scale = np.ones(3) if size is None else np.broadcast_to(np.asarray(size, float), 3)
-            return arguments.floats("size", scale, (3,), True)
+            scale: Floats = np.ones(1, np.float32) if size is None else \
+                arguments.floats("size", given, (None,), True)
+            return arguments.floats("size", np.repeat(scale, 3) if len(scale) == 1 else scale, (3,), True)
         wanted = SHAPES[shape]
         if size is None and shape == "plane":
             return np.zeros(3, np.float32)
-        got = arguments.floats("size", np.atleast_1d(np.asarray(size, float)), (wanted,), True)
+        if size is None:
+            raise Error(f"size of a {shape} is missing")
+        got = arguments.floats("size", given, (wanted,), True)
         if not (got > 0).all():
             raise Error(f"size of a {shape} must be positive, not {arguments.shown(size)}")
         full = {"sphere": [0, 0, 0], "capsule": [0, 0, 1], "cylinder": [0, 0, 1],
@@ -631,7 +683,7 @@ class Renderer:
     def poses(self, poses: object, numbers: Sequence[int] | None = None) -> None:
         """Moves the objects of numbers, or all in the order of their numbers: (n, 4, 4), a row for each;
         nothing moves where one is refused."""
-        which = None if numbers is None else list(numbers)
+        which = None if numbers is None else arguments.several("numbers", numbers)
         for i, number in enumerate(which or ()):
             self._options(f"numbers[{i}]", number)
         count = len(self._shown) if which is None else len(which)
@@ -668,6 +720,7 @@ class Renderer:
             raise Error(f"what: object {shown[0]} shows the shape; remove that before")
         library.python_scene_mesh(self._scene.handle, what.number, None, 0, None)
         del self._meshes[what.number]
+        self._moved.pop(what.number, None)
         what.source = ()
         self._drop(what.textures)
 
@@ -705,7 +758,7 @@ class Renderer:
                 self._set_behind(background=self._behind[4])
         finally:
             library.python_scene_done(self._scene.handle)
-        self._shown, self._meshes, self._world = {}, {}, _World()
+        self._shown, self._meshes, self._moved, self._world = {}, {}, {}, _World()
         self._scene.rest()
 
     def _set_records(self, records: Array) -> None:
@@ -772,7 +825,8 @@ class Renderer:
         """New arrays for render(out=), or for so many pictures of render_batch(out=)."""
         for name, wanted in (("color", color), ("depth", depth), ("ids", ids), ("normals", normals)):
             arguments.flag(name, wanted)
-        size = (*(() if pictures is None else (pictures,)), self.height, self.width)
+        count = () if pictures is None else (arguments.integer("pictures", pictures, 0, 2**31 - 1),)
+        size = (*count, self.height, self.width)
         return Frame(np.empty((*size, 3), np.uint8) if color else None,
                      np.empty(size, np.float32) if depth else None,
                      np.empty((*size, 2), np.int32) if ids else None,
@@ -787,7 +841,7 @@ class Renderer:
         """
         seen = self._seen("camera", camera)
         frame = self.frame(normals=normals) if out is None else self._checked(out)
-        return self._draw(frame, *seen, solid, empty_depth)
+        return self._draw(frame, seen, solid, empty_depth)
 
     def _seen(self, name: str, camera: object) -> tuple[Any, ...]:
         """View, projection, near, far and whether it is parallel, of a camera for pictures of this
@@ -809,7 +863,7 @@ class Renderer:
         if poses is not None:
             moved = arguments.doubles("poses", poses, (None, len(self._shown), 4, 4))
         seen = [cameras] * (1 if moved is None else len(moved)) if isinstance(cameras, Camera) \
-            else list(cameras)
+            else arguments.several("cameras", cameras)
         if moved is not None and len(moved) != len(seen):
             raise Error(f"poses must have a row for each of {len(seen)} cameras, not {len(moved)}")
         shots = [self._seen(f"cameras[{i}]", camera) for i, camera in enumerate(seen)]
@@ -820,7 +874,7 @@ class Renderer:
         frame = self.frame(normals=normals, pictures=len(seen)) if out is None else \
             self._checked(out, (len(seen),))
         packed = b"".join(
-            self._shot(Frame(*(None if array is None else array[i] for array in frame)), *shot, solid,
+            self._shot(Frame(*(None if array is None else array[i] for array in frame)), shot, solid,
                        empty_depth, poses=None if moved is None else moved[i])
             for i, shot in enumerate(shots))
         count = arguments.integer("threads", threads, 0, 256) or os.cpu_count() or 1
@@ -838,11 +892,11 @@ class Renderer:
         check(interruptible(draw), "camera" if moved is None else "poses or cameras")
         return frame
 
-    def _shot(self, frame: Frame, view: Any, projection: Any, near: float, far: float, parallel: bool,
-              solid: bool, empty_depth: float, objects: Array | None = None,
+    def _shot(self, frame: Frame, seen: tuple[Any, ...], solid: bool, empty_depth: float, objects: Array | None = None,
               poses: Array | None = None) -> bytes:
-        """A picture as the library is asked for it; objects None: those of the scene.  View and
-        projection are numbers by columns."""
+        """A picture as the library is asked for it; objects None: those of the scene.  seen is what
+        Camera.seen() gives: view and projection by columns, near, far, whether it is parallel."""
+        view, projection, near, far, parallel = seen
         return SHOT.pack(
             self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
             self.srgb, arguments.flag("solid", solid), parallel, 0 if objects is None else len(objects),
@@ -850,9 +904,9 @@ class Renderer:
             self.tolerance, 0, *view, *projection, pointer(objects) or 0, pointer(poses) or 0,
             *(pointer(array) or 0 for array in frame))
 
-    def _draw(self, frame: Frame, view: Any, projection: Any, near: float, far: float, parallel: bool,
-              solid: bool, empty_depth: float, objects: Array | None = None) -> Frame:
-        shot = self._shot(frame, view, projection, near, far, parallel, solid, empty_depth, objects)
+    def _draw(self, frame: Frame, seen: tuple[Any, ...], solid: bool, empty_depth: float,
+              objects: Array | None = None) -> Frame:
+        shot = self._shot(frame, seen, solid, empty_depth, objects)
         scratch = ctypes.c_void_p(self._scene.take())
         try:
             check(library.python_renderer_draw(ctypes.byref(scratch), 1, self._scene.handle, shot, 1,
@@ -880,6 +934,8 @@ class Renderer:
     @_changes
     def __getstate__(self) -> dict[str, Any]:
         """All but what the library holds."""
+        for shape, vertices in list(self._moved.values()):
+            self._put_shape(shape, vertices, (None, None, None, None))
         state = {k: v for k, v in self.__dict__.items() if k not in ("_scene", "_change")}
         next_object = library.python_scene_next(self._scene.handle, 0)
         return {**state, "records": self._scene.records(), "next_object": next_object}
@@ -899,6 +955,11 @@ class Renderer:
         self._set_behind(*self._behind)
 
 
+def _is_whole(vertices: object, faces: object) -> bool:
+    """A Mesh, or a mesh of another library: it has its looks."""
+    return isinstance(vertices, Mesh) or (faces is None and not isinstance(vertices, (np.ndarray, list, tuple)))
+
+
 def _own(value: Any) -> Any:
     """A copy of what the caller may change afterwards."""
     if isinstance(value, np.ndarray):
@@ -910,7 +971,7 @@ def _float(name: str, value: object) -> float:
     """Any number, infinity and NaN too, as a float has it."""
     try:
         return ctypes.c_float(value).value    # type: ignore[arg-type]
-    except TypeError:
+    except (TypeError, ValueError, OverflowError):
         raise Error(f"{name} must be a number, not {arguments.shown(value)}") from None
 
 

@@ -10,6 +10,7 @@ from typing import Any, Sequence, Union
 import numpy as np
 
 from . import _arguments as arguments
+from . import elsewhere
 from ._native import Array, Bytes, Doubles, Error, Floats, Integers, Item, View, check
 from ._native import interruptible, library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
@@ -508,7 +509,8 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
            uv: object = None, texture: object = None, edges: bool = False,
            background: Color | None = "white", ortho: bool = False, samples: int = 3,
            light: str = "quick", material: Material | str | None = None, up: str | None = None,
-           threads: int = 0, section: object = None) -> Picture:
+           threads: int = 0, section: object = None,
+           look: elsewhere.Look | str | None = None) -> Picture:
     """Draws a mesh, seen from a side by a camera that is fitted to it.
 
     Pass vertices and faces, or a mesh alone: a path, a file, a shade_h.Mesh, an object of trimesh,
@@ -517,17 +519,23 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     "right", "back", "left", "top", "bottom", "iso" or (azimuth, elevation) in degrees.  light is
     "quick", three lamps beside the camera, or "studio", soft shadows that take longer.  section
     cuts away one side of a plane, and hatches the cut: of "x", "y" or "z", through the middle, and
-    of ("x", where) the side of the eye; of (point, normal) that of the normal.
+    of ("x", where) the side of the eye; of (point, normal) that of the normal.  look is another
+    program's material, shade_h.elsewhere.vtk(specular=0.5), in the place of material.
     """
+    made = elsewhere.look(look) if isinstance(look, str) else look
+    if made is not None and not isinstance(made, elsewhere.Look):
+        raise Error(f"look must be a shade_h.elsewhere.Look or text, not {arguments.shown(look)}")
+    if made is not None and material is not None:
+        raise Error("look and material exclude each other")
     soft = arguments.choice("light", light, ("quick", "studio")) == "studio"
     options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
     source: Any = vertices if faces is None else (vertices, faces)
     defaults = {"normals": "auto"}
     given = {k: v for k, v in options.items()
              if v is not None and not (isinstance(v, str) and defaults.get(k) == v)}
-    scene = Scene()
+    scene = Scene() if made is None else Scene(model=made.model, flags=made.flags)
     _add_all(scene, source if _several(source) else [source], section, view, up,
-             material=material, edges=edges, **given)
+             material=material if made is None else made.material, edges=edges, **given)
     return scene.render(view, size, samples=samples, background=background, threads=threads, up=up,
                         ortho=ortho, light="studio" if soft else "scene")
 

@@ -11,7 +11,7 @@ find_python "numpy, pytest, setuptools, venv, wheel, build"
 
 mkdir -p "$T/tree/examples/packages"
 cp shade.h "$T/tree"
-cp -R examples/shared examples/kit "$T/tree/examples"
+cp -R examples/elsewhere examples/shared examples/kit "$T/tree/examples"
 cp -R examples/packages/python "$T/tree/examples/packages"
 P=$T/tree/examples/packages/python
 rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade_h/libshade.* "$P"/*.egg-info

@@ -270,3 +270,33 @@ def test_the_server_outlives_params_of_any_kind(line, code):
     assert got.returncode == 0, got.stderr
     first, second = (json.loads(row) for row in got.stdout.splitlines())
     assert first["error"]["code"] == code and second == {"jsonrpc": "2.0", "id": 2, "result": {}}
+
+
+def test_what_would_be_nonsense_is_refused_by_name():
+    from shade_h.compat import pyrender
+    scene = pyrender.Scene()
+    scene.add(pyrender.PerspectiveCamera(yfov=1.0))
+    drawer = pyrender.OffscreenRenderer(8, 8)
+    mirrored = pyrender.Scene()
+    mirrored.add(pyrender.PerspectiveCamera(yfov=1.0), pose=np.diag([-1.0, 1, 1, 1]))
+    vertices, faces = CUBE
+    camera = shade.Camera.opencv(np.array([[50, 0, 20], [0, 50, 20], [0, 0, 1.0]]), np.eye(4), (40, 40))
+    for words, call in (
+            ("flags must not have ALL_WIREFRAME", lambda: drawer.render(scene, pyrender.RenderFlags.ALL_WIREFRAME)),
+            ("flags must not have FACE_NORMALS", lambda: drawer.render(scene, pyrender.RenderFlags.FACE_NORMALS)),
+            ("pose of the camera must not be mirrored", lambda: drawer.render(mirrored)),
+            ("scalars must have a finite number", lambda: shade.Mesh(vertices, faces, scalars=[np.inf] * len(vertices))),
+            ("camera was made for pictures of 40 x 40 pixels, not of 20 x 30",
+             lambda: shade.Renderer(30, 20).render(camera)),
+            ("camera was made for pictures of 40 x 40", lambda: shade.render(vertices, faces, view=camera, size=(64, 48))),
+            ("view must be a rotation and a translation, without scale or mirror",
+             lambda: shade.Camera(np.diag([-1.0, 1, 1, 1]), np.eye(4)))):
+        with pytest.raises(shade.Error, match=words):
+            call()
+
+
+def test_whole_colours_of_0_and_1_are_colours_by_vertex_too():
+    vertices, faces = CUBE
+    ones = np.tile([1, 0, 0], (len(vertices), 1))
+    assert shade.render(vertices, faces, color=ones, size=32) == \
+        shade.render(vertices, faces, color=ones.astype(float), size=32)

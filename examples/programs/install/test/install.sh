@@ -387,6 +387,8 @@ if there gio && there update-mime-database && [ -f /usr/share/mime/packages/free
 else left_out "types of files on a desktop: no gio or shared-mime-info"
 fi
 
+. examples/programs/install/test/desktops.sh
+
 # ---- what the programs' help shows as examples ---------------------------------------------------
 mkdir -p "$T/shown/parts"
 cp "$input.glb" "$T/shown/car.glb"

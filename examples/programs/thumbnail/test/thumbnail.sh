@@ -377,7 +377,7 @@ bad_options() {
         "--section x=0x0: x, y or z" "--color red --material gold:--color does not go with --material"; do
         check "$k" refused "${k##*gold:}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
     done
-    check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
+    check "a range of two lines" refused 'or a name that --material list prints, or another' "$THUMBNAIL" \
         "$T/torus.obj" "$T/none.ppm" --material x
     for k in jpg JPEG webp gif tga; do
         check "a picture.$k" refused "\.ppm or \.png" "$THUMBNAIL" "$T/torus.obj" "$T/none.$k"
@@ -394,6 +394,36 @@ bad_options() {
         --background none
     check "help" sh -c "'$THUMBNAIL' --help | grep -q '^usage: thumbnail'"
     check "materials" sh -c "'$THUMBNAIL' --material list | grep -qx 'gold'"
+    check "looks of other programs are among them" \
+        sh -c "'$THUMBNAIL' --material list | grep -qx 'vtk'"
+    look() { "$THUMBNAIL" "$T/torus.obj" "$T/$1.ppm" --size 60x45 --material "$2" --quiet; }
+    check "a look" look vtk 'vtk(color=1,.5,.2, specular=.8, power=30)'
+    check "blanks or commas" look blank 'vtk(color=1,.5,.2 specular=.8 power=30)'
+    check "one picture" cmp "$T/vtk.ppm" "$T/blank.ppm"
+    check "another exponent" look dull 'vtk(color=1,.5,.2 specular=.8 power=3)'
+    check "is another picture" sh -c "! cmp -s '$T/vtk.ppm' '$T/dull.ppm'"
+    check "an unknown number" refused "another program's numbers" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --material 'vtk(x=1)'
+}
+
+# what MTL says of highlights: illum 1 has none, illum 0 and Ps are told, Pr is no Phong of Ks
+highlights() {
+    { echo 'mtllib shine.mtl'; echo 'usemtl m'; cat "$T/torus.obj"; } >"$T/shine.obj"
+    shine() {
+        printf "newmtl m\nKd .6 .3 .1\n$2" >"$T/shine.mtl"
+        "$THUMBNAIL" "$T/shine.obj" "$T/$1.ppm" --size 60x45 2>"$T/$1.said"
+    }
+    check "illum 2" shine two 'Ks .8 .8 .8\nNs 30\nillum 2\n'
+    check "illum 1" shine one 'illum 1\nKs .8 .8 .8\nNs 30\n'
+    check "illum 0" shine zero 'Ks .8 .8 .8\nNs 30\nillum 0\n'
+    check "no highlight" shine none 'Ks 0 0 0\nNs 30\n'
+    check "Pr and Ps" shine rough 'Pr .4\nPs .5\n'
+    check "illum 1 has none" cmp "$T/one.ppm" "$T/none.ppm"
+    check "illum 2 has one" sh -c "! cmp -s '$T/two.ppm' '$T/none.ppm'"
+    check "illum 0 is lit" cmp "$T/zero.ppm" "$T/two.ppm"
+    check "and told" grep -q 'illum 0' "$T/zero.said"
+    check "Ps is told" grep -q 'Ps' "$T/rough.said"
+    check "Pr is drawn" sh -c "! cmp -s '$T/rough.ppm' '$T/none.ppm'"
 }
 
 # a file of 2 GB that takes a block of the disk
@@ -736,6 +766,7 @@ both() {
     habit_reports
     writer_reports
     value_reports
+    highlights
     bad_output
     bad_options
 }

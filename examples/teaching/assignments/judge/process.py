@@ -162,6 +162,8 @@ def one_file(path):
 class Student:
     """What a student handed in, ready to be given inputs."""
 
+    megabytes, needs = MEGABYTES, ""  # of memory; modules of Python, as ", numpy"
+
     def __init__(self, task, path, inputs, outputs, seconds, room="auto"):
         self.inputs, self.outputs, self.seconds = inputs, outputs, seconds
         self.warnings, self.printed, self.late = [], "", False
@@ -177,7 +179,7 @@ class Student:
         """Builds the program, or brings the files of a Python program to the room."""
         self.system, self.home = path.suffix == ".py", None
         if path.suffix == ".py":
-            python, self.home = self.room.python()
+            python, self.home = self.room.python(self.needs)
             self.room.put("student.py", (HERE / "student.py").read_text(encoding="utf-8"))
             self.room.put(path.name if path.name != "student.py" else "answer.py",
                           path.read_text(encoding="utf-8", errors="replace"))
@@ -185,9 +187,13 @@ class Student:
             self.command = [*python, "student.py", task, name, str(self.outputs), str(self.inputs)]
             return
         compiler = Compiler(self.room)
-        self.warnings = compiler.build(path, int(task[:2]), PROTOTYPES.read_text(encoding="utf-8"))
+        self.warnings = compiler.build(path, *self.declared(task))
         self.command = ["./hold", "0" if compiler.static else str(OPENED), "./answer"]
         self.system = not compiler.static
+
+    def declared(self, task):
+        """Returns the number that student.c has for a task, and the declarations of its functions."""
+        return int(task[:2]), PROTOTYPES.read_text(encoding="utf-8")
 
     def notes(self):
         """Returns what costs no points: warnings of the compiler, and what the file prints."""
@@ -221,7 +227,7 @@ class Student:
         some = max(1, min(AT_ONCE, PIPE // max(frame.size, 4 * self.inputs)))
         pipe, theirs = os.pipe()
         with tempfile.TemporaryFile() as printed:
-            child = self.room.start([*self.command, str(theirs)], (MEGABYTES, self.seconds, PRINTED),
+            child = self.room.start([*self.command, str(theirs)], (self.megabytes, self.seconds, PRINTED),
                                     system=self.system, home=self.home, stdin=subprocess.PIPE,
                                     stdout=printed, stderr=printed, bufsize=0, pass_fds=[theirs])
             os.close(theirs)

@@ -841,6 +841,9 @@ class OffscreenRenderer:
             flat._srgb, flat.point_size = False, self.point_size
             flat.viewport_width, flat.viewport_height = self.viewport_width, self.viewport_height
             return flat.render(scene, flags, seg_node_map)
+        for name in ("FLIP_WIREFRAME", "ALL_WIREFRAME", "VERTEX_NORMALS", "FACE_NORMALS"):
+            if flags & getattr(RenderFlags, name):
+                raise Error(f"flags must not have {name}: neither wires nor normals are drawn as lines here")
         lamps, cameras = [], []
         used: list[Node] = []
         drawn = [p for n in scene.mesh_nodes if n.mesh.is_visible for p in n.mesh.primitives]
@@ -856,6 +859,8 @@ class OffscreenRenderer:
         main = [c for c in cameras if c[0] is scene.main_camera_node]
         if not main:
             raise ValueError("the scene has no camera")
+        if np.linalg.det(main[0][1][:3, :3]) <= 0:
+            raise Error("pose of the camera must not be mirrored")
         for node, pose in scene._walk():
             if node.mesh is not None and node.mesh.is_visible:
                 for primitive in node.mesh.primitives:
@@ -874,8 +879,9 @@ class OffscreenRenderer:
         depth = np.empty((h, w), np.float32)
         camera = main[0][0].camera
         far = 3e30 if camera.zfar is None else camera.zfar
-        base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]).T.ravel().tolist(),
-                   p.T.ravel().tolist(), max(camera.znear, 1e-6), far, bool(p[3, 3]), seg, 0.0, objects)
+        seen = (np.linalg.inv(main[0][1]).T.ravel().tolist(), p.T.ravel().tolist(), max(camera.znear, 1e-6), far,
+                bool(p[3, 3]))
+        base._draw(Frame(color, depth, ids, None), seen, seg, 0.0, objects)
         if flags & RenderFlags.DEPTH_ONLY:
             return depth
         if ids is None:

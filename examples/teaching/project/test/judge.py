@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Tests of the project's judge: solutions in C and Python get full points, starters run and get none,
+each mistake that right.c draws loses points and is told by its sentence."""
+import subprocess
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import check  # noqa: E402
+from scenes import CASES, MISTAKES, scenes  # noqa: E402
+
+passed, failed, right = 0, 0, check.Right()
+
+
+def count(good, says):
+    """Counts a check, and tells of one that fails."""
+    global passed, failed
+    passed, failed = passed + bool(good), failed + (not good)
+    if not good:
+        print(f"FAIL      {says}")
+
+
+def points(path, seed):
+    """Returns for each checkpoint the points of a renderer, and what is said."""
+    size = len(scenes("1", CASES["1"][0], seed)[0])
+    renderer = check.Renderer("project", path, size, 3 * check.WIDTH * check.HEIGHT, 60, "auto")
+    return {task: [check.judge_case(task, case, seed, renderer, right)[:2] for case in cases]
+            for task, cases in CASES.items()}
+
+
+python = subprocess.run(["/usr/bin/env", "python3", "-c", "import numpy"], check=False,
+                        stderr=subprocess.DEVNULL).returncode == 0
+python = python or subprocess.run(["/usr/bin/python3", "-c", "import numpy"], check=False,
+                                  stderr=subprocess.DEVNULL).returncode == 0
+if not python:
+    print("left out  renderers in Python: no NumPy")
+for end in ("c", "py")[:1 + python]:
+    for seed in ("1", "5")[:2 if end == "c" else 1]:
+        for task, got in points(HERE / f"solution.{end}", seed).items():
+            most = sum(case[0] for case in CASES[task])
+            count(sum(score for score, _ in got) == most, f"solution.{end}, {task}: {got}")
+    for task, got in points(HERE.parent / f"starter/renderer.{end}", "1").items():
+        count(all(says and "ended" not in says and "raises" not in says for _, says in got) and
+              sum(score for score, _ in got) < 1, f"starter in {end}, {task}: {got}")
+for task, cases in CASES.items():
+    page = next(p for p in HERE.parent.glob("*.md") if p.name.startswith(task)
+                and (task == p.stem or task[1:2] != "_"))
+    told = "; ".join(f"{case[0]} {case[1]}" for case in cases)
+    count(told in page.read_text(encoding="utf-8").replace("\n", " "), f"{page.name} has its points: {told}")
+    count(f"check.py {task} renderer.c" in page.read_text(encoding="utf-8"), f"{page.name} has its command")
+for name, (where, says) in MISTAKES.items():
+    told = []
+    for task in CASES:
+        if task != where and (len(where) > 2 or task[0] not in where):
+            continue
+        for case in CASES[task]:
+            made = scenes(task, case, "7")
+            want, got = right.pictures(made), right.pictures(made, name)
+            if not all(check.same(g, w) for g, w in zip(got, want)):
+                told.append((case[1], check.why(task, case, made, got, want, right)))
+    good = told and any(text == says for _, text in told)
+    count(good, f"{name}: {told}")
+# changes of a whole picture
+for change, says in check.CHANGES:
+    case = CASES["1"][1]
+    made = scenes("1", case, "7")
+    want = right.pictures(made)
+    text = check.why("1", case, made, [change(w) for w in want], want, right)
+    count(text == says, f"{says}: {text}")
+print(f"{passed} passed, {failed} failed")
+sys.exit(failed > 0)
