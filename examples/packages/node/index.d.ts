@@ -149,22 +149,13 @@ export class Picture {
     readonly width: number;
     readonly height: number;
     /** R, G, B, A bytes: what ImageData takes. */
-<<<<<<< HEAD
-    readonly data: Uint8ClampedArray<ArrayBuffer>;
-=======
     readonly data: ReturnType<Uint8ClampedArrayConstructor["from"]>;
->>>>>>> main
     /** Along the axis of view at the centre of each pixel; Infinity where there is nothing. */
     readonly depth: Float32Array | null;
     /** The number of the mesh at the centre of each pixel; -1 where there is none. */
     readonly ids: Int32Array | null;
-<<<<<<< HEAD
     /** The bytes of a PNG file: what Blob and Response take. */
-    png(): Promise<Uint8Array<ArrayBuffer>>;
-=======
-    /** The bytes of a PNG file. */
     png(): Promise<ReturnType<Uint8ArrayConstructor["from"]>>;
->>>>>>> main
 }
 
 /** What is thrown for a bad argument; the message begins with its name. */

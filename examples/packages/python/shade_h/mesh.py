@@ -550,11 +550,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
-<<<<<<< HEAD
-    if isinstance(value, (str, bytes, os.PathLike)) or is_file(value):
-=======
     if is_file(value) and not hasattr(value, "cells"):    # a meshio.Mesh has read() too
->>>>>>> main
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
