@@ -1,5 +1,5 @@
 /* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue (or r g
-   b, diffuse_red ...), u v (or s t, texture_u texture_v) of vertices, lists of corners of faces and
+   b, diffuse_red ..., or f_dc_0 ... of Gaussian splats), u v (or s t, texture_u texture_v) of vertices, lists of corners of faces and
    of their texture coordinates, red green blue of faces where vertices have none, triangle strips,
    and the picture named by a comment TextureFile.
    Other elements and properties are skipped. */
@@ -43,6 +43,7 @@ typedef enum ply_type {
 typedef struct ply_property {
     ply_type type, count_type;
     int is_list, meaning;
+    int splat; /* a colour as the first coefficient of a spherical harmonic */
 } ply_property;
 typedef struct ply_element {
     int kind, first, properties;
@@ -92,6 +93,9 @@ static const known_name ply_of_vertex[] = { { "x", KNOWN_DRAWN },
                                             { "diffuse_red", KNOWN_DRAWN },
                                             { "diffuse_green", KNOWN_DRAWN },
                                             { "diffuse_blue", KNOWN_DRAWN },
+                                            { "f_dc_0", KNOWN_DRAWN },
+                                            { "f_dc_1", KNOWN_DRAWN },
+                                            { "f_dc_2", KNOWN_DRAWN },
                                             { "u", KNOWN_DRAWN },
                                             { "v", KNOWN_DRAWN },
                                             { "s", KNOWN_DRAWN },
@@ -143,15 +147,32 @@ static inline int ply_take_type(mesh_reader *r, ply_type *out)
 /* The meaning of a property of a kind of element */
 static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
 {
-    static const char *const names[] = { "x",           "y",         "z",           "nx",
-                                         "ny",          "nz",        "red",         "green",
-                                         "blue",        "u",         "v",           "s",
-                                         "t",           "texture_u", "texture_v",   "r",
-                                         "g",           "b",         "diffuse_red", "diffuse_green",
-                                         "diffuse_blue" };
-    static const int meaning[] = {
-        0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8, 6, 7, 8
-    };
+    static const char *const names[] = { "x",
+                                         "y",
+                                         "z",
+                                         "nx",
+                                         "ny",
+                                         "nz",
+                                         "red",
+                                         "green",
+                                         "blue",
+                                         "u",
+                                         "v",
+                                         "s",
+                                         "t",
+                                         "texture_u",
+                                         "texture_v",
+                                         "r",
+                                         "g",
+                                         "b",
+                                         "diffuse_red",
+                                         "diffuse_green",
+                                         "diffuse_blue",
+                                         "f_dc_0",
+                                         "f_dc_1",
+                                         "f_dc_2" };
+    static const int meaning[] = { 0,  1, 2,  3, 4, 5, 6, 7, 8, 9, 10, 9,
+                                   10, 9, 10, 6, 7, 8, 6, 7, 8, 6, 7,  8 };
     if (is_list && kind > PLY_VERTEX &&
         (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
         return PLY_CORNERS;
@@ -181,6 +202,7 @@ static inline int ply_take_property(mesh_reader *r, ply_data *p, model *m)
     if (ply_take_type(r, &at->type)) return 1;
     mesh_skip_blanks(r, 0);
     name = r->at;
+    at->splat = r->end - name > 5 && !memcmp(name, "f_dc_", 5);
     at->meaning = ply_meaning(r, e->kind, at->is_list);
     if (at->meaning == PLY_UNUSED && e->kind != PLY_OTHER &&
         known_word(r, m, e->kind == PLY_VERTEX ? ply_of_vertex : ply_of_face))
@@ -408,6 +430,13 @@ static inline int ply_has(const ply_data *p, int column)
     return has[0] || (column == PLY_NORMAL && (has[1] || has[2]));
 }
 
+/* The colour of a display that a splat has from all sides alike: it is stored as the factor of
+   the constant spherical harmonic, 1 / (2 sqrt(pi)), from the middle of 0 .. 1. */
+static inline double ply_splat(double value)
+{
+    return fmin(fmax(0.5 + 0.28209479177387814 * value, 0), 1);
+}
+
 static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e)
 {
     double v[PLY_VALUES] = { 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0 };
@@ -420,7 +449,10 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
             continue;
         }
         if (ply_number(r, p->format, at->type, &value)) return 1;
-        if (at->meaning >= PLY_RED && at->meaning < PLY_U) value = ply_color(p, at->type, value);
+        if (at->meaning >= PLY_RED && at->meaning < PLY_U && at->splat)
+            value = ply_splat(value);
+        else if (at->meaning >= PLY_RED && at->meaning < PLY_U)
+            value = ply_color(p, at->type, value);
         if (at->meaning == PLY_ALPHA || at->meaning == PLY_A) ply_alpha(p, at, value);
         if (at->meaning < PLY_VALUES) v[at->meaning] = value;
     }

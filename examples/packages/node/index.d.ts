@@ -154,7 +154,7 @@ export class Picture {
     readonly depth: Float32Array | null;
     /** The number of the mesh at the centre of each pixel; -1 where there is none. */
     readonly ids: Int32Array | null;
-    /** The bytes of a PNG file. */
+    /** The bytes of a PNG file: what Blob and Response take. */
     png(): Promise<ReturnType<Uint8ArrayConstructor["from"]>>;
 }
 

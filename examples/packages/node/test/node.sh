@@ -68,6 +68,9 @@ else left_out "the picture by netpbm"; fi
 if npm install --silent --no-audit --no-fund --prefix "$T/npm" esbuild@0.25.12 typescript@5.9.3 \
     >"$T/log" 2>&1; then
     check "types, both ways of import" node "$N/test/types.mjs" "$T/use" "$T/npm/node_modules"
+    if npm install --silent --no-audit --no-fund --prefix "$T/npm7" typescript@7.0.2 >"$T/log" 2>&1; then
+        check "types by TypeScript 7" node "$N/test/types.mjs" "$T/use" "$T/npm7/node_modules"
+    else left_out "types by TypeScript 7: npm cannot fetch it"; fi
     check "a bundle for a classic script" sh -c "cd '$T/use' &&
         sed 's/writeFile(\(.*\), await \(.*\));/\2.then((x) => console.log(x.length));/
              /node:fs/d; s/^await //' program1.mjs >classic.mjs &&

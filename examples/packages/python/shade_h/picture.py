@@ -315,7 +315,7 @@ def _decode(data: bytes, name: str) -> Bytes:
     parts = np.empty(packed, np.uint8)
     library.python_png_gather(file, pointer(parts))
     try:
-        lines = np.frombuffer(bytearray(zlib.decompressobj().decompress(parts, wanted)), np.uint8)
+        lines = np.frombuffer(bytearray(zlib.decompressobj().decompress(parts.data, wanted)), np.uint8)
     except zlib.error as why:
         raise Error(f"{name}: {why}") from None
     if len(lines) != wanted:

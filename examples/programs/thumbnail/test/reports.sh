@@ -673,6 +673,18 @@ writer_reports() {
         same "$k may be a normal" wedge.obj bare.off 0 "--up y"
         check "that is told" said "bare.off: numbers behind its vertices or faces that are no colours"
     done
+
+    # Gaussian splats: red, green, blue and grey from all sides alike
+    points_of() {               # names of colours, of which each point has one line
+        printf "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        for k in $1; do echo "property float $k"; done
+        printf 'end_header\n'
+    }
+    { points_of "red green blue"; printf '0 0 0 1 0 0\n2 0 0 0 1 0\n0 1.5 0 0 0 1\n0 0 1 .5 .5 .5\n'; } >"$T/points.ply"
+    one=1.7724538509055159
+    { points_of "f_dc_0 f_dc_1 f_dc_2"
+      printf "0 0 0 $one -$one -$one\n2 0 0 -$one 9 -$one\n0 1.5 0 -$one -$one $one\n0 0 1 0 0 0\n"; } >"$T/splats.ply"
+    same "colours of splats" points.ply splats.ply 0 ""
 }
 
 # Pictures of one kind as other programs store them
