@@ -892,8 +892,8 @@ const char *python_look_name(int i, const char **numbers)
 
 /* The material of text such as "vtk(specular=.5, power=30)", with the model and flags of its light
    in lit.  Returns 0, or 1 with a sentence in said, of room bytes. */
-NATIVE(look) int python_look(const char *text, shade_material *material, uint32_t *lit, char *said,
-                             int room);
+NATIVE(look)
+int python_look(const char *text, shade_material *material, uint32_t *lit, char *said, int room);
 int python_look(const char *text, shade_material *material, uint32_t *lit, char *said, int room)
 {
     shade_model kind = SHADE_MODEL_BLINN_PHONG;

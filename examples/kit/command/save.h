@@ -1,7 +1,7 @@
 /* save.h - writes files.  A new name appears whole or not at all: the file is written under another
-   name first, which a signal that ends the program removes.  A file that exists stays the same file,
-   with its mode, owner and links, as a file manager that holds it open wants it: what is to be in it
-   is made in memory and written over it at once (not on Windows, where it is replaced).
+   name first, which a signal that ends the program removes.  A file that exists stays the same
+   file, with its mode, owner and links, as a file manager that holds it open wants it: what is to
+   be in it is made in memory and written over it at once (not on Windows, where it is replaced).
 
        const int failed = save_bytes("a.ppm", writes, &data);       (a line on stderr has said why)
 

@@ -1,8 +1,8 @@
-/* png.h - reads PNG of every depth and kind of colour, interlaced too.  Checksums are checked.  What
-   is packed the caller unpacks, by zlib.
+/* png.h - reads PNG of every depth and kind of colour, interlaced too.  Checksums are checked.
+   What is packed the caller unpacks, by zlib.
 
        png p;
-       const char *wrong = png_open(&p, bytes, size);            the header, and where the chunks are
+       const char *wrong = png_open(&p, bytes, size);            the header; finds the chunks
        png_gather(&p, packed);                                   p.packed bytes, of zlib's format
        ... png_bytes(&p) bytes of raw ...
        if (png_rgba(&p, raw, rgba)) ...                          4 * width * height bytes */

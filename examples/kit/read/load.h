@@ -15,7 +15,7 @@ static inline int model_is_device(const char *path)
     return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
 }
 
-/* 1: the folder of a file shows nothing else, as the sandbox does in which GNOME draws thumbnails. */
+/* 1: the folder of a file shows nothing else, as GNOME's sandbox of thumbnailers does. */
 static inline int model_is_alone(const char *path)
 {
     const char *slash = strrchr(path, '/');

@@ -226,8 +226,8 @@ static inline uint32_t meshopt_written(meshopt_corners *c)
     return c->last += meshopt_signed(number);
 }
 
-/* The third corner of a triangle that shares an edge.  0: a new one; to 12: one of the last; 13, 14:
-   beside the one that was written out last; 15: written out */
+/* The third corner of a triangle that shares an edge.  0: a new one; to 12: one of the last; 13,
+   14: beside the one that was written out last; 15: written out */
 static inline uint32_t meshopt_third(meshopt_corners *c, unsigned code)
 {
     uint32_t v;

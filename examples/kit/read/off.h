@@ -1,7 +1,8 @@
 /* off.h - reads OFF files of text: OFF with C (colours of vertices), N (normals), ST (texture
    coordinates, which are skipped) in any order, counts, comments; each vertex and face begins a
    line and may go on in the next ones; colours behind the corners of faces, as whole numbers to 255
-   or as fractions, and behind vertices without a C, as OpenCTM writes them.  Polygons may be concave.  4OFF, nOFF and OFF BINARY are refused. */
+   or as fractions, and behind vertices without a C, as OpenCTM writes them.  Polygons may be
+   concave.  4OFF, nOFF and OFF BINARY are refused. */
 #ifndef MODEL_OFF_H
 #define MODEL_OFF_H
 

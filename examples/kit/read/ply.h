@@ -1,7 +1,7 @@
 /* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue (or r g
-   b, diffuse_red ..., or f_dc_0 ... of Gaussian splats), u v (or s t, texture_u texture_v) of vertices, lists of corners of faces and
-   of their texture coordinates, red green blue of faces where vertices have none, triangle strips,
-   and the picture named by a comment TextureFile.
+   b, diffuse_red ..., or f_dc_0 ... of Gaussian splats), u v (or s t, texture_u texture_v) of
+   vertices, lists of corners of faces and of their texture coordinates, red green blue of faces
+   where vertices have none, triangle strips, and the picture named by a comment TextureFile.
    Other elements and properties are skipped. */
 #ifndef MODEL_PLY_H
 #define MODEL_PLY_H

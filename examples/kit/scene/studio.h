@@ -227,8 +227,8 @@ static void studio_put(studio_rows rows, int i, shade_vec3 v)
 
 /* The parts of the points that the lamp sees: four neighbours in the map, weighted by distance.
    Points are moved so many texels off their surfaces, or these would shade themselves.  *cosine is
-   that between normals and the lamp.  0: all surfaces face away.  Where all lie beside what is drawn,
-   no texel is looked up. */
+   that between normals and the lamp.  0: all surfaces face away.  Where all lie beside what is
+   drawn, no texel is looked up. */
 STUDIO_VECTORS static int studio_seen(const studio_map *m, float texels, const studio_points *p,
                                       float *cosine, float *seen)
 {
@@ -289,9 +289,9 @@ static void studio_open_sky(const studio *s, const float *ny, float *high, float
     }
 }
 
-/* Takes from that light, of the zenith and of the rest, and from open, the part of the lamps near the
-   direction R, what the model hides of them.  Only a share of the lamps is asked, one in so many from
-   first on, and what they miss is counted so many times, of the light of all lamps: the mean over
+/* Takes from that light, of the zenith and of the rest, and from open, the part of the lamps near
+   the direction R, what the model hides of them.  Only a share of the lamps is asked, one in so
+   many from first on, and what they miss is counted so many times, of the light of all lamps: the mean over
    all shares is what all lamps say, and where nothing hides the sky each share says so. */
 STUDIO_VECTORS static void studio_hide(const studio *s, int first, int shares,
                                        const studio_points *p, float *high, float *low, float *open)

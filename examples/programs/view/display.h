@@ -597,7 +597,8 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     free(d.kept.told.bytes);
     if (o->frames) display_tell_cost(&d, clock_now() - begin);
     display_free(&d);
-    if (end == DISPLAY_REFUSED) return complain("--show: the window is too large or too low for pixels");
+    if (end == DISPLAY_REFUSED)
+        return complain("--show: the window is too large or too low for pixels");
     return end == DISPLAY_GONE ? complain("the terminal takes no more") : 0;
 }
 #endif

@@ -36,7 +36,7 @@ typedef struct terminal_answers {
 #define TERMINAL_REPORT "\033[c"
 /* In order: the terminal's name (XTVERSION); iTerm2's list of features; the size of a cell, and of
    all cells; the largest sixels (XTSMGRAPHICS); the secondary attributes; the report. */
-#define TERMINAL_QUESTIONS \
+#define TERMINAL_QUESTIONS                                                                         \
     "\033[>0q\033]1337;Capabilities\033\\\033[16t\033[14t\033[?2;1;0S\033[>c" TERMINAL_REPORT
 
 /* VTE has drawn sextants since 0.62. */
@@ -240,7 +240,7 @@ static inline size_t terminal_parse(const unsigned char *p, size_t size, input *
    pictures. */
 #define TERMINAL_FORGET "\030\033\\\033_Ga=d,q=2,d=A\033\\"
 /* Leaves; where there is no other screen (GNU screen), what follows stands below the picture. */
-#define TERMINAL_LEAVE \
+#define TERMINAL_LEAVE                                                                             \
     "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[999H\r\n\033[?1049l"
 
 /* Returns 1 where the terminal accepts no more. */
@@ -424,7 +424,8 @@ static inline void terminal_take_area(int area[2], int width, int height)
    to the system's size.  xterm answers so. */
 static inline int terminal_is_filled(const terminal_answers *said, const struct winsize *now)
 {
-    const int across = now->ws_xpixel - said->sixel_width, down = now->ws_ypixel - said->sixel_height;
+    const int across = now->ws_xpixel - said->sixel_width,
+              down = now->ws_ypixel - said->sixel_height;
     return said->sixel_width > 0 && across >= 0 && across == down &&
            said->sixel_width % now->ws_col == 0 && said->sixel_height % now->ws_row == 0;
 }
@@ -435,8 +436,8 @@ static inline int terminal_is_filled(const terminal_answers *said, const struct 
 static inline void terminal_measure_cell(terminal_size *s, const terminal_answers *said,
                                          const struct winsize *now)
 {
-    const int pixels = now->ws_xpixel >= now->ws_col && now->ws_ypixel >= now->ws_row && now->ws_col &&
-                       now->ws_row;
+    const int pixels = now->ws_xpixel >= now->ws_col && now->ws_ypixel >= now->ws_row &&
+                       now->ws_col && now->ws_row;
     const int fresh = !memcmp(now, &said->at, sizeof *now);
     const struct winsize *cells = pixels || fresh ? now : &said->at;
     int area[2] = { 0, 0 };
