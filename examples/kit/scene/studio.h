@@ -291,8 +291,9 @@ static void studio_open_sky(const studio *s, const float *ny, float *high, float
 
 /* Takes from that light, of the zenith and of the rest, and from open, the part of the lamps near
    the direction R, what the model hides of them.  Only a share of the lamps is asked, one in so
-   many from first on, and what they miss is counted so many times, of the light of all lamps: the mean over
-   all shares is what all lamps say, and where nothing hides the sky each share says so. */
+   many from first on, and what they miss is counted so many times, of the light of all lamps: the
+   mean over all shares is what all lamps say, and where nothing hides the sky each share says
+   so. */
 STUDIO_VECTORS static void studio_hide(const studio *s, int first, int shares,
                                        const studio_points *p, float *high, float *low, float *open)
 {

@@ -14,8 +14,9 @@ typedef struct surface_choice {
 
 /* The surface of that number.  usual is the material of models that have none; where it was asked
    for, it takes the place of all that the file says: materials, pictures, colours of vertices and
-   faces.  The cut of a section has no colours but its own material's.  A file that brings colours and no material has k_d
-   and k_a 1: its colours are those of the surface, not factors of another. */
+   faces.  The cut of a section has no colours but its own material's.  A file that brings colours
+   and no material has k_d and k_a 1: its colours are those of the surface, not factors of
+   another. */
 static inline surface_choice surface_choose(const model *m, int surface,
                                             const shade_material *usual, int asked)
 {

@@ -157,9 +157,9 @@ static int pixels_sixel_take(char *bytes, int n, void *to)
     return n;
 }
 
-/* Replaces each colour by the nearest that sixels have, whose channels are whole percents.  Terminals
-   round p percent down, to 2.55 p (mlterm) or 2.56 p (xterm); both bytes are near, and libsixel finds
-   p again, for its own percents are rounded to the nearest. */
+/* Replaces each colour by the nearest that sixels have, whose channels are whole percents.
+   Terminals round p percent down, to 2.55 p (mlterm) or 2.56 p (xterm); both bytes are near, and
+   libsixel finds p again, for it rounds to the nearest percent. */
 static void pixels_percents(unsigned char *channel, int count)
 {
     for (int k = 0; k < count; k++) {

@@ -420,8 +420,8 @@ static inline void terminal_take_area(int area[2], int width, int height)
     if (height > 0 && (!area[1] || height < area[1])) area[1] = height;
 }
 
-/* 1: the largest sixels are as large as all cells: whole cells, and the same border all around lacks
-   to the system's size.  xterm answers so. */
+/* 1: the largest sixels are as large as all cells: they are whole cells, and the system's size has
+   the same border more in both directions.  xterm answers so. */
 static inline int terminal_is_filled(const terminal_answers *said, const struct winsize *now)
 {
     const int across = now->ws_xpixel - said->sixel_width,

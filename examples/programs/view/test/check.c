@@ -137,8 +137,8 @@ static void vt_feed(vt *t, const char *p, const char *end)
             t->row++;
             t->column = 0;
         } else if (c >= 0xf0 && end - p >= 3) {
-            vt_put(t, (uint32_t)((c & 7) << 18 | (p[0] & 63) << 12 | (p[1] & 63) << 6 |
-                                 (p[2] & 63)));
+            vt_put(t,
+                   (uint32_t)((c & 7) << 18 | (p[0] & 63) << 12 | (p[1] & 63) << 6 | (p[2] & 63)));
             p += 3;
         } else if (c >= 0xe0 && end - p >= 2) {
             vt_put(t, (uint32_t)((c & 15) << 12 | (p[0] & 63) << 6 | (p[1] & 63)));
@@ -159,10 +159,10 @@ static int block_places(uint32_t glyph)
     static const struct {
         uint32_t glyph;
         int quarters; /* 1 upper left, 2 upper right, 4 lower left, 8 lower right */
-    } block[] = { { ' ', 0 },      { 0x2580, 3 },  { 0x2584, 12 }, { 0x2588, 15 }, { 0x258c, 5 },
-                  { 0x2590, 10 },  { 0x2596, 4 },  { 0x2597, 8 },  { 0x2598, 1 },  { 0x2599, 13 },
-                  { 0x259a, 9 },   { 0x259b, 7 },  { 0x259c, 11 }, { 0x259d, 2 },  { 0x259e, 6 },
-                  { 0x259f, 14 } };
+    } block[] = { { ' ', 0 },     { 0x2580, 3 },  { 0x2584, 12 }, { 0x2588, 15 },
+                  { 0x258c, 5 },  { 0x2590, 10 }, { 0x2596, 4 },  { 0x2597, 8 },
+                  { 0x2598, 1 },  { 0x2599, 13 }, { 0x259a, 9 },  { 0x259b, 7 },
+                  { 0x259c, 11 }, { 0x259d, 2 },  { 0x259e, 6 },  { 0x259f, 14 } };
     int places = 0, sixths = 0;
     for (uint32_t at = 0x1fb00; at <= glyph && glyph <= 0x1fb3b; at++) {
         sixths++;
@@ -214,8 +214,8 @@ static int wrong_cells(const cell_screen *s, const vt *t, const cell *want, int 
         const int places = block_places(got->glyph);
         int differs = places == NO_BLOCK || (s->form == CELL_WHOLE && got->glyph != ' ');
         for (int k = 0; k < 12 && !want[i].glyph; k++)
-            differs |= differ(places >> k & 1 ? got->ink : got->paper,
-                              wanted_color(s, &want[i], k), slack);
+            differs |= differ(places >> k & 1 ? got->ink : got->paper, wanted_color(s, &want[i], k),
+                              slack);
         if (want[i].glyph)
             differs = got->glyph != want[i].glyph ||
                       differ(got->paper, encoded(s, want[i].paper), slack) ||
@@ -353,8 +353,7 @@ static void xterm_color(uint32_t n, int color[3])
 /* How far a colour is off, hue counted four times */
 static double color_error(const double *a, const int *b)
 {
-    const double luma =
-        (3 * (a[0] - b[0]) + 6 * (a[1] - b[1]) + 2 * (a[2] - b[2])) / 11;
+    const double luma = (3 * (a[0] - b[0]) + 6 * (a[1] - b[1]) + 2 * (a[2] - b[2])) / 11;
     double sum = luma * luma;
     for (int k = 0; k < 3; k++) sum += 4 * (a[k] - b[k] - luma) * (a[k] - b[k] - luma);
     return sum;
@@ -448,13 +447,28 @@ static void test_cells(void)
         { "VTE, made wider", "\033[4;456;800t", "", { 24, 80, 0, 0 }, { 24, 100, 0, 0 }, 10, 19 },
         { "mlterm", "\033[4;456;800t", "", { 24, 80, 800, 456 }, { 24, 80, 800, 456 }, 10, 19 },
         { "xterm", "", "\033[?2;0;480;312S", { 24, 80, 520, 352 }, { 24, 80, 520, 352 }, 6, 13 },
-        { "xterm, larger since", "", "\033[?2;0;480;312S", { 24, 80, 520, 352 },
-          { 24, 80, 760, 640 }, 9, 26 },
-        { "xterm, bounded", "", "\033[?2;0;1000;1000S", { 60, 200, 1204, 1204 },
-          { 60, 200, 1204, 1204 }, 6, 20 },
+        { "xterm, larger since",
+          "",
+          "\033[?2;0;480;312S",
+          { 24, 80, 520, 352 },
+          { 24, 80, 760, 640 },
+          9,
+          26 },
+        { "xterm, bounded",
+          "",
+          "\033[?2;0;1000;1000S",
+          { 60, 200, 1204, 1204 },
+          { 60, 200, 1204, 1204 },
+          6,
+          20 },
         { "rxvt", "\033[4;360;560t", "", { 24, 80, 480, 312 }, { 24, 80, 480, 312 }, 6, 13 },
-        { "Konsole", "\033[4;476;880t", "\033[?2;0;16384;16384S", { 28, 110, 1000, 600 },
-          { 28, 110, 1000, 600 }, 8, 17 },
+        { "Konsole",
+          "\033[4;476;880t",
+          "\033[?2;0;16384;16384S",
+          { 28, 110, 1000, 600 },
+          { 28, 110, 1000, 600 },
+          8,
+          17 },
         { "st", "", "", { 24, 80, 560, 312 }, { 24, 80, 560, 312 }, 7, 13 },
     };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
@@ -469,6 +483,15 @@ static void test_cells(void)
     }
 }
 
+/* What a report of the terminal is taken for, which is read whole */
+static input_kind report(const char *text)
+{
+    input in;
+    const size_t used = terminal_parse((const unsigned char *)text, strlen(text), &in);
+    check(used == strlen(text), text + 1, (long long)used, (long long)strlen(text));
+    return in.kind;
+}
+
 /* Strings are answers while answers are awaited, and keys with Alt else. */
 static void test_strings(void)
 {
@@ -481,15 +504,11 @@ static void test_strings(void)
     check(terminal_parse(p, sizeof name - 1, &in) == sizeof name - 2, "bytes of a string", 0, 1);
     check(in.kind == INPUT_NONE, "a string is no key", in.kind, INPUT_NONE);
     terminal_asked = 1;
-    check(terminal_parse((const unsigned char *)"\033[>0;1;2c", 9, &in) == 9 && in.kind == INPUT_NONE,
-          "secondary attributes end nothing", in.kind, INPUT_NONE);
-    check(terminal_parse((const unsigned char *)"\033[?6c", 5, &in) == 5 && in.kind == INPUT_ANSWERS,
-          "the end of the answers", in.kind, INPUT_ANSWERS);
+    check(report("\033[>0;1;2c") == INPUT_NONE, "secondary attributes end nothing", 1, 0);
+    check(report("\033[?6c") == INPUT_ANSWERS, "the end of the answers", 0, 1);
     terminal_asked = terminal_questioned = 2; /* a frame's report is on its way before it */
-    check(terminal_parse((const unsigned char *)"\033[?6c", 5, &in) == 5 && in.kind == INPUT_NONE,
-          "the report of a frame", in.kind, INPUT_NONE);
-    check(terminal_parse((const unsigned char *)"\033[?6c", 5, &in) == 5 && in.kind == INPUT_ANSWERS,
-          "that of the questions", in.kind, INPUT_ANSWERS);
+    check(report("\033[?6c") == INPUT_NONE, "the report of a frame", 1, 0);
+    check(report("\033[?6c") == INPUT_ANSWERS, "that of the questions", 0, 1);
     terminal_questioned = 0;
     check(terminal_parse(p, sizeof name - 1, &in) == 1, "Alt and P", 0, 1);
     terminal_questioned = 1;
@@ -781,8 +800,7 @@ static int check_pane(char **argv, const char *model)
 static int write_picture(char **argv)
 {
     static const char *const way[3] = { "kitty", "iterm2", "sixel" };
-    view_options o = { .colors = VIEW_TRUE,
-                       .scene = { .still = 1, .how = model_options_new() } };
+    view_options o = { .colors = VIEW_TRUE, .scene = { .still = 1, .how = model_options_new() } };
     const terminal_size size = size_of(atoi(argv[1]), atoi(argv[2]));
     static display d;
     static scene s;
