@@ -4,7 +4,7 @@
 
    Vectors are columns.  A matrix m is an array of columns, m.col[column], and m v is
    col[0] v.x + col[1] v.y + ...  Angles are in radians. */
-#ifndef SHADE_H    /* with shade.h there is nothing left to declare */
+#ifndef SHADE_H /* with shade.h there is nothing left to declare */
 #ifndef VECTORS_H
 #define VECTORS_H
 #include <math.h>
@@ -15,38 +15,48 @@
 #define VECTORS static inline
 #endif
 
-typedef struct shade_vec2 { float x, y; } shade_vec2;
-typedef struct shade_vec3 { float x, y, z; } shade_vec3;
-typedef struct shade_vec4 { float x, y, z, w; } shade_vec4;
-typedef struct shade_mat3 { shade_vec3 col[3]; } shade_mat3;
-typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
+typedef struct shade_vec2 {
+    float x, y;
+} shade_vec2;
+typedef struct shade_vec3 {
+    float x, y, z;
+} shade_vec3;
+typedef struct shade_vec4 {
+    float x, y, z, w;
+} shade_vec4;
+typedef struct shade_mat3 {
+    shade_vec3 col[3];
+} shade_mat3;
+typedef struct shade_mat4 {
+    shade_vec4 col[4];
+} shade_mat4;
 
 typedef struct shade_material {
-    shade_vec3 emission;     /* k_e */
-    shade_vec3 ambient;      /* k_a */
-    shade_vec3 diffuse;      /* k_d */
-    shade_vec3 specular;     /* k_s */
-    float      shininess;    /* n */
+    shade_vec3 emission; /* k_e */
+    shade_vec3 ambient;  /* k_a */
+    shade_vec3 diffuse;  /* k_d */
+    shade_vec3 specular; /* k_s */
+    float shininess;     /* n */
 } shade_material;
 
 typedef struct shade_light {
-    shade_vec4 position;                       /* w = 1: a place; w = 0: the direction toward it */
-    shade_vec3 ambient;                        /* I_La */
-    shade_vec3 diffuse;                        /* I_d */
-    shade_vec3 specular;                       /* I_s */
-    float      constant, linear, quadratic;    /* a, b, c */
-    shade_vec3 spot_direction;                 /* where the lamp points, any length */
-    float      spot_exponent;                  /* e */
-    float      spot_cos_cutoff;                /* cos(beta) */
+    shade_vec4 position;               /* w = 1: a place; w = 0: the direction toward it */
+    shade_vec3 ambient;                /* I_La */
+    shade_vec3 diffuse;                /* I_d */
+    shade_vec3 specular;               /* I_s */
+    float constant, linear, quadratic; /* a, b, c */
+    shade_vec3 spot_direction;         /* where the lamp points, any length */
+    float spot_exponent;               /* e */
+    float spot_cos_cutoff;             /* cos(beta) */
 } shade_light;
 
 typedef struct shade_lighting {
     const shade_light *lights;
-    int                light_count;
-    shade_vec3         ambient;                /* I_a */
+    int light_count;
+    shade_vec3 ambient; /* I_a */
 } shade_lighting;
 
-/* ---- vectors ---------------------------------------------------------------------------------- */
+/* ---- vectors ------------------------------------------------------------------------------- */
 VECTORS shade_vec2 shade_v2(float x, float y)
 {
     const shade_vec2 v = { x, y };
@@ -76,7 +86,10 @@ VECTORS shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(a.x * b.x, a.y * b.y, a.z * b.z);
 }
-VECTORS shade_vec3 shade_scale(shade_vec3 v, float s) { return shade_v3(v.x * s, v.y * s, v.z * s); }
+VECTORS shade_vec3 shade_scale(shade_vec3 v, float s)
+{
+    return shade_v3(v.x * s, v.y * s, v.z * s);
+}
 /* a + s b */
 VECTORS shade_vec3 shade_madd(shade_vec3 a, float s, shade_vec3 b)
 {
@@ -145,7 +158,7 @@ VECTORS shade_vec4 shade_lerp4(shade_vec4 a, shade_vec4 b, float t)
     return shade_add4(a, shade_scale4(shade_sub4(b, a), t));
 }
 
-/* ---- matrices --------------------------------------------------------------------------------- */
+/* ---- matrices ------------------------------------------------------------------------------ */
 VECTORS float shade_radians(float degrees) { return degrees * 0.017453292519943295f; }
 
 VECTORS shade_mat3 shade_mat3_identity(void)
@@ -232,7 +245,7 @@ VECTORS shade_mat3 shade_mat3_inverse(shade_mat3 m)
 VECTORS double vectors_solve(const shade_mat4 *m, double of[4][8])
 {
     double det = 1;
-    for (int i = 0; i < 4; i++) {    /* row i: that of m, then that of the identity */
+    for (int i = 0; i < 4; i++) { /* row i: that of m, then that of the identity */
         const float row[4][4] = { { m->col[0].x, m->col[1].x, m->col[2].x, m->col[3].x },
                                   { m->col[0].y, m->col[1].y, m->col[2].y, m->col[3].y },
                                   { m->col[0].z, m->col[1].z, m->col[2].z, m->col[3].z },
@@ -281,7 +294,9 @@ VECTORS shade_mat4 shade_mat4_translation(shade_vec3 v)
 }
 VECTORS shade_mat4 shade_mat4_scaling(shade_vec3 v)
 {
-    const shade_mat4 m = { { { v.x, 0, 0, 0 }, { 0, v.y, 0, 0 }, { 0, 0, v.z, 0 }, { 0, 0, 0, 1 } } };
+    const shade_mat4 m = {
+        { { v.x, 0, 0, 0 }, { 0, v.y, 0, 0 }, { 0, 0, v.z, 0 }, { 0, 0, 0, 1 } }
+    };
     return m;
 }
 /* By the right-hand rule about an axis of any length; the identity for a zero axis. */
@@ -289,10 +304,12 @@ VECTORS shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
 {
     const float c = cosf(radians), s = sinf(radians), k = 1 - c;
     const shade_vec3 a = shade_normalize(axis);
-    const shade_mat4 m = { { { c + k * a.x * a.x, k * a.x * a.y + s * a.z, k * a.x * a.z - s * a.y, 0 },
-                             { k * a.x * a.y - s * a.z, c + k * a.y * a.y, k * a.y * a.z + s * a.x, 0 },
-                             { k * a.x * a.z + s * a.y, k * a.y * a.z - s * a.x, c + k * a.z * a.z, 0 },
-                             { 0, 0, 0, 1 } } };
+    const shade_mat4 m = {
+        { { c + k * a.x * a.x, k * a.x * a.y + s * a.z, k * a.x * a.z - s * a.y, 0 },
+          { k * a.x * a.y - s * a.z, c + k * a.y * a.y, k * a.y * a.z + s * a.x, 0 },
+          { k * a.x * a.z + s * a.y, k * a.y * a.z - s * a.x, c + k * a.z * a.z, 0 },
+          { 0, 0, 0, 1 } }
+    };
     return shade_dot(a, a) > 0 ? m : shade_mat4_identity();
 }
 #endif /* VECTORS_H */

@@ -14,7 +14,7 @@ static uint32_t state;
 static float drawn(float low, float high, float step)
 {
     const int steps = (int)((high - low) / step + 1.5f);
-    state ^= state << 13;    /* Marsaglia's xorshift */
+    state ^= state << 13; /* Marsaglia's xorshift */
     state ^= state >> 17;
     state ^= state << 5;
     return low + step * (float)((int)(state >> 8) % steps);
@@ -24,8 +24,9 @@ static void answer(float x) { printf(" | %.9g\n", (double)x); }
 /* Unit vectors with few digits: from triples of Pythagoras, in a plane through z. */
 static shade_vec3 direction(void)
 {
-    static const float of[5][2] = { { 0.6f, 0.8f }, { 0.8f, 0.6f }, { 0.28f, 0.96f }, { 0.96f, 0.28f },
-                                    { 0, 1 } };
+    static const float of[5][2] = {
+        { 0.6f, 0.8f }, { 0.8f, 0.6f }, { 0.28f, 0.96f }, { 0.96f, 0.28f }, { 0, 1 }
+    };
     const float *p = of[(int)drawn(0, 4, 1)], sign = drawn(0, 1, 1) > 0 ? 1 : -1;
     return shade_v3(sign * p[0], 0, p[1]);
 }
@@ -38,8 +39,8 @@ static void given3(shade_vec3 v)
 }
 
 /* One channel of the light of a lamp in the direction L, the eye in the direction V. */
-static float lit(shade_model model, shade_vec3 L, shade_vec3 V, float ka, float kd, float ks, float n,
-                 float light)
+static float lit(shade_model model, shade_vec3 L, shade_vec3 V, float ka, float kd, float ks,
+                 float n, float light)
 {
     const shade_vec3 N = { 0, 0, 1 }, none = { 0, 0, 0 };
     const shade_light lamp = { .position = { L.x, L.y, L.z, 0 },
@@ -66,8 +67,10 @@ int main(int count, char **words)
         const shade_vec3 L = direction(), V = direction();
         const float n = drawn(5, 60, 5), a = drawn(0, 1, 0.25f), b = drawn(0.1f, 0.5f, 0.1f);
         const float c = drawn(0.05f, 0.25f, 0.05f), r = drawn(1, 5, 0.5f);
-        const float kd = drawn(0.1f, 0.9f, 0.1f), ks = drawn(0.1f, 0.9f, 0.1f), ka = drawn(0.1f, 0.3f, 0.1f);
-        const float cutoff = drawn(0.5f, 0.9f, 0.1f), e = drawn(1, 8, 1), light = drawn(0.5f, 2, 0.5f);
+        const float kd = drawn(0.1f, 0.9f, 0.1f), ks = drawn(0.1f, 0.9f, 0.1f),
+                    ka = drawn(0.1f, 0.3f, 0.1f);
+        const float cutoff = drawn(0.5f, 0.9f, 0.1f), e = drawn(1, 8, 1),
+                    light = drawn(0.5f, 2, 0.5f);
         const float stretch = drawn(2, 5, 1), degrees = drawn(30, 90, 15);
         const float near = drawn(0.5f, 1, 0.25f), far = drawn(6, 12, 2);
         kind("lambert");
@@ -120,8 +123,10 @@ int main(int count, char **words)
         given(stretch);
         given3(L);
 
-
-                                    answer(shade_normalize(shade_mat3_transform(shade_normal_matrix(shade_mat4_scaling(shade_v3(1, 1, stretch))), L)).z);
+        answer(shade_normalize(
+                   shade_mat3_transform(
+                       shade_normal_matrix(shade_mat4_scaling(shade_v3(1, 1, stretch))), L))
+                   .z);
         kind("focal");
         given(degrees);
         answer(shade_mat4_perspective(shade_radians(degrees), 1, 1, 10).col[1].y);
@@ -129,15 +134,19 @@ int main(int count, char **words)
         given(near);
         given(far);
         given(r);
-        answer(0.5f + 0.5f * shade_mat4_transform_point(shade_mat4_perspective(1, 1,
-               near, far), shade_v3(0, 0, -r)).z);
+        answer(0.5f + 0.5f * shade_mat4_transform_point(shade_mat4_perspective(1, 1, near, far),
+                                                        shade_v3(0, 0, -r))
+                                 .z);
         kind("window");
         given(degrees);
         given(b);
         given(r);
 
-
-                                    answer((1 - shade_mat4_transform_point(shade_mat4_perspective(shade_radians(degrees), 1, 0.5f, 10), shade_v3(0, b, -r)).y) * 240);
+        answer((1 -
+                shade_mat4_transform_point(
+                    shade_mat4_perspective(shade_radians(degrees), 1, 0.5f, 10), shade_v3(0, b, -r))
+                    .y) *
+               240);
         kind("tone");
         given3(L);
         answer(shade_cool_to_warm(N, L, shade_v3(0.4f, 0.4f, 0.7f), shade_v3(0.8f, 0.6f, 0.6f)).x);

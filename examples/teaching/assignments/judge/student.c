@@ -1,7 +1,7 @@
 /* student.c - the process of a student's C file.  It reads inputs from a pipe, calls the student's
-   function, and writes numbers to another pipe, whose number is its argument: for each input a 1 and
-   the answer.  What the student prints goes elsewhere.  The judge keeps the right answers; nothing of
-   them is here, and no function that gives them.  TASK is the number of the task. */
+   function, and writes numbers to another pipe, whose number is its argument: for each input a 1
+   and the answer.  What the student prints goes elsewhere.  The judge keeps the right answers;
+   nothing of them is here, and no function that gives them.  TASK is the number of the task. */
 #include "vectors.h"
 #include "prototypes.h"
 #include <stdio.h>
@@ -146,7 +146,10 @@ static void answer(const float *in, double *out)
 
 #elif TASK == 14
 enum { INPUTS = 9, OUTPUTS = 3 };
-static void answer(const float *in, double *out) { put(out, bumped(vec(in), vec(in + 3), vec(in + 6))); }
+static void answer(const float *in, double *out)
+{
+    put(out, bumped(vec(in), vec(in + 3), vec(in + 6)));
+}
 
 #elif TASK == 15
 enum { INPUTS = 36, OUTPUTS = 1 };
@@ -157,7 +160,7 @@ static void answer(const float *in, double *out)
     out[0] = lit(in, lamp, vec(in + 32), in[35]) != 0;
 }
 
-#elif TASK == 20    /* the project: scene.h stands in prototypes.h */
+#elif TASK == 20 /* the project: scene.h stands in prototypes.h */
 enum { INPUTS = sizeof(scene) / sizeof(float), OUTPUTS = 3 * WIDTH * HEIGHT };
 static void answer(const float *in, double *out)
 {
@@ -197,7 +200,7 @@ int main(int count, char **words)
     float in[INPUTS];
     double out[1 + OUTPUTS] = { 1 };
     if (answers < 0 || setvbuf(stdout, NULL, _IONBF, 0)) return 1;
-    if (setrlimit(RLIMIT_NOFILE, &none)) return 1;    /* for programs that are not linked statically */
+    if (setrlimit(RLIMIT_NOFILE, &none)) return 1; /* for programs that are not linked statically */
     while (all_in(in, sizeof in)) {
         answer(in, out + 1);
         if (!all_out(answers, out, sizeof out)) return 1;

@@ -1,7 +1,7 @@
 /* right.c - the pictures that the project is judged by, drawn by shade.h.  It reads scenes from
-   standard input, each after the number of a mistake, and writes pictures.  A mistake is a change of
-   the scene or of the state that shade.h draws with: what students get wrong, drawn on purpose, so
-   that the judge can tell which one a picture shows.  0 is none. */
+   standard input, each after the number of a mistake, and writes pictures.  A mistake is a change
+   of the scene or of the state that shade.h draws with: what students get wrong, drawn on purpose,
+   so that the judge can tell which one a picture shows.  0 is none. */
 #define SHADE_STATIC
 #define SHADE_NO_DISPATCH
 #define SHADE_IMPLEMENTATION
@@ -19,18 +19,66 @@
 
 /* The numbers are those of MISTAKES in scenes.py. */
 enum {
-    NONE, WHOLE_ANGLE, NO_ASPECT, NO_MODEL, NO_TRANSLATION, REVERSED_ORDER, NOT_DIVIDED,
-    WHOLE_WIDTH, VIEW_NOT_INVERTED, UP_AS_IS,
-    NEXT_COLOR, FLAT_COLOR, MEAN_COLOR, CORNERS, ONE_WINDING, WHOLE_PIXELS,
-    NO_DEPTH, REVERSED_DEPTH, AFFINE, DEPTH_OF_FACE,
-    NO_GATE, MIRRORED, HALF_SHORT, MODEL_NORMALS, LONG_NORMALS, AS_FLAT, AS_GOURAUD, AS_PHONG,
-    NO_FALL_OFF, ONE_LAMP, NO_AMBIENT, NO_EXPONENT, FAR_VIEWER, NO_CONE, NO_LAMP_AMBIENT, NO_DIFFUSE,
-    NO_SPECULAR, ITERATION_FEWER,
-    NEAREST, HALF_TEXEL, V_UP, UV_SWAPPED, CLAMPED, NO_LEVEL, LEVEL_ABOVE, WHOLE_LEVEL,
-    NO_BIAS, NO_SHADOW, DARK_SHADOW, OUTSIDE_DARK,
-    NO_MAP, NOT_DECODED, GREEN_DOWN, TB_SWAPPED, MAP_ALONE,
+    NONE,
+    WHOLE_ANGLE,
+    NO_ASPECT,
+    NO_MODEL,
+    NO_TRANSLATION,
+    REVERSED_ORDER,
+    NOT_DIVIDED,
+    WHOLE_WIDTH,
+    VIEW_NOT_INVERTED,
+    UP_AS_IS,
+    NEXT_COLOR,
+    FLAT_COLOR,
+    MEAN_COLOR,
+    CORNERS,
+    ONE_WINDING,
+    WHOLE_PIXELS,
+    NO_DEPTH,
+    REVERSED_DEPTH,
+    AFFINE,
+    DEPTH_OF_FACE,
+    NO_GATE,
+    MIRRORED,
+    HALF_SHORT,
+    MODEL_NORMALS,
+    LONG_NORMALS,
+    AS_FLAT,
+    AS_GOURAUD,
+    AS_PHONG,
+    NO_FALL_OFF,
+    ONE_LAMP,
+    NO_AMBIENT,
+    NO_EXPONENT,
+    FAR_VIEWER,
+    NO_CONE,
+    NO_LAMP_AMBIENT,
+    NO_DIFFUSE,
+    NO_SPECULAR,
+    ITERATION_FEWER,
+    NEAREST,
+    HALF_TEXEL,
+    V_UP,
+    UV_SWAPPED,
+    CLAMPED,
+    NO_LEVEL,
+    LEVEL_ABOVE,
+    WHOLE_LEVEL,
+    NO_BIAS,
+    NO_SHADOW,
+    DARK_SHADOW,
+    OUTSIDE_DARK,
+    NO_MAP,
+    NOT_DECODED,
+    GREEN_DOWN,
+    TB_SWAPPED,
+    MAP_ALONE,
     DROPPED,
-    NO_TONES, TONES_SWAPPED, NO_LINES, OTHER_EDGES
+    NO_TONES,
+    TONES_SWAPPED,
+    NO_LINES,
+    OTHER_EDGES
 };
 
 typedef struct drawing {
@@ -42,7 +90,7 @@ typedef struct drawing {
     shade_material material;
     shade_texture map, level[5];
     float lod;
-    const float *shadow;    /* depths of the shadow map */
+    const float *shadow; /* depths of the shadow map */
 } drawing;
 
 static float *texels[6];
@@ -59,8 +107,9 @@ static shade_vec3 in_world(const drawing *d, const vertex *v)
 }
 static shade_vec3 normal_of(const drawing *d, const vertex *v)
 {
-    return shade_normalize(is(d, MODEL_NORMALS) ? shade_mat4_transform_direction(d->s.model, v->normal)
-                                                : shade_mat3_transform(d->normals, v->normal));
+    return shade_normalize(is(d, MODEL_NORMALS)
+                               ? shade_mat4_transform_direction(d->s.model, v->normal)
+                               : shade_mat3_transform(d->normals, v->normal));
 }
 static shade_vec3 face_normal(const drawing *d, unsigned triangle)
 {
@@ -110,9 +159,9 @@ static int in_light(const drawing *d, shade_vec3 P)
     const float u = (h.x / h.w + 1) / 2, v = (1 - h.y / h.w) / 2;
     if (is(d, NO_SHADOW)) return 1;
     if (h.w <= 0 || !(u >= 0 && u < 1 && v >= 0 && v < 1)) return !is(d, OUTSIDE_DARK);
-    return (h.z / h.w + 1) / 2 <= d->shadow[(int)(v * SHADOW_MAP) * SHADOW_MAP +
-                                            (int)(u * SHADOW_MAP)] +
-                                      (is(d, NO_BIAS) ? 0 : d->s.bias);
+    return (h.z / h.w + 1) / 2 <=
+           d->shadow[(int)(v * SHADOW_MAP) * SHADOW_MAP + (int)(u * SHADOW_MAP)] +
+               (is(d, NO_BIAS) ? 0 : d->s.bias);
 }
 static shade_vec3 shadowed(const drawing *d, shade_vec3 P, shade_vec3 N)
 {
@@ -127,7 +176,8 @@ static shade_vec3 shadowed(const drawing *d, shade_vec3 P, shade_vec3 N)
     l.lights = lamps;
     return shade_lit(&l, &d->material, d->s.eye, P, N);
 }
-static shade_vec3 bumpy(const drawing *d, shade_vec3 P, shade_vec3 N, shade_vec3 T, float u, float v)
+static shade_vec3 bumpy(const drawing *d, shade_vec3 P, shade_vec3 N, shade_vec3 T, float u,
+                        float v)
 {
     const shade_vec4 t = shade_sample(&d->map, u, v, 0);
     shade_vec3 n = shade_v3(2 * t.x - 1, 2 * t.y - 1, 2 * t.z - 1), B;
@@ -154,13 +204,15 @@ static shade_vec3 color_of(const drawing *d, unsigned k)
         if (is(d, NEXT_COLOR)) return corner(d, t + (k + 1) % 3)->color;
         if (is(d, FLAT_COLOR)) return corner(d, t)->color;
         if (is(d, MEAN_COLOR))
-            return shade_mul(third, shade_add(shade_add(corner(d, t)->color, corner(d, t + 1)->color),
-                                              corner(d, t + 2)->color));
+            return shade_mul(third,
+                             shade_add(shade_add(corner(d, t)->color, corner(d, t + 1)->color),
+                                       corner(d, t + 2)->color));
         return v->color;
     }
     if ((int)d->s.shading == FLAT) {
-        shade_vec3 P = shade_add(shade_add(in_world(d, corner(d, t)), in_world(d, corner(d, t + 1))),
-                                 in_world(d, corner(d, t + 2)));
+        shade_vec3 P =
+            shade_add(shade_add(in_world(d, corner(d, t)), in_world(d, corner(d, t + 1))),
+                      in_world(d, corner(d, t + 2)));
         return light(d, shade_mul(P, third), face_normal(d, k / 3));
     }
     return (int)d->s.shading == GOURAUD ? light(d, in_world(d, v), normal_of(d, v)) : v->color;
@@ -193,8 +245,8 @@ static void vertex_shader(const void *u, const shade_vertex_ids *SHADE_RESTRICT 
         const unsigned k = in->index[i];
         const vertex *v = corner(d, k);
         const shade_vec4 c = clip_of(d, k);
-        const float z = is(d, DEPTH_OF_FACE) ? clip_of(d, k / 3 * 3).z / clip_of(d, k / 3 * 3).w * c.w
-                                             : c.z;
+        const float z =
+            is(d, DEPTH_OF_FACE) ? clip_of(d, k / 3 * 3).z / clip_of(d, k / 3 * 3).w * c.w : c.z;
         out->clip[0][i] = c.x;
         out->clip[1][i] = c.y;
         out->clip[2][i] = z;
@@ -286,9 +338,8 @@ static shade_mat4 camera(drawing *d)
 {
     const scene *s = &d->s;
     const float aspect = is(d, NO_ASPECT) ? 1 : WIDTH / (float)HEIGHT;
-    const shade_mat4 projection = shade_mat4_perspective(is(d, WHOLE_ANGLE) ? fminf(2 * s->fovy, 3.1f)
-                                                                            : s->fovy,
-                                                         aspect, s->near_z, s->far_z);
+    const shade_mat4 projection = shade_mat4_perspective(
+        is(d, WHOLE_ANGLE) ? fminf(2 * s->fovy, 3.1f) : s->fovy, aspect, s->near_z, s->far_z);
     const shade_vec3 at = s->at;
     d->view = shade_mat4_look_at(s->eye, at, s->up);
     if (is(d, NO_TRANSLATION)) d->view.col[3] = shade_v4(0, 0, 0, 1);
@@ -300,8 +351,8 @@ static shade_mat4 camera(drawing *d)
         d->view.col[0] = shade_v4(x.x, y.x, z.x, 0);
         d->view.col[1] = shade_v4(x.y, y.y, z.y, 0);
         d->view.col[2] = shade_v4(x.z, y.z, z.z, 0);
-        d->view.col[3] = shade_v4(-shade_dot(x, s->eye), -shade_dot(y, s->eye), -shade_dot(z, s->eye),
-                                  1);
+        d->view.col[3] =
+            shade_v4(-shade_dot(x, s->eye), -shade_dot(y, s->eye), -shade_dot(z, s->eye), 1);
     }
     if (is(d, REVERSED_ORDER)) return shade_mat4_mul(d->view, projection);
     return shade_mat4_mul(projection, d->view);
@@ -381,7 +432,9 @@ static void make_map(drawing *d)
 }
 static void draw(drawing *d, shade_target *target)
 {
-    shade_pipeline p = { .vertex = vertex_shader, .fragment = fragment_shader, .uniforms = d, .varyings = 14 };
+    shade_pipeline p = {
+        .vertex = vertex_shader, .fragment = fragment_shader, .uniforms = d, .varyings = 14
+    };
     uint32_t index[3 * TRIANGLES];
     int count = 0;
     p.raster.depth_test = d->s.checkpoint < 3 || is(d, NO_DEPTH) ? SHADE_COMPARE_ALWAYS
@@ -417,8 +470,11 @@ int main(void)
     static drawing d;
     static float pixels[WIDTH * HEIGHT][4], depth[WIDTH * HEIGHT];
     static scene given;
-    shade_target target = { .width = WIDTH, .height = HEIGHT, .format = SHADE_FORMAT_RGBA32F,
-                            .color = pixels, .depth = depth };
+    shade_target target = { .width = WIDTH,
+                            .height = HEIGHT,
+                            .format = SHADE_FORMAT_RGBA32F,
+                            .color = pixels,
+                            .depth = depth };
     float mistake;
     for (int k = 0; k < 6; k++) texels[k] = malloc(4 * MAP * MAP * sizeof(float));
     while (fread(&mistake, sizeof mistake, 1, stdin) && fread(&given, sizeof given, 1, stdin)) {

@@ -52,7 +52,7 @@ static int write_png(const char *path, const picture *p)
     adler_a = 1;
     adler_b = 0;
     for (int j = 0; j < height; j++) {
-        byte(f, j == height - 1);    /* a block for each row, the last one marked */
+        byte(f, j == height - 1); /* a block for each row, the last one marked */
         byte(f, row & 255);
         byte(f, row >> 8);
         byte(f, ~row & 255);
@@ -83,7 +83,8 @@ static void torus(scene *s, int around, int across)
             q->position = shade_v3(r * cosf(a), 0.45f * sinf(b), -r * sinf(a));
             q->normal = shade_v3(cosf(b) * cosf(a), sinf(b), -cosf(b) * sinf(a));
             q->tangent = shade_v3(-sinf(a), 0, -cosf(a));
-            q->color = shade_v3(0.5f + 0.5f * cosf(a), 0.5f + 0.5f * sinf(b), 0.5f - 0.5f * cosf(a));
+            q->color =
+                shade_v3(0.5f + 0.5f * cosf(a), 0.5f + 0.5f * sinf(b), 0.5f - 0.5f * cosf(a));
             q->uv = shade_v2(4 * u, 2 * v);
             if (i < around && j < across) {
                 const int at = (int)s->vertices, next = at + around + 1;
@@ -142,8 +143,9 @@ int main(int count, char **words)
     char path[16];
     const int checkpoint = count > 1 ? atoi(words[1]) : 1, option = count > 2 ? atoi(words[2]) : 0;
     if (checkpoint < 1 || checkpoint > 6 || option < 0 || option > SILHOUETTES) {
-        fprintf(stderr, "usage: renderer CHECKPOINT [OPTION]    1 to 6; of 6: 0 shadow, 1 bump, 2 clip, "
-                        "3 silhouettes\n");
+        fprintf(stderr,
+                "usage: renderer CHECKPOINT [OPTION]    1 to 6; of 6: 0 shadow, 1 bump, 2 clip, "
+                "3 silhouettes\n");
         return 2;
     }
     fill(&s, checkpoint, option);

@@ -2,7 +2,7 @@
    make it right, checkpoint by checkpoint.  Hand in this file. */
 #include "scene.h"
 
-/* ---- checkpoint 1: vertices and matrices ------------------------------------------------------ */
+/* ---- checkpoint 1: vertices and matrices --------------------------------------------------- */
 
 /* The camera's matrix V, from the world to the camera's space. */
 static shade_mat4 look_at(shade_vec3 eye, shade_vec3 at, shade_vec3 up)
@@ -36,17 +36,14 @@ static void draw_vertices(const scene *s, picture *p)
     const shade_mat4 PV = shade_mat4_mul(P, V);
     for (int k = 0; k < (int)s->vertices; k++) {
         const vertex *v = &s->vertex[k];
-        const shade_vec4 clip = shade_mat4_transform(
-            PV, shade_v4(v->position.x, v->position.y, v->position.z, 1));
+        const shade_vec4 clip =
+            shade_mat4_transform(PV, shade_v4(v->position.x, v->position.y, v->position.z, 1));
         /* from clip space to the window: yours to write */
         const float X = 16 * clip.x + 32, Y = 16 * clip.y + 24;
         plot(p, (int)floorf(X), (int)floorf(Y), v->color);
     }
 }
 
-/* ---- checkpoints 2 to 6 start here ------------------------------------------------------------ */
+/* ---- checkpoints 2 to 6 start here --------------------------------------------------------- */
 
-void render(const scene *s, picture *p)
-{
-    draw_vertices(s, p);
-}
+void render(const scene *s, picture *p) { draw_vertices(s, p); }

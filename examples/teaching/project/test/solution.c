@@ -2,7 +2,7 @@
 #include "scene.h"
 #include <string.h>
 
-enum { VALUES = 14 };    /* interpolated: P 0, N 3, colour 6, uv 9, tangent 11 */
+enum { VALUES = 14 }; /* interpolated: P 0, N 3, colour 6, uv 9, tangent 11 */
 typedef struct point {
     shade_vec4 clip;
     float value[VALUES];
@@ -10,7 +10,7 @@ typedef struct point {
 typedef struct frame {
     const scene *s;
     picture *p;
-    float *depth;                 /* NULL: no test */
+    float *depth; /* NULL: no test */
     int width, height;
     shade_mat4 camera;
     float level;
@@ -23,19 +23,25 @@ static shade_mat4 look_at(shade_vec3 eye, shade_vec3 at, shade_vec3 up)
 {
     const shade_vec3 z = shade_normalize(shade_sub(eye, at));
     const shade_vec3 x = shade_normalize(shade_cross(up, z)), y = shade_cross(z, x);
-    const shade_mat4 m = { { { x.x, y.x, z.x, 0 }, { x.y, y.y, z.y, 0 }, { x.z, y.z, z.z, 0 },
+    const shade_mat4 m = { { { x.x, y.x, z.x, 0 },
+                             { x.y, y.y, z.y, 0 },
+                             { x.z, y.z, z.z, 0 },
                              { -shade_dot(x, eye), -shade_dot(y, eye), -shade_dot(z, eye), 1 } } };
     return m;
 }
 static shade_mat4 perspective(float fovy, float aspect, float n, float far_z)
 {
     const float f = 1 / tanf(fovy / 2);
-    const shade_mat4 m = { { { f / aspect, 0, 0, 0 }, { 0, f, 0, 0 },
+    const shade_mat4 m = { { { f / aspect, 0, 0, 0 },
+                             { 0, f, 0, 0 },
                              { 0, 0, (far_z + n) / (n - far_z), -1 },
                              { 0, 0, 2 * far_z * n / (n - far_z), 0 } } };
     return m;
 }
-static shade_vec3 to_world(const scene *s, shade_vec3 p) { return shade_mat4_transform_point(s->model, p); }
+static shade_vec3 to_world(const scene *s, shade_vec3 p)
+{
+    return shade_mat4_transform_point(s->model, p);
+}
 static shade_vec4 to_clip(const frame *f, shade_vec3 p)
 {
     return shade_mat4_transform(f->camera, shade_v4(p.x, p.y, p.z, 1));
@@ -96,15 +102,16 @@ static void make_levels(frame *f)
         for (int k = 0; k < size * size; k++) {
             const shade_vec3 *from = f->maps[l - 1] + k / size * 2 * 2 * size + k % size * 2;
             f->maps[l][k] = shade_scale(shade_add(shade_add(from[0], from[1]),
-                                                  shade_add(from[2 * size], from[2 * size + 1])), 0.25f);
+                                                  shade_add(from[2 * size], from[2 * size + 1])),
+                                        0.25f);
         }
 }
 static shade_vec3 texel(const frame *f, float u, float v)
 {
     const float level = fminf(f->level, 4);
     const int l = (int)level, next = l < 4 ? l + 1 : 4;
-    return shade_lerp(bilinear(f->maps[l], MAP >> l, u, v), bilinear(f->maps[next], MAP >> next, u, v),
-                      level - l);
+    return shade_lerp(bilinear(f->maps[l], MAP >> l, u, v),
+                      bilinear(f->maps[next], MAP >> next, u, v), level - l);
 }
 
 /* ---- checkpoint 6 */
@@ -121,8 +128,8 @@ static shade_vec3 bumped(const frame *f, shade_vec3 N, shade_vec3 T, float u, fl
     const shade_vec3 t = bilinear(f->s->map, MAP, u, v);
     const shade_vec3 n = shade_sub(shade_scale(t, 2), shade_v3(1, 1, 1));
     T = shade_normalize(shade_madd(T, -shade_dot(N, T), N));
-    return shade_normalize(shade_add(shade_add(shade_scale(T, n.x), shade_scale(shade_cross(N, T), n.y)),
-                                     shade_scale(N, n.z)));
+    return shade_normalize(shade_add(
+        shade_add(shade_scale(T, n.x), shade_scale(shade_cross(N, T), n.y)), shade_scale(N, n.z)));
 }
 static shade_vec3 tone(const scene *s, shade_vec3 P, shade_vec3 N)
 {
@@ -174,7 +181,8 @@ static void triangle(frame *f, const point *a, const point *b, const point *c)
             for (int k = 0; k < 3; k++) sum += w[k] * iw[k];
             for (int n = 0; n < VALUES; n++)
                 value[n] = (w[0] * iw[0] * a->value[n] + w[1] * iw[1] * b->value[n] +
-                            w[2] * iw[2] * c->value[n]) / sum;
+                            w[2] * iw[2] * c->value[n]) /
+                           sum;
             f->p->color[j][i] = color(f, value);
         }
 }
@@ -210,7 +218,8 @@ static shade_vec3 face_normal(const scene *s, const vertex *const *v)
 static void draw(frame *f)
 {
     const scene *s = f->s;
-    const shade_mat3 normals = shade_mat3_transpose(shade_mat3_inverse(shade_mat3_from_mat4(s->model)));
+    const shade_mat3 normals =
+        shade_mat3_transpose(shade_mat3_inverse(shade_mat3_from_mat4(s->model)));
     const int lit = (int)s->checkpoint == 4;
     for (int k = 0; k < (int)s->triangles; k++) {
         const vertex *v[3];
@@ -222,9 +231,11 @@ static void draw(frame *f)
             shade_vec3 c = v[j]->color;
             if (lit && (int)s->shading == GOURAUD) c = light(s, P, N, 1);
             if (lit && (int)s->shading == FLAT)
-                c = light(s, shade_scale(shade_add(shade_add(to_world(s, v[0]->position),
-                                                             to_world(s, v[1]->position)),
-                                                   to_world(s, v[2]->position)), 1 / 3.0f),
+                c = light(s,
+                          shade_scale(shade_add(shade_add(to_world(s, v[0]->position),
+                                                          to_world(s, v[1]->position)),
+                                                to_world(s, v[2]->position)),
+                                      1 / 3.0f),
                           face_normal(s, v), 1);
             corner[j].clip = to_clip(f, P);
             put(corner[j].value, P);
@@ -232,8 +243,8 @@ static void draw(frame *f)
             put(corner[j].value + 6, c);
             corner[j].value[9] = v[j]->uv.x;
             corner[j].value[10] = v[j]->uv.y;
-            put(corner[j].value + 11, shade_normalize(shade_mat4_transform_direction(s->model,
-                                                                                     v[j]->tangent)));
+            put(corner[j].value + 11,
+                shade_normalize(shade_mat4_transform_direction(s->model, v[j]->tangent)));
         }
         if (k == 0 && s->mipmaps) {
             const shade_vec2 a = shade_sub2(v[1]->uv, v[0]->uv), b = shade_sub2(v[2]->uv, v[0]->uv);
