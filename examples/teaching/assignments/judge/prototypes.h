@@ -23,7 +23,8 @@ shade_vec2 texture_at(const float w[3], const shade_vec2 uv[3], const float abc[
 shade_vec3 iteration_four(const shade_lighting *lighting, const shade_material *m, shade_vec3 eye,
                           shade_vec3 P, shade_vec3 N);
 #elif TASK == 11
-shade_vec3 color_at(const float x[3], const float y[3], const shade_vec3 color[3], float px, float py);
+shade_vec3 color_at(const float x[3], const float y[3], const shade_vec3 color[3], float px,
+                    float py);
 #elif TASK == 12
 float level(float du_dx, float dv_dx, float du_dy, float dv_dy, float size);
 float bilinear(const float texel[16], float u, float v);

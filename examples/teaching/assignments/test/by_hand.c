@@ -114,7 +114,8 @@ shade_vec3 iteration_four(const shade_lighting *lighting, const shade_material *
     return sum;
 }
 
-shade_vec3 color_at(const float x[3], const float y[3], const shade_vec3 color[3], float px, float py)
+shade_vec3 color_at(const float x[3], const float y[3], const shade_vec3 color[3], float px,
+                    float py)
 {
     float area[3], whole = 0;
     shade_vec3 sum = shade_v3(0, 0, 0);
