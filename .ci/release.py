@@ -12,7 +12,8 @@ from datetime import datetime, timezone
 from fnmatch import fnmatch
 from pathlib import Path
 
-WORDS = {"python": ("Python and Node", "`pip", "pyrender"), "node": ("Node", "`npm")}
+# What a package is called in the changes; the page of one leaves out what is of the other alone.
+LANGUAGES = {"python": r"Python|pyrender", "node": r"Node|JavaScript|TypeScript"}
 
 
 def page(package, version):
@@ -30,9 +31,11 @@ def page(package, version):
     text = re.sub(r"(!?)\[([^\]]*)\]\((?!#|[a-z]+:)([^)]*)\)", absolute,
                   Path(folder, "README.md").read_text("utf-8"))
     short = version.rpartition(".")[0]
-    news = re.search(rf"^## {short}, .*\n\n((?:[* ] .*\n)*)", Path("CHANGELOG.md").read_text("utf-8"), re.M)[1]
-    bullets = [one for one in re.findall(r"^\* .*\n(?:  .*\n)*", news, re.M)
-               if any(word in one for word in WORDS[package])]
+    news = re.search(rf"^## {short}, [^\n]*\n(.*?)(?=^## )", Path("CHANGELOG.md").read_text("utf-8"), re.M | re.S)[1]
+    groups = re.findall(r"^\*\*(?:Model files|Packages)\b.*\*\*\n\n((?:[* ] .*\n)*)", news, re.M)
+    own, other = LANGUAGES[package], LANGUAGES["node" if package == "python" else "python"]
+    bullets = [one for one in re.findall(r"^\* .*\n(?:  .*\n)*", "".join(groups), re.M)
+               if re.search(own, one) or not re.search(other, one)]
     sys.stdout.write(f"{text}\n## New in {short}\n\n{''.join(bullets)}")
 
 

@@ -19,8 +19,8 @@ page() {                        # package, command that installs it, a line of i
         no grep -v "^https://example.org/shade/\(blob\|raw\)/v$V/\|^#" "$T/links" &&
         for path in $(sed "s,.*/v$V/,,; s/#.*//" "$T/links"); do [ -e "$path" ] || { echo "$path"; return 1; }; done
 }
-check "the page of PyPI" page python pip "Python and Node refuse"
-check "the page of npm" page node npm "Textures of glTF and 3MF repeat"
+check "the page of PyPI" page python pip "A Renderer may be changed"
+check "the page of npm" page node npm "Colours of vertices, facets"
 check "which show a picture" grep -q "^!.*/raw/v$V/examples/packages/python/picture.png" "$T/page"
 check "package.json" python3 -c "
 import json

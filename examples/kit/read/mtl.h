@@ -19,7 +19,7 @@ static const known_name mtl_known[] = {
     { "norm", KNOWN_DRAWN },    { "map_kn", KNOWN_DRAWN },     { "ka", KNOWN_SILENT },
     { "map_ka", KNOWN_SILENT }, { "ni", KNOWN_SILENT },        { "illum", KNOWN_DRAWN },
     { "tf", KNOWN_SILENT },     { "sharpness", KNOWN_SILENT }, { "map_aat", KNOWN_SILENT },
-    { "pr", KNOWN_SILENT },     { "pm", KNOWN_SILENT },        { "ps", KNOWN_SILENT },
+    { "pr", KNOWN_DRAWN },      { "pm", KNOWN_DRAWN },         { "ps", KNOWN_TOLD },
     { "pc", KNOWN_SILENT },     { "pcr", KNOWN_SILENT },       { "aniso", KNOWN_SILENT },
     { "anisor", KNOWN_SILENT }, { "map_pr", KNOWN_SILENT },    { "map_pm", KNOWN_SILENT },
     { "map_ps", KNOWN_SILENT }, { "map_pc", KNOWN_SILENT },    { "map_pcr", KNOWN_SILENT },

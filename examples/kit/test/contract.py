@@ -29,7 +29,7 @@ def obj(kind, name):
 
 def mtl(kind, name):
     own = {"newmtl": "", "map_kd": "", "map_ke": "", "map_d": "", "map_bump": "", "bump": "", "norm": "",
-           "map_kn": ""}.get(name, f"{name} 0.5\n")
+           "map_kn": "", "illum": "illum 1\n"}.get(name, f"{name} 0.5\n")
     (FOLDER / "a.mtl").write_text("newmtl a\nKd 1 0 0\n" + own)
     return "a.obj", "mtllib a.mtl\n" + OBJ
 
@@ -37,6 +37,8 @@ def mtl(kind, name):
 def stl(kind, name):
     facets = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {CORNERS[k]}\n" for k in face)
                      + "endloop\nendfacet\n" for face in FACES)
+    if name == "color":
+        facets = facets.replace("endfacet\n", "endfacet color 1\n")
     listed = name in ("solid", "endsolid") or name in facets
     return "a.stl", f"solid a\n{facets}{'' if listed else name + chr(10)}endsolid a\n"
 
