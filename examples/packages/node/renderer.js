@@ -19,8 +19,10 @@ const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS
 export const AT = { kind: 24, mesh: 25, texture: 26, flags: 27, id: 28, first: 29, count: 30, size: 31, rgba: 34,
                     specular: 38, shininess: 41, emission: 42, glow: 43, repeat: 46, metal: 48, tint: 49,
                     cutoff: 50, relief: 51, glow_map: 52, strength: 53, glow_factor: 54 };
-/** Place and turn are doubles, before all. */
-export const PLACE = 0, TURN = 3, POSE = 12;
+// Place and turn are doubles, before all.
+export const PLACE = 0;
+export const TURN = 3;
+const POSE = 12;
 const NOT_RIGID = "must be a rotation and a translation, without scale, by columns";
 const FRAME = ["color", "depth", "ids", "normals"];
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];

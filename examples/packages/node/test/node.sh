@@ -51,6 +51,18 @@ printf 'mtllib cup.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/u
 printf 'newmtl red\nKd 1 0 0\n' >"$T/use/cup.mtl"
 check "README's sixth program" sh -c "cd '$T/use' && node program6.mjs && test -s cup.png"
 check "README's fifth program" sh -c "cd '$T/use' && node program5.mjs && test -s part.png"
+# what commonjs.js does not know is refused: a name that it lost would be undefined
+mkdir "$T/joined" && cp "$N/commonjs.js" "$T/joined" && echo '{"type":"module"}' >"$T/joined/package.json"
+joined() {                      # statement of part.js, statement of index.js
+    echo "$1" >"$T/joined/part.js"; echo "$2" >"$T/joined/index.js"
+    node "$T/joined/commonjs.js" "$T/joined/index.cjs" 2>&1 | sed -n 's/^Error: //p'
+}
+check "a module's names are joined" same "$(joined 'export const A = 0;' 'import { A } from "./part.js";
+export const B = 2 + A;')$(node -p "require('$T/joined/index.cjs').B")" 2
+check "two names in one export are refused" same "$(joined 'export const A = 0, B = 3;' \
+    'import * as part from "./part.js";')" "part.js: a new form of import or export"
+check "a name that a module has not is refused" same "$(joined 'export const A = 0;' \
+    'import { A, B } from "./part.js";')" "index.js: part.js exports no B"
 cat >"$T/use/required.js" <<'END'
 const shade = require("shade-h"), { data } = shade.render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] });
 import("shade-h").then((other) => {    // a Mesh of one is a Mesh of the other
