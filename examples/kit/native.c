@@ -410,7 +410,7 @@ static void close_studio(light_studio *s)
     if (!s) return;
     model_free(&s->scene);
     ground_free(&s->ground);
-    free(s->light.memory);
+    studio_close(&s->light);
     free(s);
 }
 

@@ -39,6 +39,7 @@ typedef struct studio {
     int sky, key;                /* the number of maps of each */
     int ground;                  /* texels along an edge of the shadow on the ground */
     float *memory;
+    model coarse;                /* the casters of a large model; none of a small one */
     float slope[STUDIO_SLOPES + 2]
                [2]; /* light of an open sky, the part of the zenith and the rest */
     shade_light lamp[2];
@@ -466,9 +467,11 @@ static uint32_t *studio_cells(const owned_mesh *m, size_t along, float **mean, s
 
 static void studio_thin_free(model *thin)
 {
+    static const model none;
     free(thin->mesh.positions);
     free(thin->mesh.indices);
     free(thin->part);
+    *thin = none;
 }
 
 /* Makes *thin such a copy, for studio_thin_free; it has the surfaces of the other.  Returns 1 where
@@ -533,17 +536,15 @@ static shade_result studio_open_for(studio *s, const model *m, int pixels, float
     return studio_draw_maps(s, m, 0, threads, progress, user);
 }
 
-/* Opens the studio of a model, by the coarser copy of a large one. */
+/* Opens the studio of a model, by the coarser copy of a large one, which studio_turn draws again. */
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
-    shade_result result = SHADE_ERROR_CAPACITY;
-    model thin;
+    static const studio none;
+    *s = none;
     if (!studio_may_thin(m)) return studio_open_for(s, m, pixels, turn, threads, progress, user);
-    if (!studio_thin(&thin, m, pixels))
-        result = studio_open_for(s, &thin, pixels, turn, threads, progress, user);
-    studio_thin_free(&thin);
-    return result;
+    if (studio_thin(&s->coarse, m, pixels)) return SHADE_ERROR_CAPACITY;
+    return studio_open_for(s, &s->coarse, pixels, turn, threads, progress, user);
 }
 
 /* Lamps whose maps are not drawn: nothing throws a shadow. */
@@ -559,11 +560,12 @@ static inline void studio_open_quick(studio *s)
 static inline shade_result studio_turn(studio *s, const model *m, float turn, int threads)
 {
     studio_place_key(s, turn);
-    return studio_draw_maps(s, m, s->sky, threads, NULL, NULL);
+    return studio_draw_maps(s, s->coarse.part ? &s->coarse : m, s->sky, threads, NULL, NULL);
 }
 
 static inline void studio_close(studio *s)
 {
+    studio_thin_free(&s->coarse);
     free(s->memory);
     s->memory = NULL;
 }

@@ -68,9 +68,9 @@ flat="--model emissive --background black --no-shadow"
 own_colors() {
     square="v -1 0 -1 C\nv 1 0 -1 C\nv 1 0 1 C\nv -1 0 1 C\n"
     printf 'newmtl skin\nKd 0.8 0.6 0.5\n' >"$T/skin.mtl"
-    printf "mtllib skin.mtl\n$(echo "$square" | sed 's/ C//g')usemtl skin\nf 1 2 3 4\n" >"$T/skin.obj"
-    printf "$(echo "$square" | sed 's/ C/ 0.8 0.6 0.5/g')f 1 2 3 4\n" >"$T/scan.obj"
-    printf "$(echo "$square" | sed 's/ C//g')f 1 2 3 4\n" >"$T/bare.obj"
+    printf "mtllib skin.mtl\n$(printf '%s' "$square" | sed 's/ C//g')usemtl skin\nf 1 2 3 4\n" >"$T/skin.obj"
+    printf "$(printf '%s' "$square" | sed 's/ C/ 0.8 0.6 0.5/g')f 1 2 3 4\n" >"$T/scan.obj"
+    printf "$(printf '%s' "$square" | sed 's/ C//g')f 1 2 3 4\n" >"$T/bare.obj"
     printf 'OFF\n4 1 0\n-1 0 -1\n1 0 -1\n1 0 1\n-1 0 1\n4 0 1 2 3 204 153 128\n' >"$T/face.off"
     for k in scan.obj face.off; do
         for light in "" --quick; do
