@@ -246,9 +246,10 @@ static inline int model_load_file(const char *path, const char *name, double mos
     *where = model_beside(path, name);
     if (!*where) return mesh_fail(&r, "out of memory");
     if (!model_load(&r, *where, most, bytes, size)) return 0;
-    if (errno == ENOENT && model_is_alone(path))
-        mesh_fail(&r, "%s: it may be hidden, for the folder shows the model alone",
-                  strerror(ENOENT));
+    if (model_may_hide(path))
+        mesh_fail(&r,
+                  "No such file or directory: it may be hidden, for the folder shows the model "
+                  "alone");
     return 1;
 }
 

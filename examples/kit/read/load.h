@@ -15,13 +15,15 @@ static inline int model_is_device(const char *path)
     return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
 }
 
-/* 1: the folder of a file shows nothing else, as GNOME's sandbox of thumbnailers does. */
-static inline int model_is_alone(const char *path)
+/* 1: a file beside the model was not found, and the model's folder shows nothing else, as GNOME's
+   sandbox of thumbnailers does. */
+static inline int model_may_hide(const char *path)
 {
     const char *slash = strrchr(path, '/');
     char folder[4096] = ".";
     int entries = 0;
     DIR *list;
+    if (errno != ENOENT) return 0;
     if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
     list = opendir(folder);
     while (list && entries < 4 && readdir(list)) entries++;
@@ -30,7 +32,7 @@ static inline int model_is_alone(const char *path)
 }
 #else
 static inline int model_is_device(const char *path) { return (void)path, 0; }
-static inline int model_is_alone(const char *path) { return (void)path, 0; }
+static inline int model_may_hide(const char *path) { return (void)path, 0; }
 #endif
 
 /* Opens a file; NULL with the error in r */

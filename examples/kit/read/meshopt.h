@@ -349,8 +349,12 @@ static inline void meshopt_exponential(unsigned char *p)
     const int told = (int)(bits >> 24) - (bits >> 31 ? 256 : 0); /* -100 .. 100 */
     const int power = told < -100 ? -100 : told > 100 ? 100 : told;
     const int whole = (int)mantissa - (mantissa >> 23 ? 1 << 24 : 0);
-    const float value = (float)ldexp((double)whole, power);
+    const uint64_t scale_bits = (uint64_t)(power + 1023) << 52; /* of 2^power */
+    double scale;
+    float value;
     uint32_t made;
+    memcpy(&scale, &scale_bits, sizeof scale);
+    value = (float)(scale * whole);
     memcpy(&made, &value, sizeof made);
     meshopt_put(p, 4, 0, made);
 }

@@ -83,7 +83,7 @@ assert (f"off by {most:.0e}".replace("e-0", "e-") + " max(1, |x|)" if most else 
 END
     check "$name: its page has points and tolerance" test ! -s "$T/log"
 done
-for wrong in "01_lambert" "no_task LICENSE" "11 LICENSE" "01_lambert LICENSE --mistake half" \
+for wrong in "01_lambert" "no_task LICENSE" "16 LICENSE" "01_lambert LICENSE --mistake half" \
     "01_lambert LICENSE --start $T/no.c"; do
     check "grade.py refuses $wrong" sh -c "python3 $A/grade.py $wrong 2>/dev/null; [ \$? -eq 2 ]"
 done
