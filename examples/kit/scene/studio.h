@@ -421,7 +421,9 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
 
 /* Many lamps, each for a share of the samples, blur what is smaller than some texels of a map.  All
    vertices of a cell become one, at their mean; triangles with two corners in a cell vanish.  Cells
-   are 8/3 texels wide, for pictures of more than 256 pixels 4/3. */
+   are 16/7 texels of the sky's maps wide, for pictures of more than 256 pixels 4/3, for those of at
+   most 128 8/7.  Half of that is less than points are moved off their surfaces for the large lamp:
+   the rounded foot of a wall would darken the wall. */
 enum { STUDIO_THIN = 10000 }; /* triangles of models that are worth it */
 static int studio_may_thin(const model *m)
 {
@@ -482,7 +484,7 @@ static int studio_thin(model *thin, const model *m, int pixels)
     static const owned_mesh none;
     size_t cells = 0;
     float *mean = NULL;
-    uint32_t *cell = studio_cells(&m->mesh, pixels <= 256 ? 96 : 192, &mean, &cells);
+    uint32_t *cell = studio_cells(&m->mesh, pixels <= 256 ? 112 : 192, &mean, &cells);
     int count = 0;
     *thin = *m;
     thin->mesh = none;

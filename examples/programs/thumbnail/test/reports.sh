@@ -661,15 +661,15 @@ writer_reports() {
     check "is told" told "tinted.stl: it has color, which is not read"
 
     vertices="0 0 0 C\n2 0 0 C\n0 1.5 0 C\n0 0 1 C\n"
-    printf "COFF\n4 4 0\n$(echo "$vertices" | sed 's/C/1 0 0 1/g')$ply_faces" >"$T/red.off"
-    printf "OFF\n4 4 0\n$(echo "$vertices" | sed 's/C/1.0 0.0 0.0 0.0/g')$ply_faces" >"$T/bare.off"
+    printf "COFF\n4 4 0\n$(printf '%s' "$vertices" | sed 's/C/1 0 0 1/g')$ply_faces" >"$T/red.off"
+    printf "OFF\n4 4 0\n$(printf '%s' "$vertices" | sed 's/C/1.0 0.0 0.0 0.0/g')$ply_faces" >"$T/bare.off"
     same "colours of vertices without a C" red.off bare.off 0 ""
     check "whose alpha of 0 says nothing" test ! -s "$T/err"
-    printf "OFF\n4 4 0\n$(echo "$vertices" | sed 's/C/255 0 0 128/g')$ply_faces" >"$T/bare.off"
+    printf "OFF\n4 4 0\n$(printf '%s' "$vertices" | sed 's/C/255 0 0 128/g')$ply_faces" >"$T/bare.off"
     same "as whole numbers" red.off bare.off 0 ""
     check "whose alpha is told" told "bare.off: it has alpha, which is not read"
     for k in "0.0 0.0 1.0" "-1.0 0.0 0.0 1.0"; do
-        printf "OFF\n4 4 0\n$(echo "$vertices" | sed "s/C/$k/g")$ply_faces" >"$T/bare.off"
+        printf "OFF\n4 4 0\n$(printf '%s' "$vertices" | sed "s/C/$k/g")$ply_faces" >"$T/bare.off"
         same "$k may be a normal" wedge.obj bare.off 0 "--up y"
         check "that is told" said "bare.off: numbers behind its vertices or faces that are no colours"
     done
