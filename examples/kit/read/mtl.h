@@ -99,7 +99,7 @@ static inline int mtl_sheen(mesh_reader *r, model *m)
 {
     float number;
     if (mtl_number(r, 0, 1, &number)) return 1;
-    return number > 0 ? known_take(r, m, KNOWN_TOLD, 0, "ps", 2) : 0;
+    return number > 0 ? known_take(r, m, KNOWN_TOLD, 0, "Ps", 2) : 0;
 }
 
 /* Options of a picture, which begin with a dash: the numbers after one are its own, and of those

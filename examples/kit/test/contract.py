@@ -164,7 +164,7 @@ def demand(where, reader, got, what, name):
     """One of the three."""
     global passed, failed
     read, words = got
-    shown = {"STOFF": "ST", "OFF BINARY": "binary OFF"}.get(name, name)
+    shown = {"STOFF": "ST", "OFF BINARY": "binary OFF", "ps": "Ps"}.get(name, name)
     named = shown in words and ("not read" in words or "found" in words)
     right = {"drawn": read and "not read" not in words, "silent": read and "not read" not in words,
              "told": read and named, "refused": not read and named}[what]
