@@ -39,7 +39,7 @@ typedef struct studio {
     int sky, key;                /* the number of maps of each */
     int ground;                  /* texels along an edge of the shadow on the ground */
     float *memory;
-    model coarse;                /* the casters of a large model; none of a small one */
+    model coarse; /* the casters of a large model; none of a small one */
     float slope[STUDIO_SLOPES + 2]
                [2]; /* light of an open sky, the part of the zenith and the rest */
     shade_light lamp[2];
