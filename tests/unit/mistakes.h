@@ -660,7 +660,10 @@ MISTAKE(lamp_without_position, BOTH, "direction without length")    /* filled by
 {
     memset(&stage_one_lamp(s)->position, 0, sizeof s->lamps[0].position);
 }
-MISTAKE(lamp_negative, POT, "negative colour") { stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1); }
+MISTAKE(lamp_negative, POT, "negative colour")
+{
+    stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1);
+}
 MISTAKE(terms_of_nothing, BOTH, "lighting.terms") { s->state.lighting.terms = SHADE_TERM_EMISSION; }
 MISTAKE(terms_of_highlights, BOTH, "") { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
 MISTAKE(terms_unknown, BOTH, "lighting.terms") { s->state.lighting.terms = 64; }

@@ -881,10 +881,13 @@ static void shape_place_any(int kind, float *at)
         at[k] = (float)k * 0.3f * at[0] + rnd_float(-1e-6, 1e-6);
 }
 
-static int shape_equal(shade_vec3 a, shade_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+static int shape_equal(shade_vec3 a, shade_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
-/* 1 if a face at the vertex of a corner looks the other way: rounding may leave its cosine below -1,
-   so that the crease of corners parts them. */
+/* 1 if a face at the vertex of a corner looks the other way: rounding may leave its cosine below
+   -1, so that the crease of corners parts them. */
 static int shape_opposed(const shape_mesh *s, const shade_vec3 *face, int corner)
 {
     for (int i = 0; i < s->mesh.index_count; i++)

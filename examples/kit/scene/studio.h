@@ -538,7 +538,7 @@ static shade_result studio_open_for(studio *s, const model *m, int pixels, float
     return studio_draw_maps(s, m, 0, threads, progress, user);
 }
 
-/* Opens the studio of a model, by the coarser copy of a large one, which studio_turn draws again. */
+/* Opens the studio of a model, by the coarser copy of a large one, which studio_turn draws too. */
 static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
