@@ -371,15 +371,17 @@ static void unfilter(decoder *d, int width, int height, unsigned char *rgb)
     for (size_t y = 0; y < (size_t)height; y++) {
         const unsigned char *in = d->out + y * (row + 1) + 1;
         unsigned char *out = rgb + y * row;
+        const unsigned char *above = y ? out - row : out;
+        const int filter = in[-1] > 4 ? 0 : in[-1];
         if (in[-1] > 4) d->fault = "no such filter";
         for (size_t i = 0; i < row; i++) {
-            int a = i < 3 ? 0 : out[i - 3], b = y ? out[i - row] : 0;
-            int c = i < 3 || !y ? 0 : out[i - row - 3], p = a + b - c;
+            int a = i < 3 ? 0 : out[i - 3], b = y ? above[i] : 0;
+            int c = i < 3 || !y ? 0 : above[i - 3], p = a + b - c;
             int paeth = abs(p - a) <= abs(p - b) && abs(p - a) <= abs(p - c) ? a
                         : abs(p - b) <= abs(p - c)                           ? b
                                                                              : c;
             const int guess[5] = { 0, a, b, (a + b) / 2, paeth };
-            out[i] = (unsigned char)(in[i] + guess[in[-1]]);
+            out[i] = (unsigned char)(in[i] + guess[filter]);
         }
     }
 }
