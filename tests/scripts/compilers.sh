@@ -67,7 +67,7 @@ if there clang; then
         riscv64-linux-gnu mips-linux-gnu powerpc64-linux-gnu s390x-linux-gnu wasm32 \
         x86_64-pc-windows-msvc aarch64-pc-windows-msvc arm64-apple-darwin; do
         plain="clang --target=$target -ffreestanding -isystem $T/c -I." clang="$plain -DSHADE_NO_STDIO"
-        case $target in i386*) clang="$clang -msse2" ;; esac
+        case $target in i386*) clang="$clang -msse2" ;; powerpc64-*) clang="$clang -mno-altivec" ;; esac
         if ! $clang -fsyntax-only "$T/behind.c" 2>/dev/null; then
             left_out "clang for $target"; continue
         fi
