@@ -523,7 +523,7 @@ static inline int display_can_rest(const display *d)
 #define DISPLAY_REST 0.25
 
 /* How a program in a terminal ends */
-typedef enum display_end { DISPLAY_DONE, DISPLAY_GONE, DISPLAY_REFUSED } display_exit;
+typedef enum display_exit { DISPLAY_DONE, DISPLAY_GONE, DISPLAY_REFUSED } display_exit;
 
 /* Runs until the user ends it, the terminal is gone, or what was asked for cannot be shown. */
 static inline display_exit display_run(display *d, const sigset_t *mask)

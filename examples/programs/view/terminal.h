@@ -23,7 +23,7 @@ typedef struct terminal_answers {
     int parts;                     /* 6 or 4: it draws glyphs of so many parts; 0: nobody knows */
     int inner;                     /* it is tmux or screen, which another terminal shows */
     int cell_width, cell_height;   /* pixels; 0: not said */
-    int area_width, area_height;   /* pixels of all cells, without a border; 0: not said */
+    int area_width, area_height;   /* pixels of all cells, as it counts them; 0: not said */
     struct winsize at;             /* the system's size when it said that */
     int sixel_width, sixel_height; /* pixels that sixels may have; 0: not said */
 } terminal_answers;
