@@ -960,9 +960,9 @@ SHADE__CLOSE
                                                                                            >>math */
 
 /* Floats must be evaluated as floats, denormal ones too.  Compilers that do otherwise are refused,
-   without further errors.  Tools that check without <float.h>, as cppcheck does, are not.  On s390x gcc -std=c99 evaluates floats as doubles, as glibc once did;
-   SHADE__BEGIN turns that off for this file.  m68k -m68040 says that it evaluates floats as floats,
-   but only rounds their mantissa. */
+   without further errors; tools that check without <float.h>, as cppcheck does, are not.  On s390x
+   gcc -std=c99 evaluates floats as doubles, as glibc once did; SHADE__BEGIN turns that off for this
+   file.  m68k -m68040 says that it evaluates floats as floats, but only rounds their mantissa. */
 #define SHADE__EVAL_FLOAT
 #if (defined(FLT_MANT_DIG) && (FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53)) || \
     (defined(__SIZEOF_INT__) && __SIZEOF_INT__ < 4)
