@@ -34,7 +34,7 @@ int main(int argc, char **argv)
 }
 #endif
 
-/* Runs a target on random inputs and prints a hash of what each left in memory: count, first seed. */
+/* Prints a hash of what a target leaves in memory for each random input: count, first seed. */
 #ifdef FUZZ_BITS
 #include <stdio.h>
 #include <stdlib.h>
