@@ -11448,33 +11448,13 @@ static const char *shade__bad_run(const shade__survey *s)
     return SHADE__GO_ON;
 }
 
-/* Do all pixels of the clip rectangle hold the same bytes? */
-static int shade__is_blank(const shade_target *t)
-{
-    const size_t bytes = shade__pixel_bytes(t->format);
-    const uint8_t *color = (const uint8_t *)t->color, *first;
-    int clip[4];
-    shade__clip_rectangle(t, clip);
-    first = color + shade__offset_of(t, clip[0], clip[1]) * bytes;
-    for (int y = clip[1]; y < clip[3]; y++)
-        for (int x = clip[0]; x < clip[2]; x++)
-            for (size_t k = 0; k < bytes; k++)
-                if (color[shade__offset_of(t, x, y) * bytes + k] != first[k]) return 0;
-    return 1;
-}
-
-/* Looks at a picture in which lines or a pipeline have pixels. */
+/* Looks at a picture in which lines or a pipeline have pixels.  Depth alone is drawn before other
+   passes, and counted if it is not written. */
 static const char *shade__why_plain(const shade__survey *s)
 {
-    const shade_raster *raster = &s->given_state->raster;
     shade__survey q = *s;
-    if (!s->replay->pipe.fragment && (!s->target->depth || raster->depth_read_only))
-        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
-               "or raster.depth_read_only is set.";
-    if (!s->replay->pipe.fragment && s->target->color && shade__is_blank(s->target))
-        return "pipeline.fragment is NULL, so that only depth is drawn, and target.color holds one "
-               "colour everywhere: set a fragment shader, or, if depth alone is wanted, make "
-               "target.color NULL.";
+    if (!s->replay->pipe.fragment && !s->target->depth)
+        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL.";
     if (shade__matrix_by_rows(&q)) return shade__lines_by_rows;
     return s->replay->pipe.fragment && s->target->color ? shade__why_faint(s) : SHADE__GO_ON;
 }
