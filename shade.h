@@ -9464,19 +9464,24 @@ static int shade__coincides(const shade__survey *s)
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
+/* Does each fragment replace what is behind it? */
+static int shade__is_opaque(const shade__survey *s)
+{
+    const shade_draw_state *d = s->given_state;
+    return d->raster.blend == SHADE_BLEND_REPLACE ||
+           (d->raster.blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
+}
+
 /* Draws what the picture shows: after a whole, opaque draw, the fragments with the stored depth.
    Stored depth cannot identify the visible fragments of a band, of blended draws, or with a
    depth_bias.  Then all fragments are drawn: a fault found in none of them is not in the picture.
    If depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
-    const shade_draw_state *d = q->given_state;
-    const shade_raster *r = &d->raster;
-    const int opaque = r->blend == SHADE_BLEND_REPLACE ||
-                       (r->blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
+    const shade_raster *r = &q->given_state->raster;
     shade__look_through(q, r->depth_read_only ? r->depth_test : SHADE_COMPARE_EQUAL);
     if (q->whole && q->target->depth &&
-        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(q))
+        (r->depth_read_only || (shade__is_opaque(q) && r->depth_bias == 0)) && shade__covered(q))
         q->exact = !r->depth_read_only && !shade__coincides(q);
     else shade__look_at_all(q);
 }
@@ -9619,7 +9624,7 @@ static int shade__faces_ahead(const shade__camera *c)
    Numbers that make no sense, whatever the picture is.
      in      a survey, or the mesh           out  a sentence, or SHADE__GO_ON
      way     no_mesh: arrays_cross, indices_are_halves; bad_number: bad_matrix, bad_lamp,
-             positions_are_bad, bad_attribute                                            >>doubts */
+             positions_are_bad, floats_are_coarse, bad_attribute                         >>doubts */
 
 /* A question has three answers: a sentence, or one of these. */
 #define SHADE__GO_ON ((const char *)0)   /* nothing is found: the next question is asked */
@@ -9909,18 +9914,20 @@ static const char *shade__bad_attribute(const shade__survey *s)
     return SHADE__GO_ON;
 }
 
-/* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart on the screen?
-   The mesh is at most as wide as its pixels are many along a side. */
+/* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart?  The mesh is at
+   most as wide as its pixels are many along a side: 16, if nothing is drawn. */
 static int shade__floats_are_coarse(const shade__survey *s)
 {
     shade_vec3 low, high, size, most;
-    float step, wide;
+    float step, wide, pixels = (float)shade__covered(s);
+    if (!(s->given_stats && s->given_stats->fragments) && !shade__depth_varies(s->target))
+        pixels = 256;
     shade_mesh_bounds(s->given_mesh, &low, &high);
     size = shade_sub(high, low);
     most = shade_max(high, shade_neg(low));
     wide = shade__maxf(size.x, shade__maxf(size.y, size.z));
     step = shade__maxf(most.x, shade__maxf(most.y, most.z)) * FLT_EPSILON / 2;
-    return step * shade__sqrt((float)shade__covered(s)) > wide;
+    return wide > 0 && step * shade__sqrt(pixels) > wide;
 }
 
 /* The number of triangles that a draw of the mesh counts. */
@@ -9950,14 +9957,17 @@ static const char *shade__bad_number(const shade__survey *s)
     if (!why && shade__positions_are_bad(s))
         why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices "
               "make them so: positions must be floats, and mesh.position_stride counts bytes.";
+    if (!why && shade__floats_are_coarse(s))
+        why = "mesh.positions lie so far from 0 that floats are too coarse for the mesh: subtract "
+              "its middle from all positions, of the eye and the lamps as well, in double.";
     return why ? why : shade__bad_attribute(s);
 }
 
 /*----------------------------------------------------------------------------------------- >>doubts
    Numbers that are possible, but seldom right.
      in      a survey of a mesh that shows   out  a sentence, or SHADE__GO_ON
-     way     doubt: chunks_leave_out, boxes_are_small, floats_are_coarse; doubt_of_view,
-             doubt_of_map, doubt_of_surface                                              >>unseen */
+     way     doubt: chunks_leave_out, boxes_are_small; doubt_of_view, doubt_of_map,
+             doubt_of_surface                                                            >>unseen */
 
 static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
@@ -10097,10 +10107,6 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1, so even 1e-5 is large.";
-    if (shade__floats_are_coarse(s))
-        return "mesh.positions lie so far from 0 that floats are more than a pixel apart there: "
-               "subtract the middle of the mesh in double, and move the mesh by state.model and "
-               "the eye by as much less.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
@@ -10664,9 +10670,9 @@ static int shade__black_is_meant(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
     const shade_material *m = &q->material;
-    const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
-                                     shade_add(m->diffuse, m->specular));
-    return shade__is_zero(sum) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
+    const shade_vec3 most = shade_max(shade_max(m->emission, m->ambient),
+                                      shade_max(m->diffuse, m->specular));
+    return shade__is_zero(most) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
 }
 
 static int shade__shading_is_coarse(shade__survey *q)
@@ -10995,11 +11001,11 @@ static int shade__lacks_depth(shade__survey *q)
     return shade__hides_nearest(q, 1);
 }
 
-/* Pairs of neighbouring triangles.  turned: both go through their common edge in the same
-   direction, so that one of the two is wound the other way. */
-typedef struct shade__seams { int pairs, turned; } shade__seams;
+/* Edges by the number of other triangles that have them: one (pairs) or more (crowded).  turned:
+   both of a pair go through it in the same direction, so that one is wound the other way. */
+typedef struct shade__seams { int pairs, turned, crowded; } shade__seams;
 
-/* Counts the edge from corner k of a triangle to the next, if one other triangle has it. */
+/* Counts the edge from corner k of a triangle to the next. */
 static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__seams *seams)
 {
     const shade_vec3 a = shade__corner(m, (uint32_t)(3 * triangle + k));
@@ -11014,9 +11020,10 @@ static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__s
         same += at_a && shade__is_zero(shade_sub(next, b));
         opposite += at_b && shade__is_zero(shade_sub(next, a));
     }
-    if (same + opposite != 1) return;
-    seams->pairs++;
-    seams->turned += same;
+    if (same + opposite == 1) {
+        seams->pairs++;
+        seams->turned += same;
+    } else seams->crowded += same + opposite > 1;
 }
 
 /* Looks at as many triangles as take the time of some frames: all of a small mesh. */
@@ -11024,7 +11031,7 @@ static shade__seams shade__seams_of(const shade_mesh *m)
 {
     const int all = shade__corner_count(m) / 3;
     const int step = 1 + (int)((double)all * all / 4e6);
-    shade__seams seams = { 0, 0 };
+    shade__seams seams = { 0, 0, 0 };
     for (int i = 0; i < all; i += step) {
         shade_vec3 p[3];
         if (shade__is_zero(shade__face_normal(m, (uint32_t)i, p))) continue;
@@ -11033,28 +11040,29 @@ static shade__seams shade__seams_of(const shade_mesh *m)
     return seams;
 }
 
-/* Are faces wound both ways?  Below one pair of a hundred it may be the knot of a mesh. */
-static int shade__is_wound_both_ways(const shade__survey *s)
+/* Are the triangles no surface, but crowd around edges? */
+static int shade__is_crowded(const shade__survey *s)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
-    return seams.turned > 1 && seams.turned * 100 >= seams.pairs;
+    return seams.crowded * 10 > seams.pairs;
 }
 
-static int shade__is_often_wound_both_ways(const shade__survey *s)
+/* Is at least one pair of so many turned?  Below one of a hundred it may be the knot of a mesh. */
+static int shade__is_turned(const shade__survey *s, int of)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
-    return seams.turned > 1 && seams.turned * 10 >= seams.pairs;
+    return seams.turned > 1 && seams.turned * of >= seams.pairs && !shade__is_crowded(s);
 }
 
 /* Is a face left out whose neighbour is not? */
 static int shade__culled_both_ways(shade__survey *q)
 {
-    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_wound_both_ways(q);
+    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_turned(q, 100);
 }
 
 static int shade__culled_often_both_ways(shade__survey *q)
 {
-    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_often_wound_both_ways(q);
+    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_turned(q, 10);
 }
 
 static int shade__view_mirrors(shade__survey *q)
@@ -11130,7 +11138,8 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
+    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11 &&    /* fewer prove little */
+           !shade__is_crowded(q);
 }
 
 /* Do all normals lack negative components, though at least an eighth of the faces need one? */
@@ -11216,12 +11225,12 @@ static int shade__winding_is_wrong(const shade__survey *s)
 
 static int shade__lit_both_ways(shade__survey *q)
 {
-    return shade__winding_is_wrong(q) && shade__is_wound_both_ways(q);
+    return shade__winding_is_wrong(q) && shade__is_turned(q, 100);
 }
 
 static int shade__lit_often_both_ways(shade__survey *q)
 {
-    return shade__winding_is_wrong(q) && shade__is_often_wound_both_ways(q);
+    return shade__winding_is_wrong(q) && shade__is_turned(q, 10);
 }
 
 static int shade__light_is_mirrored(shade__survey *q)
@@ -11405,7 +11414,7 @@ static int shade__is_dark(const shade__survey *seen, float least)
 static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
-    const int opaque = s->state.raster.blend == SHADE_BLEND_REPLACE;
+    const int opaque = shade__is_opaque(s);
     const char *why = shade__climb(s, &shade__picture);
     const shade__rung *rung;
     shade__look_at_seen(&seen);
