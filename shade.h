@@ -79,14 +79,14 @@
        >>rays      8007  shade_pick            >>image     8198  smaller pictures, mipmaps
        >>files     8511  PPM and PNG           >>presets   8829  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8912  shaders, run again    >>survey    9180  experiments on a draw
-       >>numbers   9618  what makes no sense   >>doubts    9956  what is seldom right
+       >>replay    8912  shaders, run again    >>survey    9184  experiments on a draw
+       >>numbers   9626  what makes no sense   >>doubts    9960  what is seldom right
        >>unseen   10109  why nothing is in view
-       >>hidden   10391  why nothing is stored >>black    10555  why all is black
-       >>wrong    10937  what else is wrong    >>verdict  11318  the calls
+       >>hidden   10388  why nothing is stored >>black    10552  why all is black
+       >>wrong    10934  what else is wrong    >>verdict  11318  the calls
      Sources
-       >>refs     11628                        >>history  11661
-       >>license  11667
+       >>refs     11608                        >>history  11641
+       >>license  11647
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8974,15 +8974,16 @@ static float shade__dim_of(const shade_target *t)
     return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
 }
 
-/* Is the pixel's channel k stored as 0 or NaN?   pre: the pixel is in the clip rectangle */
-static int shade__is_stored_dark(const shade_target *t, int x, int y, int k)
+/* Channel k of a pixel as it is stored: a float, or a code.   pre: the pixel is in the clip
+   rectangle, and there is a picture */
+static float shade__stored(const shade_target *t, int x, int y, int k)
 {
     const shade__layout *l = &shade__layouts[t->format];
     const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
     float light;
-    if (l->bytes == 16) SHADE_MEMCPY(&light, p + 4 * k, 4);
-    else light = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k);
-    return !(light > 0) && !(light < 0);
+    if (l->bytes < 16) return shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k);
+    SHADE_MEMCPY(&light, p + 4 * k, 4);
+    return light;
 }
 
 /* Counts the colour of lane i. */
@@ -8998,7 +8999,10 @@ static void shade__count_color(const shade_target *t, const shade_fragments *in,
     for (int k = 0; k < 3; k++) {
         const float light = c->color[k][i];
         const int is_nan = light != light || veiled;
-        nan |= is_nan && shade__is_stored_dark(t, x, y, k);
+        if (is_nan) {    /* 0 or NaN in the picture */
+            const float stored = shade__stored(t, x, y, k);
+            nan |= !(stored > 0) && !(stored < 0);
+        }
         most = shade__maxf(light, most);
     }
     to->count++;
@@ -9259,19 +9263,13 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
     at->any_front |= in->front[i];
 }
 
-/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0?
-   pre: the pixel is in the clip rectangle, and there is a picture */
+/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0? */
 static int shade__is_lit_there(const shade_target *t, int x, int y)
 {
     const shade__layout *l = &shade__layouts[t->format];
-    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
-    const uint32_t packed = shade__load_packed(p, l->bytes, l->swapped);
     int any = 0;
-    for (int k = 0; k < 3; k++) {
-        float light = shade__channel(packed, l, k) * 255 - 8 * (float)l->full[k];
-        if (l->bytes == 16) SHADE_MEMCPY(&light, p + 4 * k, 4);
-        any |= light > 0;
-    }
+    for (int k = 0; k < 3; k++)
+        any |= shade__stored(t, x, y, k) * 255 > (l->bytes < 16 ? 8 * (float)l->full[k] : 0);
     return any;
 }
 
@@ -9564,6 +9562,12 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
 
 /* ---- questions that need no drawing */
 
+/* What the vertices of lines or a pipeline are. */
+static shade__tally shade__vertices_of(const shade__survey *s)
+{
+    return shade__replay_of(s, s->replay->lines ? shade__point_vertex : NULL);
+}
+
 /* The SHADE__OUT_... bits that all corners share.  If z is 0 at the eye, but for the rounding of
    floats, depth is the same everywhere, and near and far cannot be told apart. */
 static uint32_t shade__outside(const shade__survey *s)
@@ -9571,8 +9575,7 @@ static uint32_t shade__outside(const shade__survey *s)
     const double *z = s->camera.row[2];
     shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     uint32_t all = ~0u;
-    if (s->replay)
-        return shade__replay_of(s, s->replay->lines ? shade__point_vertex : NULL).outside;
+    if (s->replay) return shade__vertices_of(s).outside;
     m = shade__mat4_product(&m, &s->state.model);
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
@@ -9843,11 +9846,10 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (shade_dot4(l->position, l->position) == 0 && !shade__is_zero(l->diffuse))
         return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
                "lights nothing; fill it with shade_directional_light or shade_point_light.";
-    if (shade_min(shade_min(l->diffuse, l->specular), l->ambient).x < 0 ||
-        shade_min(shade_min(l->diffuse, l->specular), l->ambient).y < 0 ||
-        shade_min(shade_min(l->diffuse, l->specular), l->ambient).z < 0)
-        return "A light of lighting.lights has a negative colour: it takes light away from what it "
-               "shines on.";
+    for (int k = 4; k < 13; k++)    /* ambient, diffuse, specular */
+        if (number[k] < 0)
+            return "A light of lighting.lights has a negative colour: it takes light away from "
+                   "what it shines on.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
@@ -9866,30 +9868,22 @@ static int shade__positions_are_bad(const shade__survey *s)
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
-/* Is a float of an attribute NaN, infinite or beyond 1e18, whose square is infinite? */
-static int shade__is_wild(const float *array, int stride, int floats, uint32_t vertex)
-{
-    const char *at = (const char *)array +
-                     (size_t)vertex * (size_t)(stride ? stride : floats * (int)sizeof(float));
-    int wild = 0;
-    for (int k = 0; k < floats; k++) {
-        float number;
-        SHADE_MEMCPY(&number, at + (size_t)k * sizeof number, sizeof number);
-        wild |= !shade__within(number, 1e18f);
-    }
-    return wild;
-}
-
-/* Does a triangle with an area have such a number? */
+/* Has a triangle with an area a float that is NaN, infinite or beyond 1e18, whose square is
+   infinite? */
 static int shade__attribute_is_wild(const shade_mesh *m, const float *array, int stride,
                                     int floats)
 {
-    for (int i = 0; array && i < shade__corner_count(m) / 3 * 3; i++) {
-        shade_vec3 p[3];
-        if (shade__is_wild(array, stride, floats, shade__corner_index(m, (uint32_t)i)) &&
-            !shade__is_zero(shade__face_normal(m, (uint32_t)i / 3, p)))
-            return 1;
-    }
+    const size_t bytes = (size_t)(stride ? stride : floats * 4);
+    for (int i = 0; array && i < shade__corner_count(m) / 3 * 3; i++)
+        for (int k = 0; k < floats; k++) {
+            const size_t at = shade__corner_index(m, (uint32_t)i) * bytes + (size_t)k * 4;
+            shade_vec3 p[3];
+            float number;
+            SHADE_MEMCPY(&number, (const char *)array + at, 4);
+            if (!shade__within(number, 1e18f) &&
+                !shade__is_zero(shade__face_normal(m, (uint32_t)i / 3, p)))
+                return 1;
+        }
     return 0;
 }
 
@@ -9915,7 +9909,7 @@ static const char *shade__bad_attribute(const shade__survey *s)
 }
 
 /* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart?  The mesh is at
-   most as wide as its pixels are many along a side: 16, if nothing is drawn. */
+   most as wide as its pixels are many along a side, which are 16 if nothing is drawn. */
 static int shade__floats_are_coarse(const shade__survey *s)
 {
     shade_vec3 low, high, size, most;
@@ -10239,8 +10233,7 @@ static uint32_t shade__far_plane(const shade__survey *s)
 
 static int shade__w_is_zero(shade__survey *q)
 {
-    return q->replay && shade__is_beside(q) &&
-           !shade__replay_of(q, q->replay->lines ? shade__point_vertex : NULL).any_w;
+    return q->replay && shade__is_beside(q) && !shade__vertices_of(q).any_w;
 }
 
 /* Is w 1 everywhere, as without a projection?  Degenerate cameras make x and y 0 as well. */
@@ -10248,7 +10241,7 @@ static int shade__w_is_one(shade__survey *q)
 {
     shade__tally t;
     if (!q->replay || q->replay->lines || !shade__is_beside(q)) return 0;
-    t = shade__replay_of(q, NULL);
+    t = shade__vertices_of(q);
     return t.any_xy && !t.other_w;
 }
 
@@ -10278,17 +10271,18 @@ static int shade__before_near(shade__survey *q)
 
 /* ---- the matrix of lines */
 
-static shade_mat4 shade__matrix_of(const shade__survey *q)
+/* Is the draw one of lines?  Then *m is their matrix. */
+static int shade__matrix_of(const shade__survey *q, shade_mat4 *m)
 {
-    return shade__or_identity(q->replay->lines->clip_from_points);
+    if (!q->replay || !q->replay->lines) return 0;
+    *m = shade__or_identity(q->replay->lines->clip_from_points);
+    return 1;
 }
 
 static int shade__matrix_is_none(shade__survey *q)
 {
     shade_mat4 m;
-    if (!q->replay || !q->replay->lines) return 0;
-    m = shade__matrix_of(q);
-    return shade__is_rigid(&m) && shade__is_beside(q);
+    return shade__matrix_of(q, &m) && shade__is_rigid(&m) && shade__is_beside(q);
 }
 
 /* Is w = -z, as in view times projection, though the rest is not a projection?  In one, far is
@@ -10296,9 +10290,7 @@ static int shade__matrix_is_none(shade__survey *q)
 static int shade__matrix_is_exchanged(shade__survey *q)
 {
     shade_mat4 m;
-    if (!q->replay || !q->replay->lines) return 0;
-    m = shade__matrix_of(q);
-    return shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
+    return shade__matrix_of(q, &m) && shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
            shade__at_right_angles(&m) &&    /* as in view times projection */
            (!shade__is_camera(&m) || (m.col[2].z > -0.99f && m.col[3].z < 0));
 }
@@ -10311,8 +10303,7 @@ static int shade__matrix_by_rows(shade__survey *q)
     shade__stroke stroke;
     shade__replay by_rows;
     shade_mat4 m, turned;
-    if (!q->replay || !q->replay->lines) return 0;
-    m = shade__matrix_of(q);
+    if (!shade__matrix_of(q, &m)) return 0;
     turned = shade_mat4_transpose(m);
     if (shade__appears(q) && !shade__is_camera_by_rows(&m)) return 0;
     if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
@@ -11373,13 +11364,13 @@ static const char *shade__why_faint(const shade__survey *s)
                    ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
                      "out->color[3] of the fragment shader, or state.color.w of lines."
                    : SHADE__GO_ON;
-    if (v->none == v->count && raster->blend == SHADE_BLEND_ADD)
-        return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
-    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && lines)
+    if (raster->blend == SHADE_BLEND_ADD) {
+        if (v->none == v->count)
+            return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
+    } else if (v->dark == v->count && lines)
         return v->clear == v->count ? "state.color is not set: the lines are drawn in black."
                                     : SHADE__GO_ON;
-    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count &&
-        raster->cull != SHADE_CULL_FRONT)
+    else if (v->dark == v->count && raster->cull != SHADE_CULL_FRONT)
         return "The fragment shader (state.fragment, pipeline.fragment) gives black everywhere: "
                "check out->color[0] to [2], which it must write in each lane, its uniforms, and "
                "the varyings.";    /* not of outlines */

@@ -669,6 +669,26 @@ TEST(explain_pipelines, few_mistakes_are_silent)
     CHECK_SAY(all >= 76 && silent <= 9, "%d, %d", all, silent);
 }
 
+/* Depth first, and then the pixels that have it: both passes are right, and so is a count of what
+   shows.  A pass without depth can do nothing. */
+TEST(explain_pipelines, passes_for_depth_alone_are_right)
+{
+    piped *p = piped_open();
+    shade_stats stats;
+    piped_aim(p);
+    for (int k = 0; k < PIPED_W * PIPED_H; k++) p->depth[k] = 1;
+    for (int pass = 0; pass < 3; pass++) {
+        p->pipe.fragment = pass == 1 ? piped_fragment : NULL;
+        p->pipe.raster.depth_test = pass ? SHADE_COMPARE_EQUAL : SHADE_COMPARE_LESS;
+        p->pipe.raster.depth_read_only = pass == 2;
+        piped_draw(p, 0, &stats);
+        CHECK(stats.fragments > 0 && !*piped_explain(p, 0, &stats) && !*piped_explain(p, 0, NULL));
+    }
+    p->target.depth = NULL;
+    CHECK(strstr(piped_explain(p, 0, &stats), "pipeline.fragment is NULL"));
+    free(p);
+}
+
 /* ---- any draws: each sentence is true, and its advice changes the picture
 
    The oracle draws with the public functions, with what the sentence blames put right, and places
