@@ -79,14 +79,14 @@
        >>rays      8008  shade_pick            >>image     8199  smaller pictures, mipmaps
        >>files     8512  PPM and PNG           >>presets   8830  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8913  shaders, run again    >>survey    9181  experiments on a draw
-       >>numbers   9619  what makes no sense   >>doubts    9957  what is seldom right
+       >>replay    8913  shaders, run again    >>survey    9185  experiments on a draw
+       >>numbers   9627  what makes no sense   >>doubts    9961  what is seldom right
        >>unseen   10110  why nothing is in view
-       >>hidden   10392  why nothing is stored >>black    10556  why all is black
-       >>wrong    10938  what else is wrong    >>verdict  11319  the calls
+       >>hidden   10389  why nothing is stored >>black    10553  why all is black
+       >>wrong    10935  what else is wrong    >>verdict  11319  the calls
      Sources
-       >>refs     11629                        >>history  11662
-       >>license  11668
+       >>refs     11609                        >>history  11642
+       >>license  11648
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8975,15 +8975,16 @@ static float shade__dim_of(const shade_target *t)
     return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
 }
 
-/* Is the pixel's channel k stored as 0 or NaN?   pre: the pixel is in the clip rectangle */
-static int shade__is_stored_dark(const shade_target *t, int x, int y, int k)
+/* Channel k of a pixel as it is stored: a float, or a code.   pre: the pixel is in the clip
+   rectangle, and there is a picture */
+static float shade__stored(const shade_target *t, int x, int y, int k)
 {
     const shade__layout *l = &shade__layouts[t->format];
     const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
     float light;
-    if (l->bytes == 16) SHADE_MEMCPY(&light, p + 4 * k, 4);
-    else light = shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k);
-    return !(light > 0) && !(light < 0);
+    if (l->bytes < 16) return shade__channel(shade__load_packed(p, l->bytes, l->swapped), l, k);
+    SHADE_MEMCPY(&light, p + 4 * k, 4);
+    return light;
 }
 
 /* Counts the colour of lane i. */
@@ -8999,7 +9000,10 @@ static void shade__count_color(const shade_target *t, const shade_fragments *in,
     for (int k = 0; k < 3; k++) {
         const float light = c->color[k][i];
         const int is_nan = light != light || veiled;
-        nan |= is_nan && shade__is_stored_dark(t, x, y, k);
+        if (is_nan) {    /* 0 or NaN in the picture */
+            const float stored = shade__stored(t, x, y, k);
+            nan |= !(stored > 0) && !(stored < 0);
+        }
         most = shade__maxf(light, most);
     }
     to->count++;
@@ -9260,19 +9264,13 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
     at->any_front |= in->front[i];
 }
 
-/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0?
-   pre: the pixel is in the clip rectangle, and there is a picture */
+/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0? */
 static int shade__is_lit_there(const shade_target *t, int x, int y)
 {
     const shade__layout *l = &shade__layouts[t->format];
-    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * l->bytes;
-    const uint32_t packed = shade__load_packed(p, l->bytes, l->swapped);
     int any = 0;
-    for (int k = 0; k < 3; k++) {
-        float light = shade__channel(packed, l, k) * 255 - 8 * (float)l->full[k];
-        if (l->bytes == 16) SHADE_MEMCPY(&light, p + 4 * k, 4);
-        any |= light > 0;
-    }
+    for (int k = 0; k < 3; k++)
+        any |= shade__stored(t, x, y, k) * 255 > (l->bytes < 16 ? 8 * (float)l->full[k] : 0);
     return any;
 }
 
@@ -9465,19 +9463,24 @@ static int shade__coincides(const shade__survey *s)
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
+/* Does each fragment replace what is behind it? */
+static int shade__is_opaque(const shade__survey *s)
+{
+    const shade_draw_state *d = s->given_state;
+    return d->raster.blend == SHADE_BLEND_REPLACE ||
+           (d->raster.blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
+}
+
 /* Draws what the picture shows: after a whole, opaque draw, the fragments with the stored depth.
    Stored depth cannot identify the visible fragments of a band, of blended draws, or with a
    depth_bias.  Then all fragments are drawn: a fault found in none of them is not in the picture.
    If depth is not written, fragments that passed hide others. */
 static void shade__look_at_seen(shade__survey *q)
 {
-    const shade_draw_state *d = q->given_state;
-    const shade_raster *r = &d->raster;
-    const int opaque = r->blend == SHADE_BLEND_REPLACE ||
-                       (r->blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
+    const shade_raster *r = &q->given_state->raster;
     shade__look_through(q, r->depth_read_only ? r->depth_test : SHADE_COMPARE_EQUAL);
     if (q->whole && q->target->depth &&
-        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(q))
+        (r->depth_read_only || (shade__is_opaque(q) && r->depth_bias == 0)) && shade__covered(q))
         q->exact = !r->depth_read_only && !shade__coincides(q);
     else shade__look_at_all(q);
 }
@@ -9560,6 +9563,12 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
 
 /* ---- questions that need no drawing */
 
+/* What the vertices of lines or a pipeline are. */
+static shade__tally shade__vertices_of(const shade__survey *s)
+{
+    return shade__replay_of(s, s->replay->lines ? shade__point_vertex : NULL);
+}
+
 /* The SHADE__OUT_... bits that all corners share.  If z is 0 at the eye, but for the rounding of
    floats, depth is the same everywhere, and near and far cannot be told apart. */
 static uint32_t shade__outside(const shade__survey *s)
@@ -9567,8 +9576,7 @@ static uint32_t shade__outside(const shade__survey *s)
     const double *z = s->camera.row[2];
     shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     uint32_t all = ~0u;
-    if (s->replay)
-        return shade__replay_of(s, s->replay->lines ? shade__point_vertex : NULL).outside;
+    if (s->replay) return shade__vertices_of(s).outside;
     m = shade__mat4_product(&m, &s->state.model);
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
@@ -9620,7 +9628,7 @@ static int shade__faces_ahead(const shade__camera *c)
    Numbers that make no sense, whatever the picture is.
      in      a survey, or the mesh           out  a sentence, or SHADE__GO_ON
      way     no_mesh: arrays_cross, indices_are_halves; bad_number: bad_matrix, bad_lamp,
-             positions_are_bad, bad_attribute                                            >>doubts */
+             positions_are_bad, floats_are_coarse, bad_attribute                         >>doubts */
 
 /* A question has three answers: a sentence, or one of these. */
 #define SHADE__GO_ON ((const char *)0)   /* nothing is found: the next question is asked */
@@ -9839,11 +9847,10 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (shade_dot4(l->position, l->position) == 0 && !shade__is_zero(l->diffuse))
         return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
                "lights nothing; fill it with shade_directional_light or shade_point_light.";
-    if (shade_min(shade_min(l->diffuse, l->specular), l->ambient).x < 0 ||
-        shade_min(shade_min(l->diffuse, l->specular), l->ambient).y < 0 ||
-        shade_min(shade_min(l->diffuse, l->specular), l->ambient).z < 0)
-        return "A light of lighting.lights has a negative colour: it takes light away from what it "
-               "shines on.";
+    for (int k = 4; k < 13; k++)    /* ambient, diffuse, specular */
+        if (number[k] < 0)
+            return "A light of lighting.lights has a negative colour: it takes light away from "
+                   "what it shines on.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
@@ -9862,30 +9869,22 @@ static int shade__positions_are_bad(const shade__survey *s)
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
-/* Is a float of an attribute NaN, infinite or beyond 1e18, whose square is infinite? */
-static int shade__is_wild(const float *array, int stride, int floats, uint32_t vertex)
-{
-    const char *at = (const char *)array +
-                     (size_t)vertex * (size_t)(stride ? stride : floats * (int)sizeof(float));
-    int wild = 0;
-    for (int k = 0; k < floats; k++) {
-        float number;
-        SHADE_MEMCPY(&number, at + (size_t)k * sizeof number, sizeof number);
-        wild |= !shade__within(number, 1e18f);
-    }
-    return wild;
-}
-
-/* Does a triangle with an area have such a number? */
+/* Has a triangle with an area a float that is NaN, infinite or beyond 1e18, whose square is
+   infinite? */
 static int shade__attribute_is_wild(const shade_mesh *m, const float *array, int stride,
                                     int floats)
 {
-    for (int i = 0; array && i < shade__corner_count(m) / 3 * 3; i++) {
-        shade_vec3 p[3];
-        if (shade__is_wild(array, stride, floats, shade__corner_index(m, (uint32_t)i)) &&
-            !shade__is_zero(shade__face_normal(m, (uint32_t)i / 3, p)))
-            return 1;
-    }
+    const size_t bytes = (size_t)(stride ? stride : floats * 4);
+    for (int i = 0; array && i < shade__corner_count(m) / 3 * 3; i++)
+        for (int k = 0; k < floats; k++) {
+            const size_t at = shade__corner_index(m, (uint32_t)i) * bytes + (size_t)k * 4;
+            shade_vec3 p[3];
+            float number;
+            SHADE_MEMCPY(&number, (const char *)array + at, 4);
+            if (!shade__within(number, 1e18f) &&
+                !shade__is_zero(shade__face_normal(m, (uint32_t)i / 3, p)))
+                return 1;
+        }
     return 0;
 }
 
@@ -9910,18 +9909,20 @@ static const char *shade__bad_attribute(const shade__survey *s)
     return SHADE__GO_ON;
 }
 
-/* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart on the screen?
-   The mesh is at most as wide as its pixels are many along a side. */
+/* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart?  The mesh is
+   at most as wide as its pixels are many along a side, which are 16 if nothing is drawn. */
 static int shade__floats_are_coarse(const shade__survey *s)
 {
     shade_vec3 low, high, size, most;
-    float step, wide;
+    float step, wide, pixels = (float)shade__covered(s);
+    if (!(s->given_stats && s->given_stats->fragments) && !shade__depth_varies(s->target))
+        pixels = 256;
     shade_mesh_bounds(s->given_mesh, &low, &high);
     size = shade_sub(high, low);
     most = shade_max(high, shade_neg(low));
     wide = shade__maxf(size.x, shade__maxf(size.y, size.z));
     step = shade__maxf(most.x, shade__maxf(most.y, most.z)) * FLT_EPSILON / 2;
-    return step * shade__sqrt((float)shade__covered(s)) > wide;
+    return wide > 0 && step * shade__sqrt(pixels) > wide;
 }
 
 /* The number of triangles that a draw of the mesh counts. */
@@ -9951,14 +9952,17 @@ static const char *shade__bad_number(const shade__survey *s)
     if (!why && shade__positions_are_bad(s))
         why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices "
               "make them so: positions must be floats, and mesh.position_stride counts bytes.";
+    if (!why && shade__floats_are_coarse(s))
+        why = "mesh.positions lie so far from 0 that floats are too coarse for the mesh: subtract "
+              "its middle from all positions, of the eye and the lamps as well, in double.";
     return why ? why : shade__bad_attribute(s);
 }
 
 /*----------------------------------------------------------------------------------------- >>doubts
    Numbers that are possible, but seldom right.
      in      a survey of a mesh that shows   out  a sentence, or SHADE__GO_ON
-     way     doubt: chunks_leave_out, boxes_are_small, floats_are_coarse; doubt_of_view,
-             doubt_of_map, doubt_of_surface                                              >>unseen */
+     way     doubt: chunks_leave_out, boxes_are_small; doubt_of_view, doubt_of_map,
+             doubt_of_surface                                                            >>unseen */
 
 static const char shade__left_out[] =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
@@ -10098,10 +10102,6 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1, so even 1e-5 is large.";
-    if (shade__floats_are_coarse(s))
-        return "mesh.positions lie so far from 0 that floats are more than a pixel apart there: "
-               "subtract the middle of the mesh in double, and move the mesh by state.model and "
-               "the eye by as much less.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
@@ -10234,8 +10234,7 @@ static uint32_t shade__far_plane(const shade__survey *s)
 
 static int shade__w_is_zero(shade__survey *q)
 {
-    return q->replay && shade__is_beside(q) &&
-           !shade__replay_of(q, q->replay->lines ? shade__point_vertex : NULL).any_w;
+    return q->replay && shade__is_beside(q) && !shade__vertices_of(q).any_w;
 }
 
 /* Is w 1 everywhere, as without a projection?  Degenerate cameras make x and y 0 as well. */
@@ -10243,7 +10242,7 @@ static int shade__w_is_one(shade__survey *q)
 {
     shade__tally t;
     if (!q->replay || q->replay->lines || !shade__is_beside(q)) return 0;
-    t = shade__replay_of(q, NULL);
+    t = shade__vertices_of(q);
     return t.any_xy && !t.other_w;
 }
 
@@ -10273,17 +10272,18 @@ static int shade__before_near(shade__survey *q)
 
 /* ---- the matrix of lines */
 
-static shade_mat4 shade__matrix_of(const shade__survey *q)
+/* Is the draw one of lines?  Then *m is their matrix. */
+static int shade__matrix_of(const shade__survey *q, shade_mat4 *m)
 {
-    return shade__or_identity(q->replay->lines->clip_from_points);
+    if (!q->replay || !q->replay->lines) return 0;
+    *m = shade__or_identity(q->replay->lines->clip_from_points);
+    return 1;
 }
 
 static int shade__matrix_is_none(shade__survey *q)
 {
     shade_mat4 m;
-    if (!q->replay || !q->replay->lines) return 0;
-    m = shade__matrix_of(q);
-    return shade__is_rigid(&m) && shade__is_beside(q);
+    return shade__matrix_of(q, &m) && shade__is_rigid(&m) && shade__is_beside(q);
 }
 
 /* Is w = -z, as in view times projection, though the rest is not a projection?  In one, far is
@@ -10291,9 +10291,7 @@ static int shade__matrix_is_none(shade__survey *q)
 static int shade__matrix_is_exchanged(shade__survey *q)
 {
     shade_mat4 m;
-    if (!q->replay || !q->replay->lines) return 0;
-    m = shade__matrix_of(q);
-    return shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
+    return shade__matrix_of(q, &m) && shade__w_by_z(&m) && m.col[2].w == -1 && m.col[3].w == 0 &&
            shade__at_right_angles(&m) &&    /* as in view times projection */
            (!shade__is_camera(&m) || (m.col[2].z > -0.99f && m.col[3].z < 0));
 }
@@ -10306,8 +10304,7 @@ static int shade__matrix_by_rows(shade__survey *q)
     shade__stroke stroke;
     shade__replay by_rows;
     shade_mat4 m, turned;
-    if (!q->replay || !q->replay->lines) return 0;
-    m = shade__matrix_of(q);
+    if (!shade__matrix_of(q, &m)) return 0;
     turned = shade_mat4_transpose(m);
     if (shade__appears(q) && !shade__is_camera_by_rows(&m)) return 0;
     if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
@@ -10665,9 +10662,9 @@ static int shade__black_is_meant(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
     const shade_material *m = &q->material;
-    const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
-                                     shade_add(m->diffuse, m->specular));
-    return shade__is_zero(sum) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
+    const shade_vec3 most = shade_max(shade_max(m->emission, m->ambient),
+                                      shade_max(m->diffuse, m->specular));
+    return shade__is_zero(most) && (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
 }
 
 static int shade__shading_is_coarse(shade__survey *q)
@@ -10996,11 +10993,11 @@ static int shade__lacks_depth(shade__survey *q)
     return shade__hides_nearest(q, 1);
 }
 
-/* Pairs of neighbouring triangles.  turned: both go through their common edge in the same
-   direction, so that one of the two is wound the other way. */
-typedef struct shade__seams { int pairs, turned; } shade__seams;
+/* Edges by the number of other triangles that have them: one (pairs) or more (crowded).  turned:
+   both of a pair go through it in the same direction, so that one is wound the other way. */
+typedef struct shade__seams { int pairs, turned, crowded; } shade__seams;
 
-/* Counts the edge from corner k of a triangle to the next, if one other triangle has it. */
+/* Counts the edge from corner k of a triangle to the next. */
 static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__seams *seams)
 {
     const shade_vec3 a = shade__corner(m, (uint32_t)(3 * triangle + k));
@@ -11015,9 +11012,10 @@ static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__s
         same += at_a && shade__is_zero(shade_sub(next, b));
         opposite += at_b && shade__is_zero(shade_sub(next, a));
     }
-    if (same + opposite != 1) return;
-    seams->pairs++;
-    seams->turned += same;
+    if (same + opposite == 1) {
+        seams->pairs++;
+        seams->turned += same;
+    } else seams->crowded += same + opposite > 1;
 }
 
 /* Looks at as many triangles as take the time of some frames: all of a small mesh. */
@@ -11025,7 +11023,7 @@ static shade__seams shade__seams_of(const shade_mesh *m)
 {
     const int all = shade__corner_count(m) / 3;
     const int step = 1 + (int)((double)all * all / 4e6);
-    shade__seams seams = { 0, 0 };
+    shade__seams seams = { 0, 0, 0 };
     for (int i = 0; i < all; i += step) {
         shade_vec3 p[3];
         if (shade__is_zero(shade__face_normal(m, (uint32_t)i, p))) continue;
@@ -11034,28 +11032,29 @@ static shade__seams shade__seams_of(const shade_mesh *m)
     return seams;
 }
 
-/* Are faces wound both ways?  Below one pair of a hundred it may be the knot of a mesh. */
-static int shade__is_wound_both_ways(const shade__survey *s)
+/* Are the triangles no surface, but crowd around edges? */
+static int shade__is_crowded(const shade__survey *s)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
-    return seams.turned > 1 && seams.turned * 100 >= seams.pairs;
+    return seams.crowded * 10 > seams.pairs;
 }
 
-static int shade__is_often_wound_both_ways(const shade__survey *s)
+/* Is at least one pair of so many turned?  Below one of a hundred it may be the knot of a mesh. */
+static int shade__is_turned(const shade__survey *s, int of)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
-    return seams.turned > 1 && seams.turned * 10 >= seams.pairs;
+    return seams.turned > 1 && seams.turned * of >= seams.pairs && !shade__is_crowded(s);
 }
 
 /* Is a face left out whose neighbour is not? */
 static int shade__culled_both_ways(shade__survey *q)
 {
-    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_wound_both_ways(q);
+    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_turned(q, 100);
 }
 
 static int shade__culled_often_both_ways(shade__survey *q)
 {
-    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_often_wound_both_ways(q);
+    return q->state.raster.cull != SHADE_CULL_NONE && shade__is_turned(q, 10);
 }
 
 static int shade__view_mirrors(shade__survey *q)
@@ -11131,7 +11130,8 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11;    /* fewer prove little */
+    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11 &&    /* fewer prove little */
+           !shade__is_crowded(q);
 }
 
 /* Do all normals lack negative components, though at least an eighth of the faces need one? */
@@ -11217,12 +11217,12 @@ static int shade__winding_is_wrong(const shade__survey *s)
 
 static int shade__lit_both_ways(shade__survey *q)
 {
-    return shade__winding_is_wrong(q) && shade__is_wound_both_ways(q);
+    return shade__winding_is_wrong(q) && shade__is_turned(q, 100);
 }
 
 static int shade__lit_often_both_ways(shade__survey *q)
 {
-    return shade__winding_is_wrong(q) && shade__is_often_wound_both_ways(q);
+    return shade__winding_is_wrong(q) && shade__is_turned(q, 10);
 }
 
 static int shade__light_is_mirrored(shade__survey *q)
@@ -11365,13 +11365,13 @@ static const char *shade__why_faint(const shade__survey *s)
                    ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
                      "out->color[3] of the fragment shader, or state.color.w of lines."
                    : SHADE__GO_ON;
-    if (v->none == v->count && raster->blend == SHADE_BLEND_ADD)
-        return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
-    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count && lines)
+    if (raster->blend == SHADE_BLEND_ADD) {
+        if (v->none == v->count)
+            return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
+    } else if (v->dark == v->count && lines)
         return v->clear == v->count ? "state.color is not set: the lines are drawn in black."
                                     : SHADE__GO_ON;
-    if (raster->blend != SHADE_BLEND_ADD && v->dark == v->count &&
-        raster->cull != SHADE_CULL_FRONT)
+    else if (v->dark == v->count && raster->cull != SHADE_CULL_FRONT)
         return "The fragment shader (state.fragment, pipeline.fragment) gives black everywhere: "
                "check out->color[0] to [2], which it must write in each lane, its uniforms, and "
                "the varyings.";    /* not of outlines */
@@ -11406,7 +11406,7 @@ static int shade__is_dark(const shade__survey *seen, float least)
 static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
-    const int opaque = s->state.raster.blend == SHADE_BLEND_REPLACE;
+    const int opaque = shade__is_opaque(s);
     const char *why = shade__climb(s, &shade__picture);
     const shade__rung *rung;
     shade__look_at_seen(&seen);
@@ -11449,33 +11449,13 @@ static const char *shade__bad_run(const shade__survey *s)
     return SHADE__GO_ON;
 }
 
-/* Do all pixels of the clip rectangle hold the same bytes? */
-static int shade__is_blank(const shade_target *t)
-{
-    const size_t bytes = shade__pixel_bytes(t->format);
-    const uint8_t *color = (const uint8_t *)t->color, *first;
-    int clip[4];
-    shade__clip_rectangle(t, clip);
-    first = color + shade__offset_of(t, clip[0], clip[1]) * bytes;
-    for (int y = clip[1]; y < clip[3]; y++)
-        for (int x = clip[0]; x < clip[2]; x++)
-            for (size_t k = 0; k < bytes; k++)
-                if (color[shade__offset_of(t, x, y) * bytes + k] != first[k]) return 0;
-    return 1;
-}
-
-/* Looks at a picture in which lines or a pipeline have pixels. */
+/* Looks at a picture in which lines or a pipeline have pixels.  Depth alone is drawn before other
+   passes, and counted if it is not written. */
 static const char *shade__why_plain(const shade__survey *s)
 {
-    const shade_raster *raster = &s->given_state->raster;
     shade__survey q = *s;
-    if (!s->replay->pipe.fragment && (!s->target->depth || raster->depth_read_only))
-        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
-               "or raster.depth_read_only is set.";
-    if (!s->replay->pipe.fragment && s->target->color && shade__is_blank(s->target))
-        return "pipeline.fragment is NULL, so that only depth is drawn, and target.color holds one "
-               "colour everywhere: set a fragment shader, or, if depth alone is wanted, make "
-               "target.color NULL.";
+    if (!s->replay->pipe.fragment && !s->target->depth)
+        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL.";
     if (shade__matrix_by_rows(&q)) return shade__lines_by_rows;
     return s->replay->pipe.fragment && s->target->color ? shade__why_faint(s) : SHADE__GO_ON;
 }

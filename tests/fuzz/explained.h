@@ -19,6 +19,8 @@ typedef struct explained {
     stage s;                     /* as generated */
     shade_mat4 other;            /* model of the mesh that is drawn before; zero: none is */
     const char *made[2];         /* mistakes of an ordinary state */
+    stage right;                 /* the same without the mistake, if there is one */
+    int has_right;
 } explained;
 
 static int ex_one_in(int n) { return explained_pick(n) == n - 1; }
@@ -264,6 +266,7 @@ static void ex_random(explained *e)
 {
     stage *s = &e->s;
     memset(&e->other, 0, sizeof e->other);
+    e->has_right = 0;
     e->made[0] = e->made[1] = "";
     ex_target(s);
     ex_random_mesh(s);
@@ -288,6 +291,7 @@ static void ex_sensible(explained *e)
     const float around = ex_from(-3, 3), away = ex_from(5, 8), high = ex_from(0.3f, 0.9f);
     const float beside = around + ex_from(-0.7f, 0.7f), bright = ex_from(0.5f, 1);
     memset(&e->other, 0, sizeof e->other);
+    e->has_right = 0;
     e->made[0] = e->made[1] = "";
     ex_target(s);
     if (shape == 1) ex_box(s);
@@ -326,20 +330,6 @@ static void ex_sensible(explained *e)
     s->material.shininess = ex_from(8, 60);
     if (shape != 2 && shape != 3 && ex_one_in(3)) d->raster.cull = SHADE_CULL_BACK;
 }
-static void ex_ordinary(explained *e)
-{
-    const int wrong = explained_pick(3);
-    int of_anybody = 0;          /* they come first in the list */
-    for (const mistake *m = mistake_first; m->scenes & ON_TEAPOT; m = m->next) of_anybody++;
-    ex_sensible(e);
-    for (int k = 0; k < wrong; k++) {
-        const mistake *m = mistake_first;
-        for (int i = explained_pick(of_anybody); i > 0; i--) m = m->next;
-        e->made[k] = m->name;
-        m->make(&e->s);
-    }
-}
-
 /* ---- pictures -------------------------------------------------------------------------------- */
 
 typedef struct picture {
@@ -368,11 +358,34 @@ static void ex_copy(const stage *in, stage *out)
     EX_MOVE(m->texcoords);
     EX_MOVE(m->colors);
     EX_MOVE(m->indices);
+    EX_MOVE(m->indices16);
     EX_MOVE(m->chunks);
     EX_MOVE(d->material);
     EX_MOVE(d->lighting.lights);
     EX_MOVE(d->diffuse_map);
     EX_MOVE(out->map.pixels);
+    EX_MOVE(out->map.mipmaps);
+    for (int k = 0; k < STAGE_LEVELS; k++) EX_MOVE(out->level[k].pixels);
+}
+static void ex_ordinary(explained *e)
+{
+    const int wrong = explained_pick(3);
+    int of_anybody = 0;          /* they come first in the list */
+    for (const mistake *m = mistake_first; m->scenes & ON_TEAPOT; m = m->next) of_anybody++;
+    ex_sensible(e);
+    e->has_right = wrong == 1;
+    for (int k = 0; k < wrong; k++) {
+        const mistake *m = mistake_first;
+        for (int i = explained_pick(of_anybody); i > 0; i--) m = m->next;
+        e->made[k] = m->name;
+        if (e->has_right) {
+            ex_copy(&e->s, &e->right);
+            e->right.unspoiled = 1;
+            m->make(&e->right);
+            if (e->right.unspoiled == 1) ex_copy(&e->s, &e->right);
+        }
+        m->make(&e->s);
+    }
 }
 /* The buffers as they are before the draw; draws 0: after a clear. */
 static void ex_prepare(const explained *e, stage *s)
@@ -515,14 +528,21 @@ static void ex_look(const explained *e, const stage *given, int test, geometry *
 
 static uint32_t ex_vertex(const shade_mesh *m, int corner)
 {
+    if (m->indices16) return m->indices16[corner];
     return m->indices ? m->indices[corner] : (uint32_t)corner;
 }
-static int ex_corners(const shade_mesh *m) { return m->indices ? m->index_count : m->vertex_count; }
+static int ex_corners(const shade_mesh *m)
+{
+    return m->indices || m->indices16 ? m->index_count : m->vertex_count;
+}
+static const float *ex_element(const float *array, int stride, int floats, uint32_t vertex)
+{
+    const size_t bytes = (size_t)(stride ? stride : 4 * floats);
+    return (const float *)(const void *)((const char *)array + vertex * bytes);
+}
 static const float *ex_position(const shade_mesh *m, int corner)
 {
-    const int stride = m->position_stride ? m->position_stride : 12;
-    const char *p = (const char *)m->positions + (size_t)ex_vertex(m, corner) * (size_t)stride;
-    return (const float *)(const void *)p;
+    return ex_element(m->positions, m->position_stride, 3, ex_vertex(m, corner));
 }
 static shade_mat4 ex_or_identity(shade_mat4 m)
 {
@@ -831,25 +851,33 @@ static int so_box(const judged *j)
     }
     return 0;
 }
+static shade_vec3 ex_normal(const shade_mesh *m, uint32_t vertex)
+{
+    const float *n = ex_element(m->normals, m->normal_stride, 3, vertex);
+    return shade_v3(n[0], n[1], n[2]);
+}
 /* Are some normals behind their faces? */
 static int so_mixed(const judged *j)
 {
     int behind = 0;
+    if (!MESH->normals) return 0;
     for (int i = 0; i + 2 < ex_corners(MESH); i += 3) {
         const float *a = ex_position(MESH, i), *b = ex_position(MESH, i + 1);
         const float *c = ex_position(MESH, i + 2);
         shade_vec3 face = shade_face_normal(shade_v3(a[0], a[1], a[2]), shade_v3(b[0], b[1], b[2]),
                                             shade_v3(c[0], c[1], c[2])), sum = BLACK;
         for (int k = 0; k < 3; k++)
-            sum = shade_add(sum, STAGE->normal[ex_vertex(MESH, i + k)]);
+            sum = shade_add(sum, ex_normal(MESH, ex_vertex(MESH, i + k)));
         behind += shade_dot(sum, face) < 0;
     }
-    return MESH->normals && behind;
+    return behind;
 }
 static int so_texels(const judged *j)
 {
     for (int i = 0; i < MESH->vertex_count; i++)
-        if (STAGE->texcoord[i].x > (float)MAP->width - 1.001f) return 1;
+        if (*ex_element(MESH->texcoords, MESH->texcoord_stride, 2, (uint32_t)i) >
+            (float)MAP->width - 1.001f)
+            return 1;
     return 0;
 }
 /* Are squares that face the eye no squares in the picture, nor in cells of a terminal, which are
@@ -872,13 +900,9 @@ static int ex_is_wild(const float *at, int stride, int floats, const shade_mesh 
 {
     if (!at) return 0;
     for (int i = 0; i < ex_corners(m); i++) {
-        const char *element = (const char *)at +
-                              ex_vertex(m, i) * (size_t)(stride ? stride : 4 * floats);
-        for (int k = 0; k < floats; k++) {
-            float x;
-            memcpy(&x, element + 4 * k, 4);
-            if (!(fabs((double)x) <= 1.0001e18)) return 1;
-        }
+        const float *element = ex_element(at, stride, floats, ex_vertex(m, i));
+        for (int k = 0; k < floats; k++)
+            if (!(fabs((double)element[k]) <= 1.0001e18)) return 1;
     }
     return 0;
 }
@@ -892,6 +916,68 @@ static int so_negative_lamp(const judged *j)
     for (int k = 0; k < LIGHTS->light_count; k++)
         for (int i = 0; i < 9; i++) negative |= (&LIGHTS->lights[k].ambient.x)[i] < 0;
     return negative;
+}
+/* Have two arrays of different strides a byte in common? */
+static int so_crossed(const judged *j)
+{
+    const shade_mesh *m = MESH;
+    const float *array[4] = { m->positions, m->normals, m->colors, m->texcoords };
+    const int stride[4] = { m->position_stride, m->normal_stride, m->color_stride,
+                            m->texcoord_stride };
+    int common = 0;
+    for (int pair = 0; pair < 16; pair++) {
+        const int a = pair / 4, b = pair % 4, floats[4] = { 3, 3, 3, 2 };
+        const int wide = stride[a] ? stride[a] : 4 * floats[a];
+        if (!array[a] || !array[b] || wide == (stride[b] ? stride[b] : 4 * floats[b])) continue;
+        for (int i = 0; i < m->vertex_count * m->vertex_count; i++) {
+            const float *p = ex_element(array[a], stride[a], floats[a], (uint32_t)i %
+                                        (uint32_t)m->vertex_count);
+            const float *q = ex_element(array[b], stride[b], floats[b], (uint32_t)i /
+                                        (uint32_t)m->vertex_count);
+            common |= p < q + floats[b] && q < p + floats[a];
+        }
+    }
+    return common;
+}
+/* Has every other 16-bit index, which are at least two, the number 0? */
+static int so_halves(const judged *j)
+{
+    int even = 0, odd = 0;
+    for (int i = 0; MESH->indices16 && i < MESH->index_count; i++)
+        *(i % 2 ? &odd : &even) |= MESH->indices16[i];
+    return MESH->indices16 && !even != !odd;
+}
+/* Does a step of a corner's largest coordinate show, or span a sixteenth of the mesh? */
+static int so_coarse(const judged *j)
+{
+    double low = 1e30, high = -1e30, most = 0, steps = 0, wide = 0, pixels = 0;
+    for (int k = 0; k < 3; k++, wide = fmax(wide, high - low), low = 1e30, high = -1e30)
+        for (int i = 0; i < ex_corners(MESH); i++) {
+            const float p = ex_position(MESH, i)[k];
+            low = fmin(low, (double)p);
+            high = fmax(high, (double)p);
+            most = fmax(most, (double)fabsf(p));
+            steps = fmax(steps, (double)(nextafterf(fabsf(p), 1e30f) - fabsf(p)));
+        }
+    for (int i = 0; i < ex_corners(MESH); i++) {
+        double world[4], clip[4];
+        ex_clip(STAGE, i, world, clip);
+        if (clip[3] > 0)
+            pixels = fmax(pixels, steps / clip[3] * TARGET->height *
+                                      (double)shade_length(ex_xyz(STATE->projection.col[1])) / 2);
+    }
+    return steps * 16 >= wide || pixels > 0.5;
+}
+/* Has a level of the map another size than half of the one before? */
+static int so_levels(const judged *j)
+{
+    int other = 0;
+    for (int k = 0; k < MAP->mipmap_count; k++) {
+        const shade_texture *from = k ? &MAP->mipmaps[k - 1] : MAP, *to = &MAP->mipmaps[k];
+        other |= to->width != (from->width + (from->width == 1)) / 2 ||
+                 to->height != (from->height + (from->height == 1)) / 2;
+    }
+    return other;
 }
 /* Do two triangles, and no third, go from one point to another? */
 static int so_both_ways(const judged *j)
@@ -977,13 +1063,23 @@ CURE(terms)
     if (s->state.lighting.model > SHADE_MODEL_PHONG)
         s->state.lighting.model = SHADE_MODEL_BLINN_PHONG;
 }
+/* The map without levels, which do not follow its texels. */
+static void ex_flatten(stage *s)
+{
+    if (!s->map.mipmaps) return;
+    s->map.mipmaps = NULL;
+    s->map.mipmap_count = 0;
+    s->map.filter = SHADE_FILTER_BILINEAR;
+}
 CURE(opaque)
 {
+    ex_flatten(s);
     s->state.transparency = 0;
     for (int k = 3; k < 4 * STAGE_TEXELS; k += 4) s->texel[k] = 255;
 }
 CURE(colors)
 {
+    ex_flatten(s);
     s->mesh.colors = NULL;
     for (int k = 0; k < 4 * STAGE_TEXELS; k++)
         if (k % 4 < 3) s->texel[k] = 255;
@@ -1002,8 +1098,30 @@ CURE(matte)
     if (!s->state.material) s->material.specular = s->material.emission = BLACK;
     s->state.material = &s->material;
 }
+/* The attributes that the mesh reads, each in an array of the stage, to be changed. */
+static void ex_own(stage *s)
+{
+    shade_mesh *m = &s->mesh;
+    static shade_vec3 normal[STAGE_VERTICES], color[STAGE_VERTICES];
+    for (int i = 0; i < m->vertex_count; i++) {
+        if (m->normals) normal[i] = ex_normal(m, (uint32_t)i);
+        if (m->colors)
+            memcpy(color + i, ex_element(m->colors, m->color_stride, 3, (uint32_t)i), 12);
+    }
+    if (m->normals) {
+        memcpy(s->normal, normal, sizeof normal);
+        m->normals = &s->normal[0].x;
+        m->normal_stride = 0;
+    }
+    if (m->colors) {
+        memcpy(s->color, color, sizeof color);
+        m->colors = &s->color[0].x;
+        m->color_stride = 0;
+    }
+}
 CURE(turned)
 {
+    ex_own(s);
     for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i] = shade_neg(s->normal[i]);
 }
 /* Colours of 1 at most, and no more light than that. */
@@ -1017,6 +1135,7 @@ CURE(255)
 {
     cure_bright_lamps(s);
     ex_dim_to(&s->state.lighting.ambient, 0.1f);
+    ex_own(s);
     for (int i = 0; i < STAGE_VERTICES; i++) ex_dim_to(&s->color[i], 0.8f);
     ex_dim_to(&s->material.emission, 0.1f);
     ex_dim_to(&s->material.ambient, 0.8f);
@@ -1038,13 +1157,15 @@ CURE(chunks)
     s->mesh.chunks = NULL;
     s->mesh.chunk_count = 0;
 }
-/* A mesh without indices gets some, in order. */
+/* Indices of 32 bits that may be changed; a mesh without any gets some, in order. */
 CURE(indices)
 {
     if (!s->mesh.indices) {
-        for (int i = 0; i < s->mesh.vertex_count; i++) s->index[i] = (uint32_t)i;
-        s->mesh.index_count = s->mesh.vertex_count;
+        const int corners = ex_corners(&s->mesh);
+        for (int i = 0; i < corners; i++) s->index[i] = ex_vertex(&s->mesh, i);
+        s->mesh.index_count = corners;
     }
+    s->mesh.indices16 = NULL;
     s->mesh.indices = s->index;
 }
 CURE(winding)
@@ -1145,9 +1266,86 @@ CURE(mesh)
     s->mesh.positions = &s->position[0].x;
     s->mesh.normals = &s->normal[0].x;
     s->mesh.indices = s->index;
+    s->mesh.indices16 = NULL;
     s->mesh.position_stride = s->mesh.normal_stride = 0;
     cure_chunks(s);
 }
+/* of arrays */
+CURE(strides)
+{
+    shade_mesh *m = &s->mesh;
+    const int whole = (int)fmaxf((float)m->position_stride, (float)m->texcoord_stride);
+    m->position_stride = m->normal_stride = m->texcoord_stride = whole;
+}
+CURE(halves)
+{
+    memcpy(s->index, s->half, sizeof s->half);
+    s->mesh.indices = s->index;
+    s->mesh.indices16 = NULL;
+}
+CURE(fill_normals)
+{
+    shade_mesh_normals(&s->mesh, s->normal);
+    s->mesh.normals = &s->normal[0].x;
+    s->mesh.normal_stride = 0;
+}
+/* Bytes that were passed as floats. */
+CURE(colors_as_floats)
+{
+    unsigned char byte[3 * STAGE_VERTICES];
+    memcpy(byte, s->color, sizeof byte);
+    for (int i = 0; i < 3 * STAGE_VERTICES; i++)
+        (&s->color[i / 3].x)[i % 3] = (float)byte[i] / 255;
+    s->mesh.colors = &s->color[0].x;
+    s->mesh.color_stride = 0;
+}
+CURE(texcoords_as_floats)
+{
+    uint16_t half[2 * STAGE_VERTICES];
+    memcpy(half, s->texcoord, sizeof half);
+    for (int i = 0; i < STAGE_VERTICES; i++)
+        s->texcoord[i] = shade_v2((float)half[2 * i] / 65535, (float)half[2 * i + 1] / 65535);
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->mesh.texcoord_stride = 0;
+}
+CURE(levels) { shade_build_mipmaps(&s->map, s->level, s->level_texel, sizeof s->level_texel); }
+/* Less the middle of the mesh, in double. */
+CURE(middle)
+{
+    const shade_mat4 model = ex_or_identity(s->state.model);
+    double middle[4] = { 0, 0, 0, 0 }, by[4];
+    shade_vec3 place[STAGE_VERTICES + STAGE_LAMPS + 2];
+    for (int k = 0; k < 3; k++) {
+        double low = 1e30, high = -1e30;
+        for (int i = 0; i < s->mesh.vertex_count; i++) {
+            low = fmin(low, s->file[i][k]);
+            high = fmax(high, s->file[i][k]);
+        }
+        middle[k] = (low + high) / 2;
+    }
+    ex_transform(model, middle, by);
+    for (int i = 0; i < STAGE_VERTICES + STAGE_LAMPS + 2; i++)
+        for (int k = 0; k < 3; k++)
+            (&place[i].x)[k] = (float)(s->file[i][k] - (i < STAGE_VERTICES ? middle[k] : by[k]));
+    memcpy(s->position, place, sizeof s->position);
+    for (int k = 0; k < STAGE_LAMPS; k++)
+        if (s->lamps[k].position.w != 0)
+            memcpy(&s->lamps[k].position, place + STAGE_VERTICES + k, sizeof *place);
+    s->state.view = shade_mat4_look_at(place[STAGE_VERTICES + STAGE_LAMPS],
+                                       place[STAGE_VERTICES + STAGE_LAMPS + 1],
+                                       shade_v3(0, 1, 0));
+    if (s->mesh.chunks) stage_chunks(s);
+}
+CURE(both_sides)
+{
+    s->state.raster.cull = SHADE_CULL_NONE;
+    s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED;
+}
+CURE(turn_back) { stage_turn(s, s->turned); }
+CURE_LAMPS(positive_lamps, for (int i = 0; i < 9; i++) {
+    float *c = &l->ambient.x + i;
+    *c = fabsf(*c);
+})
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
@@ -1169,7 +1367,8 @@ CURE(exchanged)
 /* What the advice does to the picture: light is that of all terms, of lamps (diffuse, specular), or
    of surfaces that have colours (ambient, diffuse). */
 enum effect { STATED, SHOWS, INTO_VIEW, LIGHTS_UP, LAMPS_LIGHT, COLORS_LIGHT, CHANGES, DARKENS,
-              MORE_TRIANGLES };
+              MORE_TRIANGLES,
+              NEARER };    /* to the picture without the mistake, if there is one mistake */
 static void cure_all(stage *s);
 typedef struct claim { const char *words; so *so; cure *advice; enum effect effect; } claim;
 static const claim claims[] = {
@@ -1192,13 +1391,14 @@ static const claim claims[] = {
     { "so that elements overlap", NULL, cure_nothing, STATED },
     { "There is no triangle to draw", NULL, cure_nothing, STATED },
     { "clip rectangle is empty", so_clip, cure_clip, STATED },
-    { "run through each other", NULL, cure_nothing, STATED },
-    { "Every other entry", NULL, cure_nothing, STATED },
-    { "negative colour", so_negative_lamp, cure_nothing, STATED },
+    { "run through each other", so_crossed, cure_strides, NEARER },
+    { "Every other entry", so_halves, cure_halves, NEARER },
+    { "negative colour", so_negative_lamp, cure_positive_lamps, NEARER },
+    { "lie so far from 0", so_coarse, cure_middle, NEARER },
     { "state.projection is row-major", so_by_rows, cure_by_rows, CHANGES },
-    { "mesh.normals hold NaN", so_wild_normals, cure_nothing, STATED },
-    { "mesh.colors hold NaN", so_wild_colors, cure_nothing, STATED },
-    { "mesh.texcoords hold NaN", so_wild_texcoords, cure_nothing, STATED },
+    { "mesh.normals hold NaN", so_wild_normals, cure_fill_normals, NEARER },
+    { "mesh.colors hold NaN", so_wild_colors, cure_colors_as_floats, NEARER },
+    { "mesh.texcoords hold NaN", so_wild_texcoords, cure_texcoords_as_floats, NEARER },
     /* nothing is in view */
     { "sum to fewer", so_chunks, cure_chunks, MORE_TRIANGLES },
     { "does not contain its triangles", so_box, cure_chunks, STATED },
@@ -1224,7 +1424,7 @@ static const claim claims[] = {
     { "Every pixel has the depth of the far plane", NULL, cure_near, SHOWS },
     { "is hidden by depth", so_not_equal, cure_clear, SHOWS },
     /* wrong pixels */
-    { "wound both ways", so_both_ways, cure_nothing, STATED },
+    { "wound both ways", so_both_ways, cure_turn_back, NEARER },
     { "state.view mirrors", so_mirrors, cure_winding, CHANGES },
     { "inside out", so_inside_out, cure_winding, CHANGES },
     { "Triangles drawn later hide", so_order, cure_depth, CHANGES },
@@ -1261,6 +1461,7 @@ static const claim claims[] = {
     { "Highlights belong to another eye", so_other_eye, cure_eye, CHANGES },
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
     { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
+    { "is not max(1, width >> k)", so_levels, cure_levels, NEARER },
     { "reach the width", so_texels, cure_nothing, STATED },
     { "stored as alpha", so_stored, cure_over, CHANGES },
     { "shininess is below 1", so_dull, cure_shininess, CHANGES },
@@ -1396,6 +1597,40 @@ static int ex_works(const judged *j, const claim *c)
     }
     return 0;
 }
+/* How many pixels differ from those of the picture without the mistake, beyond 8 of 255? */
+static int ex_wrong(const picture *p, const picture *right)
+{
+    int wrong = 0;
+    for (int i = 0; i < p->width * p->height && i < EX_PIXELS; i++) {
+        int most = 0;
+        for (int k = 0; k < 3; k++) {
+            const int apart = abs(p->code[i][k] - right->code[i][k]);
+            if (apart > most) most = apart;
+        }
+        wrong += most > 8;
+    }
+    return wrong;
+}
+static int ex_is_nearer(const judged *j, const claim *c)
+{
+    static picture right, after;
+    static stage s;
+    int wrong, before;
+    ex_copy(&j->e->right, &s);
+    ex_draw(j->e, &s, &right);
+    before = ex_wrong(j->drawn, &right);
+    if (c->advice == cure_turn_back) {    /* what helps until then makes nothing worse */
+        ex_copy(&j->e->s, &s);
+        cure_both_sides(&s);
+        ex_draw(j->e, &s, &after);
+        if (ex_wrong(&after, &right) > before) return 0;
+    }
+    ex_copy(&j->e->s, &s);
+    c->advice(&s);
+    ex_draw(j->e, &s, &after);
+    wrong = ex_wrong(&after, &right);
+    return !wrong || wrong < before;
+}
 /* Is the sentence so, and does its advice help?  That on lamps may light up the whole picture as
    well: distance and cones may dim ambient light. */
 static int ex_holds(const judged *j, const claim *c)
@@ -1403,6 +1638,7 @@ static int ex_holds(const judged *j, const claim *c)
     claim all = *c;
     all.effect = LIGHTS_UP;
     if (c->so && !c->so(j)) return 0;
+    if (c->effect == NEARER) return !j->e->has_right || ex_is_nearer(j, c);
     return ex_works(j, c) || (c->effect == LAMPS_LIGHT && ex_works(j, &all));
 }
 

@@ -4,8 +4,8 @@
 # each draw, and is run, with one sample a pixel.  Bands, strips, samples and pictures of many meshes
 # are among them.
 #   What it says of states is judged by tests/fuzz/explained.h, of 20,000 of each kind, or with a
-# number of as many, and then the programs are left out.  Nothing false is said, and fewer than one
-# black picture in a thousand has no sentence.
+# number of as many, and of as many lines and pipelines, and then the programs are left out.  Nothing
+# false is said, and fewer than one black picture in a thousand has no sentence.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc} CXX=${CXX:-c++}
@@ -34,7 +34,14 @@ for kind in random ordinary; do
     check "what is said of $kind states is true, and something is said of black ones" \
         true_of $kind "$@"
 done
-[ $# -eq 0 ] || finish
+if [ $# -gt 0 ]; then
+    check "the judge of lines and pipelines builds" "$CC" -std=c99 -D_DEFAULT_SOURCE -O2 -I. \
+        -Itests/unit -DSHADE__IMPLEMENTED -DEXPLAIN_DRAWS="$1" tests/unit/main.c tests/unit/scene.c \
+        tests/unit/explain_pipelines.c build/shade.o -lm -o "$T/pipelines"
+    check "what is said of lines and pipelines is true" "$T/pipelines" explain_pipelines
+    cat "$T/log"
+    finish
+fi
 
 # Runs a program that draws a mesh; fails where a draw was explained.
 silent() {

@@ -371,6 +371,23 @@ UNUSUAL(drawn_twice_where_depth_is_too_coarse)
     s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 1e-6f, 100);
     s->draws = 2;
 }
+UNUSUAL(interleaved_vertices) { stage_interleave(s); }
+UNUSUAL(a_map_with_its_levels) { stage_levels(s); }
+UNUSUAL(indices_of_16_bits)
+{
+    for (int i = 0; i < s->mesh.index_count; i++) s->half[i] = (uint16_t)s->index[i];
+    s->mesh.indices16 = s->half;
+    s->mesh.indices = NULL;
+}
+/* Steps of floats are a sixteenth of its width, and it has a few pixels. */
+UNUSUAL(small_far_from_the_origin)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->position[i].x += 2097152;
+    s->state.model = STAGE_SCALE(0.125f);
+    s->state.model.col[3] = shade_v4(-262144, 0, 0, 1);
+    s->lamps[0] = shade_point_light(s->eye, WHITE);
+    s->lamps[1] = s->lamps[0];
+}
 UNUSUAL(texcoords_without_a_map) { s->mesh.texcoords = &s->texcoord[0].x; }
 UNUSUAL(parallel_from_the_eye) { s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0, 20); }
 UNUSUAL(near_one_half) { s->state.projection.col[3].z = -1; }
@@ -1278,6 +1295,49 @@ NEAR(aspect_of_pixels, 1, "The aspect of")    /* no terminal has so many rows */
     stage_look(s);
 }
 
+NEAR(crossed, 2, "run through each other")
+{
+    stage_interleave(s);
+    if (!miss) s->mesh.normal_stride = 28;
+    if (miss < 2) return;
+    memcpy(s->vertex, s->position, sizeof s->position);    /* one array ends where another begins */
+    for (int i = 0; i < STAGE_VERTICES; i++)
+        memcpy(s->vertex + 3 * STAGE_VERTICES + 4 * i, s->normal + i, sizeof *s->normal);
+    s->mesh.position_stride = 12;
+    s->mesh.normals = s->vertex + 3 * STAGE_VERTICES;
+    s->mesh.normal_stride = 16;
+    s->mesh.texcoords = NULL;
+}
+NEAR(halves, 1, "Every other entry of mesh.indices16")
+{
+    mistake_indices_of_32_bits_as_16(s);
+    if (miss) s->half[601] = s->half[600] = 1;
+}
+NEAR(levels, 2, "is not max(1, width >> k)")
+{
+    stage_levels(s);
+    if (miss) s->map.filter = miss == 1 ? SHADE_FILTER_TRILINEAR : SHADE_FILTER_BILINEAR;
+    if (miss != 1) s->level[3].width = 2;
+}
+/* The ball has some 4,600 fragments, 68 x 68, and is 2 wide: steps of 1 / 34 are a pixel. */
+NEAR(coarse, 1, "mesh.positions lie so far from 0")
+{
+    const float far = miss ? 131072 : 1048576;
+    for (int i = 0; i < STAGE_VERTICES; i++) s->position[i].x += far;
+    s->state.model = shade_mat4_translation(shade_v3(-far, 0, 0));
+}
+
+/* Ambient, diffuse and specular, each channel. */
+TEST(explain, a_negative_colour_of_a_lamp_is_told)
+{
+    stage *s = stage_open();
+    for (int k = 0; k < 9; k++) {
+        stage_of_ball(s);
+        (&s->lamps[1].ambient.x)[k] = -1e-3f;
+        CHECK(strstr(stage_explain(s, 1), "negative colour"));
+    }
+    free(s);
+}
 TEST(explain, each_sentence_has_its_limit)
 {
     stage *s = stage_open();

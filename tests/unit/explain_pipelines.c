@@ -156,7 +156,8 @@ static shade_result piped_say(piped *p, int lines, const char *said[2])
 
 /* ---- mistakes.  Those of both draws come first. */
 
-enum { OF_DRAW = 1, OF_LINES = 2, OF_BOTH = 3, AFTERWARDS = 4, STATS_ALONE = 8 };
+/* SILENT: a mistake that may be meant, and gets no sentence; other draws without one are right. */
+enum { OF_DRAW = 1, OF_LINES = 2, OF_BOTH = 3, AFTERWARDS = 4, STATS_ALONE = 8, SILENT = 16 };
 typedef struct piped_mistake {
     const char *name, *words;    /* "": nothing is said */
     void (*make)(piped *p);
@@ -332,8 +333,9 @@ PIPED(no_fragment, OF_DRAW, "pipeline.fragment is NULL")
     p->pipe.fragment = NULL; p->target.depth = NULL;
 }
 PIPED(depth_alone, OF_DRAW, "") { p->pipe.fragment = NULL; p->target.color = NULL; }
-PIPED(fragment_forgotten, OF_DRAW, "target.color holds one") { p->pipe.fragment = NULL; }
-PIPED(depth_not_written, OF_DRAW, "depth_read_only")
+/* a first pass for depth may look like that, and a count of what is visible */
+PIPED(fragment_forgotten, OF_DRAW | SILENT, "") { p->pipe.fragment = NULL; }
+PIPED(depth_not_written, OF_DRAW | SILENT, "")
 {
     p->pipe.fragment = NULL; p->pipe.raster.depth_read_only = 1;
 }
@@ -546,6 +548,93 @@ PIPED(matrices_exchanged_ahead, OF_LINES | AFTERWARDS, "view times projection")
 }
 PIPED_IN(matrices_exchanged, exchanged_of_lines, OF_LINES | AFTERWARDS, "view times projection")
 
+/* More of newcomers */
+PIPED(height_forgotten, OF_BOTH, "target.width") { p->target.height = 0; }
+PIPED(stride_too_small, OF_BOTH, "target.stride") { p->target.stride = PIPED_W - 1; }
+PIPED(bad_format, OF_BOTH, "target.format") { p->target.format = (shade_format)99; }
+PIPED(clip_width_alone, OF_BOTH, "clip_height") { p->target.clip_width = PIPED_W; }
+PIPED(clip_negative, OF_BOTH, "clip") { p->target.clip_width = -5; }
+PIPED(strip_without_rows, OF_BOTH, "row_count") { p->target.row_offset = 3; }
+PIPED(aspect_zero, OF_BOTH, "an aspect of 0")
+{
+    p->projection = shade_mat4_perspective(0.8f, 0, 0.5f, 30);
+}
+PIPED(fovy_zero, OF_BOTH, "beyond the far plane")
+{
+    p->projection = shade_mat4_perspective(0, 1, 0.5f, 30);
+}
+PIPED(ortho_empty, OF_BOTH, "beyond the far plane")
+{
+    p->projection = shade_mat4_ortho(1, 1, -1, 1, 0.1f, 20);
+}
+PIPED(eye_at_its_center, OF_DRAW, "w is 0 everywhere")
+{
+    p->view = shade_mat4_look_at(shade_v3(0, 0, 0), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+}
+PIPED_IN(eye_at_its_center, lines_of_an_eye_at_its_center, OF_LINES, "where the camera looks")
+PIPED(view_inverted, OF_BOTH, "behind the eye") { p->view = shade_mat4_inverse(p->view); }
+PIPED(projection_infinite, OF_BOTH, "infinite") { p->projection.col[0].x = INFINITY; }
+PIPED(bias_of_one, OF_BOTH, "raster.depth_bias")
+{
+    p->pipe.raster.depth_bias = p->lines.raster.depth_bias = 1;
+}
+PIPED(near_and_far_exchanged, OF_BOTH | SILENT, "")
+{
+    p->projection = shade_mat4_perspective(0.8f, (float)PIPED_W / PIPED_H, 30, 0.5f);
+}
+PIPED(aspect_of_a_square, OF_BOTH | SILENT, "")
+{
+    p->projection = shade_mat4_perspective(0.8f, 1, 0.5f, 30);
+}
+PIPED(varyings_negative, OF_DRAW, "pipeline.varyings") { p->pipe.varyings = -1; }
+PIPED(varyings_forgotten, OF_DRAW, "pipeline.varyings")
+{
+    piped_varyings_too_few(p);
+    p->pipe.varyings = 0;
+}
+PIPED(positions_never_filled, OF_DRAW, "coincide") { memset(p->position, 0, sizeof p->position); }
+PIPED(upside_down, OF_DRAW, "SHADE_CULL_BACK")    /* as Vulkan has it */
+{
+    p->projection.col[1].y *= -1;
+    p->pipe.raster.cull = SHADE_CULL_BACK;
+}
+static void piped_in_pixels(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                            shade_vertices *SHADE_RESTRICT out)
+{
+    piped_vertex(uniforms, in, out);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        out->clip[0][i] = (out->clip[0][i] / out->clip[3][i] + 2) * PIPED_W;
+        out->clip[1][i] = (out->clip[1][i] / out->clip[3][i] + 2) * PIPED_H;
+        out->clip[2][i] = 0;
+        out->clip[3][i] = 1;
+    }
+}
+PIPED(writes_pixels, OF_DRAW, "w is 1 everywhere") { p->pipe.vertex = piped_in_pixels; }
+static void piped_divided(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                          shade_vertices *SHADE_RESTRICT out)
+{
+    piped_vertex(uniforms, in, out);
+    for (int i = 0; i < SHADE_LANES; i++)
+        for (int k = 0; k < 4; k++) out->clip[k][i] /= out->clip[3][i];
+}
+PIPED(divides_by_w, OF_DRAW | SILENT, "") { p->pipe.vertex = piped_divided; }
+PIPED(divides_by_zero, OF_DRAW, "NaN")
+{
+    p->pipe.vertex = piped_divided;
+    memset(&p->projection, 0, sizeof p->projection);
+}
+PIPED(width_of_a_hundredth, OF_LINES, "state.width") { p->lines.width = 1e-3f; }
+PIPED(count_of_lines, OF_LINES | SILENT, "") { p->point_count /= 2; }
+PIPED(points_of_a_strip, OF_LINES | SILENT, "")
+{
+    for (int k = 2; k < p->point_count; k += 2) p->point[k] = p->point[k - 1];
+}
+PIPED(points_never_filled, OF_LINES, "coincide") { memset(p->point, 0, sizeof p->point); }
+PIPED(lines_without_projection, OF_LINES | AFTERWARDS, "outside the cube")
+{
+    p->lines.clip_from_points = p->view;
+}
+
 TEST(explain_pipelines, each_mistake_gets_its_sentence)
 {
     for (const piped_mistake *m = piped_mistake_first; m; m = m->next)
@@ -565,6 +654,39 @@ TEST(explain_pipelines, each_mistake_gets_its_sentence)
             }
             free(p);
         }
+}
+
+/* A mistake of both draws counts once. */
+TEST(explain_pipelines, few_mistakes_are_silent)
+{
+    int all = 0, silent = 0;
+    for (const piped_mistake *m = piped_mistake_first; m; m = m->next) {
+        CHECK(!(m->of & SILENT) || !*m->words);
+        silent += (m->of & SILENT) != 0;
+        all += *m->words || m->of & SILENT;
+    }
+    printf("explain: of %d mistakes with pipelines and lines %d are silent\n", all, silent);
+    CHECK_SAY(all >= 76 && silent <= 9, "%d, %d", all, silent);
+}
+
+/* Depth first, and then the pixels that have it: both passes are right, and so is a count of what
+   shows.  A pass without depth can do nothing. */
+TEST(explain_pipelines, passes_for_depth_alone_are_right)
+{
+    piped *p = piped_open();
+    shade_stats stats;
+    piped_aim(p);
+    for (int k = 0; k < PIPED_W * PIPED_H; k++) p->depth[k] = 1;
+    for (int pass = 0; pass < 3; pass++) {
+        p->pipe.fragment = pass == 1 ? piped_fragment : NULL;
+        p->pipe.raster.depth_test = pass ? SHADE_COMPARE_EQUAL : SHADE_COMPARE_LESS;
+        p->pipe.raster.depth_read_only = pass == 2;
+        piped_draw(p, 0, &stats);
+        CHECK(stats.fragments > 0 && !*piped_explain(p, 0, &stats) && !*piped_explain(p, 0, NULL));
+    }
+    p->target.depth = NULL;
+    CHECK(strstr(piped_explain(p, 0, &stats), "pipeline.fragment is NULL"));
+    free(p);
 }
 
 /* ---- any draws: each sentence is true, and its advice changes the picture
@@ -723,8 +845,6 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
     if (strstr(said, "is hidden by depth"))
         return !got && piped_fragments(p, lines, piped_without_depth);
     if (strstr(said, "lie in surfaces")) return !got && piped_fragments(p, lines, piped_biased);
-    if (strstr(said, "target.color holds one"))
-        return !p->pipe.fragment && got && p->target.color && !piped_changes(p, 0, 0xFF302010u);
     if (strstr(said, "fragment is NULL")) {
         float depth[PIPED_W * PIPED_H];
         memcpy(depth, p->depth, sizeof depth);
@@ -806,11 +926,15 @@ static void piped_spoil(piped *p)
     }
 }
 
+#ifndef EXPLAIN_DRAWS            /* of lines, and as many of triangles */
+#define EXPLAIN_DRAWS test_rounds(10000)
+#endif
 TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
 {
     long said_something = 0, nothing_seen = 0;
-    for (int i = 0; i < test_rounds(20000); i++) {
-        const int lines = rnd_one_in(2);
+    const int draws = 2 * EXPLAIN_DRAWS;
+    for (int i = 0; i < draws; i++) {
+        const int lines = i % 2;
         int exchanged = 0, by_rows = 0;
         const char *said[2];
         piped *p = piped_open();
@@ -845,6 +969,8 @@ TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
         }
         free(p);
     }
-    CHECK_SAY(said_something > test_rounds(10000) && nothing_seen > test_rounds(3000), "%ld, %ld",
+    printf("explain: %ld sentences of %d lines and %d pipelines\n", said_something, draws / 2,
+           draws / 2);
+    CHECK_SAY(said_something > draws / 2 && nothing_seen > draws * 3 / 20, "%ld, %ld",
               said_something, nothing_seen);
 }

@@ -14,7 +14,7 @@ enum { STAGE_RINGS = 12, STAGE_SECTORS = 16, STAGE_WIDTH = 96, STAGE_HEIGHT = 64
 enum { STAGE_VERTICES = (STAGE_RINGS + 1) * (STAGE_SECTORS + 1) };
 enum { STAGE_INDICES = STAGE_RINGS * STAGE_SECTORS * 6 };
 enum { STAGE_STRIDE = STAGE_WIDTH + 3, STAGE_PIXELS = STAGE_STRIDE * STAGE_HEIGHT };
-enum { STAGE_LAMPS = 3, STAGE_CHUNKS = 8, STAGE_TEXELS = 256 };
+enum { STAGE_LAMPS = 3, STAGE_CHUNKS = 8, STAGE_TEXELS = 256, STAGE_LEVELS = 4 };
 
 typedef struct stage {
     shade_target target;
@@ -28,11 +28,18 @@ typedef struct stage {
     shade_vec2 texcoord[STAGE_VERTICES];
     uint32_t index[STAGE_INDICES];
     unsigned char texel[4 * STAGE_TEXELS];
+    shade_texture level[STAGE_LEVELS];
+    uint32_t level_texel[STAGE_TEXELS / 2];
+    float vertex[8 * STAGE_VERTICES];      /* position, normal, texcoord */
+    uint16_t half[2 * STAGE_INDICES];      /* of the indices */
+    double file[STAGE_VERTICES + STAGE_LAMPS + 2][3];    /* far positions, lamps, eye, center */
     shade_vec3 eye, center;                /* of the camera, for shade_mat4_look_at and ... */
     float fovy, aspect, z_near, z_far;     /* ... shade_mat4_perspective */
     float clear;                           /* depth before the draw; NaN: none is cleared */
     int draws;
     int no_target, no_mesh, no_state, other_stats;
+    int turned;                            /* from this index on triangles are wound clockwise */
+    int unspoiled;                         /* 1: a mistake only prepares the scene, and sets 2 */
     float pixels[4 * STAGE_PIXELS], depth[STAGE_PIXELS];    /* last: most of the bytes */
 } stage;
 
@@ -185,6 +192,12 @@ enum {
 /* The same mistake, which has other words in some scenes. */
 #define MISTAKE_IN(name, entry, scenes, words)                                                     \
     LIST(mistake, entry, #name, words, mistake_##name, scenes)
+/* Stands in a mistake where the scene is ready for it, and still right. */
+#define SPOILED_FROM_HERE(s)                                                                       \
+    if ((s)->unspoiled) {                                                                          \
+        (s)->unspoiled = 2;                                                                        \
+        return;                                                                                    \
+    }
 #define BLACK shade_v3(0, 0, 0)
 #define WHITE shade_v3(1, 1, 1)
 #define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
@@ -223,21 +236,73 @@ static inline shade_texture *stage_map(stage *s)
     s->state.diffuse_map = &s->map;
     return &s->map;
 }
-/* Winds the triangles the other way from an index on. */
-static inline void stage_turn(stage *s, int first)
-{
-    for (int i = first; i + 2 < s->mesh.index_count; i += 3) {
-        const uint32_t k = s->index[i];
-        s->index[i] = s->index[i + 1];
-        s->index[i + 1] = k;
-    }
-}
 static inline void stage_chunks(stage *s)
 {
     shade_mesh_chunks(&s->mesh, s->mesh.index_count / 6 + 1, s->chunks, STAGE_CHUNKS, NULL);
     s->mesh.chunks = s->chunks;
     s->mesh.chunk_count =
         shade_chunk_count(s->mesh.index_count, s->mesh.index_count / 6 + 1);
+}
+/* A map of 16 x 16 texels, light and dark in turns, with all its levels. */
+static inline void stage_levels(stage *s)
+{
+    stage_map(s);
+    for (int k = 0; k < 4 * STAGE_TEXELS; k++)
+        s->texel[k] = k % 4 == 3 || ((k / 4 ^ k / 64) & 1) ? 255 : 40;
+    s->map.width = s->map.height = 16;
+    s->map.filter = SHADE_FILTER_TRILINEAR;
+    shade_build_mipmaps(&s->map, s->level, s->level_texel, sizeof s->level_texel);
+}
+/* Puts the mesh's arrays into one: position, normal and texture coordinates of each vertex. */
+static inline void stage_interleave(stage *s)
+{
+    shade_mesh *m = &s->mesh;
+    for (int i = 0; i < m->vertex_count; i++) {
+        memcpy(s->vertex + 8 * i, s->position + i, sizeof *s->position);
+        memcpy(s->vertex + 8 * i + 3, s->normal + i, sizeof *s->normal);
+        memcpy(s->vertex + 8 * i + 6, s->texcoord + i, sizeof *s->texcoord);
+    }
+    m->positions = s->vertex;
+    m->normals = s->vertex + 3;
+    m->texcoords = s->vertex + 6;
+    m->position_stride = m->normal_stride = m->texcoord_stride = 32;
+}
+/* Moves the mesh, its point lamps and the camera far away; the doubles keep where they are. */
+static inline void stage_move_far(stage *s)
+{
+    const double far[3] = { 8e6, 0, 8e6 };
+    const shade_mat4 one = shade_mat4_identity();
+    const shade_vec4 *col = s->state.model.col[3].w == 0 ? one.col : s->state.model.col;
+    shade_vec3 place[STAGE_VERTICES + STAGE_LAMPS + 2];
+    memcpy(place, s->position, sizeof s->position);
+    for (int k = 0; k < STAGE_LAMPS; k++)
+        memcpy(place + STAGE_VERTICES + k, &s->lamps[k].position, sizeof *place);
+    place[STAGE_VERTICES + STAGE_LAMPS] = s->eye;
+    place[STAGE_VERTICES + STAGE_LAMPS + 1] = s->center;
+    for (int i = 0; i < TEST_COUNT(place); i++)
+        for (int k = 0; k < 3; k++) {
+            const double by = (double)(&col[0].x)[k] * far[0] + (double)(&col[2].x)[k] * far[2];
+            s->file[i][k] = (double)(&place[i].x)[k] + (i < STAGE_VERTICES ? far[k] : by);
+            (&place[i].x)[k] = (float)s->file[i][k];
+        }
+    memcpy(s->position, place, sizeof s->position);
+    for (int k = 0; k < STAGE_LAMPS; k++)
+        if (s->lamps[k].position.w != 0)
+            memcpy(&s->lamps[k].position, place + STAGE_VERTICES + k, sizeof *place);
+    s->state.view = shade_mat4_look_at(place[STAGE_VERTICES + STAGE_LAMPS],
+                                       place[STAGE_VERTICES + STAGE_LAMPS + 1],
+                                       shade_v3(0, 1, 0));
+    if (s->mesh.chunks) stage_chunks(s);
+}
+/* Winds the triangles the other way from an index on. */
+static inline void stage_turn(stage *s, int first)
+{
+    s->turned = first;
+    for (int i = first; i + 2 < s->mesh.index_count; i += 3) {
+        const uint32_t k = s->index[i];
+        s->index[i] = s->index[i + 1];
+        s->index[i + 1] = k;
+    }
 }
 static inline void shader_black(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
@@ -404,12 +469,43 @@ MISTAKE(positions_of_integers, BOTH, "mesh.positions|state.model|small")
         memcpy(s->position + i, p, sizeof p);
     }
 }
-MISTAKE(positions_interleaved_without_stride, BOTH, "both ways|mesh.positions|")
+MISTAKE(positions_interleaved_without_stride, BOTH, "mesh.positions|")
 {
     for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
         s->position[2 * i] = s->position[i];
         s->position[2 * i + 1] = s->normal[i];
     }
+}
+MISTAKE(position_stride_forgotten, BOTH, "run through each other")
+{
+    stage_interleave(s);
+    SPOILED_FROM_HERE(s)
+    s->mesh.position_stride = 0;
+}
+MISTAKE(normal_stride_forgotten, BOTH, "run through each other")
+{
+    stage_interleave(s);
+    SPOILED_FROM_HERE(s)
+    s->mesh.normal_stride = 0;
+}
+MISTAKE(texcoord_stride_forgotten, BOTH, "run through each other")
+{
+    stage_levels(s);
+    stage_interleave(s);
+    SPOILED_FROM_HERE(s)
+    s->mesh.texcoord_stride = 0;
+}
+MISTAKE(indices_of_32_bits_as_16, BOTH, "Every other entry of mesh.indices16")
+{
+    memcpy(s->half, s->index, sizeof s->half);
+    SPOILED_FROM_HERE(s)
+    s->mesh.indices16 = s->half;
+    s->mesh.indices = NULL;
+}
+MISTAKE(far_from_the_origin, BOTH, "so far from 0")
+{
+    SPOILED_FROM_HERE(s)
+    stage_move_far(s);
 }
 MISTAKE(positions_never_filled, BOTH, "mesh.indices|mesh.positions|area")
 {
@@ -466,6 +562,12 @@ MISTAKE(half_wound_clockwise, BOTH, "wound both ways")
     stage_turn(s, s->mesh.index_count / 6 * 3);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
+MISTAKE(half_wound_clockwise_without_normals, BOTH, "wound both ways")
+{
+    s->mesh.normals = NULL;
+    SPOILED_FROM_HERE(s)
+    stage_turn(s, s->mesh.index_count / 6 * 3);
+}
 MISTAKE(fronts_left_out, BOTH, "") { s->state.raster.cull = SHADE_CULL_FRONT; }
 MISTAKE(colors_zero, BOTH, "mesh.colors")
 {
@@ -479,8 +581,10 @@ MISTAKE(colors_of_255, BOTH, "255")
 }
 MISTAKE(colors_of_bytes, BOTH, "mesh.colors")
 {
-    memset(s->color, 0x60, sizeof s->color);    /* as floats they are 6e19 */
+    for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = shade_scale(WHITE, 96.0f / 255);
     s->mesh.colors = &s->color[0].x;
+    SPOILED_FROM_HERE(s)
+    memset(s->color, 96, sizeof s->color);    /* as floats they are 6e19 */
 }
 MISTAKE(map_without_texcoords, BOTH, "mesh.texcoords is NULL") { s->state.diffuse_map = &s->map; }
 MISTAKE(texcoords_without_map, BOTH, "") { s->mesh.texcoords = &s->texcoord[0].x; }
@@ -523,6 +627,30 @@ MISTAKE(map_not_marked_srgb, BOTH, "")
 MISTAKE(trilinear_without_mipmaps, BOTH, "mipmaps")
 {
     stage_map(s)->filter = SHADE_FILTER_TRILINEAR;
+}
+MISTAKE(mipmaps_that_begin_with_the_map, BOTH, "max(1, width >> k)")
+{
+    stage_levels(s);
+    SPOILED_FROM_HERE(s)
+    for (int k = STAGE_LEVELS - 1; k > 0; k--) s->level[k] = s->level[k - 1];
+    s->level[0] = s->map;
+}
+MISTAKE(mipmaps_of_one_size, BOTH, "max(1, width >> k)")
+{
+    stage_levels(s);
+    SPOILED_FROM_HERE(s)
+    for (int k = 0; k < STAGE_LEVELS; k++) s->level[k] = s->map;
+}
+MISTAKE(texcoords_of_16_bits, BOTH, "mesh.texcoords")
+{
+    stage_levels(s);
+    SPOILED_FROM_HERE(s)
+    for (int i = 0; i < s->mesh.vertex_count; i++) {
+        const shade_vec2 t = s->texcoord[i];
+        const uint16_t uv[2] = { (uint16_t)(65535 * (t.x > 0 && t.x <= 1 ? t.x : 0)),
+                                 (uint16_t)(65535 * (t.y > 0 && t.y <= 1 ? t.y : 0)) };
+        memcpy((char *)s->texcoord + 4 * i, uv, sizeof uv);
+    }
 }
 MISTAKE(map_of_no_size, BOTH, "texture") { stage_map(s)->width = 0; }
 MISTAKE(chunk_count_forgotten, BOTH, "chunk_count")
@@ -662,7 +790,9 @@ MISTAKE(lamp_without_position, BOTH, "direction without length")    /* filled by
 }
 MISTAKE(lamp_negative, POT, "negative colour")
 {
-    stage_one_lamp(s)->diffuse = shade_v3(-1, -1, -1);
+    stage_one_lamp(s)->diffuse = WHITE;
+    SPOILED_FROM_HERE(s)
+    s->lamps[0].diffuse = shade_v3(-1, -1, -1);
 }
 MISTAKE(terms_of_nothing, BOTH, "lighting.terms") { s->state.lighting.terms = SHADE_TERM_EMISSION; }
 MISTAKE(terms_of_highlights, BOTH, "") { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
