@@ -98,16 +98,16 @@ def of_lamp(j, lamp):
     given = [(rf"\mathbf{{Q}}_{j}", "place"), (rf"I_{{{j}}}", "light"), (rf"a_{j}", "a"), (rf"b_{j}", "b"),
              (rf"c_{j}", "c")]
     lines = [(rf"r_{j} = |\mathbf{{Q}}_{j} - \mathbf{{P}}|", "r"),
-             (rf"{L} = \frac{{\mathbf{{Q}}_{j} - \mathbf{{P}}}}{{r_{j}}}", "L"),
+             (rf"{L} = \dfrac{{\mathbf{{Q}}_{j} - \mathbf{{P}}}}{{r_{j}}}", "L"),
              (rf"{N} \cdot {L}", "NL"),
-             (rf"f_{j} = \frac{{1}}{{a_{j} + b_{j} r_{j} + c_{j} r_{j}^2}}", "f")]
+             (rf"f_{j} = \dfrac{{1}}{{a_{j} + b_{j} r_{j} + c_{j} r_{j}^2}}", "f")]
     if spot:
         given += [(rf"\mathbf{{S}}_{j}", "S"), (rf"e_{j}", "e"), (rf"\cos\beta_{j}", "cosbeta")]
         lines += [(rf"{L} \cdot \mathbf{{S}}_{j}", "LS"),
                   (rf"s_{j} = ({L} \cdot \mathbf{{S}}_{j})^{{e_{j}}} \text{{ within }} \beta_{j},"
                    r" \text{ else } 0", "cone")]
     arrives = rf"f_{j}\, s_{j}" if spot else rf"f_{j}"
-    lines += [(rf"{H} = \frac{{{L} + {V}}}{{|{L} + {V}|}}", "H"),
+    lines += [(rf"{H} = \dfrac{{{L} + {V}}}{{|{L} + {V}|}}", "H"),
               (rf"{N} \cdot {H}", "NH"),
               (rf"\text{{power}}_{j} = \max(0, {N} \cdot {H})^n", "power"),
               (rf"\text{{diffuse}}_{j} = {arrives}\, k_d I_{{{j}}} \max(0, {N} \cdot {L})", "diffuse"),
@@ -122,8 +122,8 @@ def parts_of(rows):
     """Returns a sheet."""
     given = [(r"\mathbf{E} \text{, the eye}", "E"), (r"\mathbf{P}", "P"), ("k_a = k_d", "kd"), ("k_s", "ks"),
              ("n", "n"), ("I_a", "Ia")]
-    lines = [(r"\mathbf{N} = \frac{\mathbf{P}}{|\mathbf{P}|}", "N"),
-             (r"\mathbf{V} = \frac{\mathbf{E} - \mathbf{P}}{|\mathbf{E} - \mathbf{P}|}", "V"),
+    lines = [(r"\mathbf{N} = \dfrac{\mathbf{P}}{|\mathbf{P}|}", "N"),
+             (r"\mathbf{V} = \dfrac{\mathbf{E} - \mathbf{P}}{|\mathbf{E} - \mathbf{P}|}", "V"),
              (r"\text{ambient} = k_a I_a", "ambient")]
     terms = "".join(rf" + \text{{diffuse}}_{j} + \text{{specular}}_{j}"
                     for j in range(1, len(rows["lamps"]) + 1))

@@ -36,4 +36,16 @@ if there pandoc; then
         done
     else left_out "PDF: no chromium"; fi
 else left_out "sheets: no pandoc"; fi
+# the package as other systems take it: a converter and a player of QTI, both of npm
+VERSION=$(sed -n 's/.*VERSION=\([0-9.]*\).*/\1/p' examples/teaching/playground/test/playground.sh | head -n 1)
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
+if [ "$browser" ] && [ -s "$T/out/questions.zip" ] && there npm &&
+    npm install --silent --no-audit --no-fund --prefix "$T/npm" "playwright-core@$VERSION" \
+        @citolab/qti-convert@0.3.52 @citolab/qti-components@7.27.4 >"$T/log" 2>&1; then
+    python3 -m zipfile -e "$T/out/questions.zip" "$T/items"
+    cp $Q/test/player.mjs "$T/npm"
+    NODE_FOLDER="$T/npm" node "$T/npm/player.mjs" "$T/out/questions.zip" "$T/items" "$browser" >"$T/said" 2>&1
+    check "a player of QTI shows and scores the items" test $? -eq 0
+    tail -n 10 "$T/said"
+else left_out "the bank in a player of QTI: no chromium, or npm could not install one"; fi
 finish
