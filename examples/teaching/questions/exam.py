@@ -20,6 +20,9 @@ from typing import NamedTuple
 
 from bank import COURSES, HERE, ROOT, printed
 
+sys.path.insert(0, str(HERE.parent))
+from letters import letters  # noqa: E402
+
 
 class Line(NamedTuple):
     """A line of a sheet: what is computed, and its value; given is told on both sheets."""
@@ -35,14 +38,6 @@ class Part(NamedTuple):
 
 
 # ---- letters --------------------------------------------------------------------------------------
-
-def letters(course):
-    """Returns the letters of a course, as the playground has them."""
-    text = (HERE.parent / "playground/math.js").read_text(encoding="utf-8")
-    table = re.search(rf"^    {course}: \{{(.*?)\}},?$", text, re.M | re.S).group(1)
-    return {(key or quoted).replace("\\\\", "\\"): letter.replace("\\\\", "\\") for key, quoted, letter in
-            re.findall(r"(?:(\w+)|'((?:[^'\\]|\\.)*)'): '((?:[^'\\]|\\.)*)'", table)}
-
 
 def spelled(tex, of):
     """Returns TeX in the letters of a course."""
