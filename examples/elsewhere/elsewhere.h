@@ -57,8 +57,8 @@ typedef enum elsewhere_encoding {
      SIGNED     k_a + k_d N.L, which is negative behind
      SHIFTED    (number + R.V)^n in place of (R.V)^n; below 0 where n is an odd number
      BLEND      k_a + k_d N.L, mixed toward k_s by (N.L)^number
-     RAMP       of s = 63 min(I_d N.L + I_s (R.V)^n, 1): k_a at 0, k_d at 52, from there toward
-                k_s, which it would reach at 52 + 11 / .95 */
+     RAMP       of s = 63 min(I_d N.L + I_s (R.V)^n, 1): k_a at 0, k_d at 52, from there mixed
+                toward k_s, by .4 at 63 */
 typedef enum elsewhere_law {
     ELSEWHERE_LAW_FOUR = 0,
     ELSEWHERE_LAW_SCHLICK,
@@ -412,7 +412,7 @@ static inline shade_vec3 elsewhere_toward(const elsewhere_look *k, float cosine,
     if (k->law == ELSEWHERE_LAW_RAMP) {
         const float s = 63 * fminf(cosine > 0 ? k->diffuse * w + k->specular * lobe : 0, 1);
         bright = shade_lerp(m->ambient, m->diffuse, fminf(s / 52, 1));
-        part = 0.95f / 11 * fmaxf(s - 52, 0);
+        part = 0.4f / 11 * fmaxf(s - 52, 0);
     }
     return shade_sub(shade_lerp(bright, m->specular, part), m->ambient);
 }

@@ -65,7 +65,7 @@ def jmol():
     m = [dict(color=c, ambientPercent=a, diffusePercent=d, specularPercent=s, phongExponent=n) for c, a, d, s, n in
          ((ORANGE, 45, 84, 22, 64), (ORANGE, 20, 60, 0, 64), (ORANGE, 0, 100, 0, 64), (WHITE, 45, 84, 22, 64), (WHITE, 10, 70, 30, 10),
           ((1, 0, 0), 45, 100, 0, 64), ((1, 0, 0), 20, 50, 50, 20), (BLUE, 45, 84, 22, 64), (BLUE, 30, 70, 40, 100), (BLUE, 10, 40, 40, 5), ((.6, .6, .6), 20, 80, 20, 30))]
-    main('jmol', 'Jmol 14.32.83 (Debian jmol 14.32.83+dfsg-2)', every(m, [[]], cameras=('parallel',)), jmol_draw, head='within 20\n')
+    main('jmol', 'Jmol 14.32.83 (Debian jmol 14.32.83+dfsg-2)', every(m, [[]], cameras=('parallel',)), jmol_draw, head='within 16\n')
 
 if __name__ == '__main__':
     names = [a for a in sys.argv[1:] if not a.startswith('-')]

@@ -1,9 +1,18 @@
 """Programs of the npm registry, drawn by a headless chromium (Debian: chromium):
 
-    npm install --prefix DIR three@0.187.0 ...      the versions below
+    npm install --prefix DIR PACKAGES
+    packages: three@0.187.0 babylonjs@9.35.0 x_ite@15.0.1 x3dom@1.8.3 p5@1.11.13 processing-js@1.6.6
+    packages: @xeokit/xeokit-sdk@2.6.114 @kitware/vtk.js@37.4.3 playcanvas@2.23.3 seen@0.2.7 esbuild@0.25.12
+    packages: @deck.gl/core@9.4.0 @deck.gl/mesh-layers@9.4.0 @luma.gl/engine@9.4.2
     MODULES=DIR/node_modules python3 web.py three_phong babylon ... [--write]
 
 Without names all of them.  web/PAGE.js draws a case on a canvas.
+
+Guesses before anything was drawn, and what became of them:
+  deck.gl        (N.H)^n, V to the camera's point, not gated       gated, else right
+  Processing.js  (R.V)^n, gated, at vertices                       (N.H)^n; length of a direction, falloff of ambient light not thought of
+  PlayCanvas     GGX of roughness (1 - gloss)^2                    wrong: (n + 2)/8 (N.H)^n, n = 2^(11 gloss)
+  MTLLoader      (written after its source was read)
 """
 import http.server, json, os, signal, subprocess, sys, tempfile, threading
 from urllib.parse import urlparse
