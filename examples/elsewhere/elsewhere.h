@@ -56,9 +56,10 @@ typedef enum elsewhere_encoding {
      EXPONENT   k_a + k_s exp(-number (1 - R.V)); no N.L at all
      SIGNED     k_a + k_d N.L, which is negative behind
      SHIFTED    (number + R.V)^n in place of (R.V)^n; below 0 where n is an odd number
-     BLEND      k_a + k_d N.L, mixed toward k_s by (N.L)^number
-     RAMP       of s = 63 min(I_d N.L + I_s (R.V)^n, 1): k_a at 0, k_d at 52, from there mixed
-                toward k_s, by .4 at 63 */
+     BLEND      of one lamp: k_a + k_d N.L, mixed toward k_s by (N.L)^number
+     RAMP       of one lamp and s = 63 min(diffuse N.L + specular (R.V)^n, 1), diffuse and specular
+                those of the look: k_a at 0, k_d at 52, from there mixed toward k_s, by .4
+                at 63 */
 typedef enum elsewhere_law {
     ELSEWHERE_LAW_FOUR = 0,
     ELSEWHERE_LAW_SCHLICK,

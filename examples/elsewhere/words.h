@@ -153,8 +153,7 @@ static const elsewhere_row elsewhere_rows[] = {
     { "playcanvas", "diffuse=1,1,1 specular=0,0,0 emissive=0,0,0 gloss=.25",
       elsewhere_row_playcanvas, NULL },
     { "rasmol", "color=1,1,1 ambient=40 specular=0 specpower=10", elsewhere_row_rasmol, NULL },
-    { "jmol",
-      "color=1,1,1 ambientPercent=45 diffusePercent=84 specularPercent=22 phongExponent=64",
+    { "jmol", "color=1,1,1 ambientPercent=45 diffusePercent=84 specularPercent=22 phongExponent=64",
       elsewhere_row_jmol, NULL },
     { "seen", "color=.5,.5,.5 specularColor=1,1,1 specularExponent=15", elsewhere_row_seen, NULL },
     { NULL, NULL, NULL, NULL }

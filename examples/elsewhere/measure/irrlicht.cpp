@@ -48,8 +48,10 @@ int main()
     scene::ICameraSceneNode *camera =
         scene->addCameraSceneNode(0, core::vector3df(0, 0, -5), core::vector3df(0, 0, 0));
     core::matrix4 projection;
-    if (v[1] != 0) projection.buildProjectionMatrixOrthoLH(2.5f, 2.5f, 1, 10);
-    else projection.buildProjectionMatrixPerspectiveFovLH(core::PI / 6, 1, 1, 10);
+    if (v[1] != 0)
+        projection.buildProjectionMatrixOrthoLH(2.5f, 2.5f, 1, 10);
+    else
+        projection.buildProjectionMatrixPerspectiveFovLH(core::PI / 6, 1, 1, 10);
     camera->setProjectionMatrix(projection, v[1] != 0);
     for (int frame = 0; frame < 2; frame++) {
         driver->beginScene(true, true, video::SColor(255, 0, 0, 0));

@@ -20,7 +20,8 @@ int main(void)
     gr = mgl_create_graph((int)v[0], (int)v[0]);
     for (int j = 0; j < N; j++)
         for (int i = 0; i < N; i++) {
-            const double u = tan(1.4 * (2.0 * i / (N - 1) - 1)), w = tan(1.4 * (2.0 * j / (N - 1) - 1));
+            const double u = tan(1.4 * (2.0 * i / (N - 1) - 1)),
+                         w = tan(1.4 * (2.0 * j / (N - 1) - 1));
             const double r = sqrt(u * u + w * w + 1);
             mgl_data_set_value(x, u / r, i, j, 0);
             mgl_data_set_value(y, w / r, i, j, 0);
@@ -34,8 +35,8 @@ int main(void)
     for (int i = 1; i < 10; i++) mgl_set_light_n(gr, i, 0);
     mgl_add_light_ext(gr, 0, v[5], v[6], v[7], 'w', v[8], 0);
     mgl_set_light_n(gr, 0, 1);
-    snprintf(color, sizeof color, "{x%02x%02x%02x}", (int)(255 * v[2] + .5f), (int)(255 * v[3] + .5f),
-             (int)(255 * v[4] + .5f));
+    snprintf(color, sizeof color, "{x%02x%02x%02x}", (int)(255 * v[2] + .5f),
+             (int)(255 * v[3] + .5f), (int)(255 * v[4] + .5f));
     mgl_surf_xy(gr, x, y, z, color, "");
     mgl_finish(gr);
     fwrite(mgl_get_rgb(gr), 1, 3 * (size_t)v[0] * (size_t)v[0], stdout);

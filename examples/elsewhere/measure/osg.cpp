@@ -65,8 +65,10 @@ int main()
     viewer.getCamera()->setClearColor(osg::Vec4(0, 0, 0, 1));
     viewer.getCamera()->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3(0, 0, 5), osg::Vec3(), osg::Vec3(0, 1, 0));
-    if (v[1] != 0) viewer.getCamera()->setProjectionMatrixAsOrtho(-1.25, 1.25, -1.25, 1.25, 1, 10);
-    else viewer.getCamera()->setProjectionMatrixAsPerspective(30, 1, 1, 10);
+    if (v[1] != 0)
+        viewer.getCamera()->setProjectionMatrixAsOrtho(-1.25, 1.25, -1.25, 1.25, 1, 10);
+    else
+        viewer.getCamera()->setProjectionMatrixAsPerspective(30, 1, 1, 10);
     viewer.realize();
     viewer.frame();
     glFinish();

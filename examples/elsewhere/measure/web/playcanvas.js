@@ -39,6 +39,7 @@ export default function draw(c, size) {
     material.specular = color(m.specular)
     material.emissive = color(m.emissive || [0, 0, 0])
     material.gloss = m.gloss
+    material.enableGGXSpecular = !!m.ggx
     material.update()
     entity().addComponent('render', { meshInstances: [new pc.MeshInstance(ball, material)] })
     const camera = entity('camera', { clearColor: color([0, 0, 0]), nearClip: 1, farClip: 10, fov: 30, orthoHeight: 1.25,
