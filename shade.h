@@ -56,37 +56,37 @@
        >>config     135  options               >>types      269  materials, targets, states
        >>light      455  the equation, colour  >>draw       564  shaders, meshes, pixels
        >>tools      723  explain, lines, rays  >>plumbing   936  compilers, flags and bits
-       >>math      1103  vectors and matrices
+       >>math      1104  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1471  processors            >>base      1718  bits, masks, rows of vectors
-       >>matrix    1916  cameras, inverses     >>power     2204  x^n
-       >>pixels    2270  formats, sRGB
+       >>machine   1472  processors            >>base      1719  bits, masks, rows of vectors
+       >>matrix    1917  cameras, inverses     >>power     2205  x^n
+       >>pixels    2271  formats, sRGB
      Inside: light
-       >>lamps     2581  attenuation, cones    >>terms     2833  one term at one point
-       >>surface   2908  material and lights   >>lit       3025  the whole sum, at many points
+       >>lamps     2582  attenuation, cones    >>terms     2834  one term at one point
+       >>surface   2909  material and lights   >>lit       3026  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3415  fields by owner       >>vertices  3628  shading, projection
-       >>triangles 3831  culling, edge setup   >>clip      4185  near, far, guard band
-       >>tiles     4372  edges and depth test  >>cover     4736  triangles, tile by tile
-       >>fragments 5004  interpolation, lod    >>texture   5279  texels, filters
-       >>store     5754  blending, packing
+       >>state     3416  fields by owner       >>vertices  3629  shading, projection
+       >>triangles 3832  culling, edge setup   >>clip      4186  near, far, guard band
+       >>tiles     4373  edges and depth test  >>cover     4737  triangles, tile by tile
+       >>fragments 5005  interpolation, lod    >>texture   5280  texels, filters
+       >>store     5755  blending, packing
      Inside: calls of the renderer
-       >>check     6037  refusals              >>seen      6297  view volume, chunks
-       >>drive     6417  shade_draw            >>mesh      6607  shade_draw_mesh
+       >>check     6038  refusals              >>seen      6298  view volume, chunks
+       >>drive     6418  shade_draw            >>mesh      6608  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7011  shade_draw_lines      >>camera    7203  eye and line of sight
-       >>shape     7297  normals, edges        >>chunks    7844  sorting and boxes
-       >>rays      8007  shade_pick            >>image     8198  smaller pictures, mipmaps
-       >>files     8511  PPM and PNG           >>presets   8829  classic materials
+       >>lines     7012  shade_draw_lines      >>camera    7204  eye and line of sight
+       >>shape     7298  normals, edges        >>chunks    7845  sorting and boxes
+       >>rays      8008  shade_pick            >>image     8199  smaller pictures, mipmaps
+       >>files     8512  PPM and PNG           >>presets   8830  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8912  shaders, run again    >>survey    9180  experiments on a draw
-       >>numbers   9618  what makes no sense   >>doubts    9956  what is seldom right
-       >>unseen   10109  why nothing is in view
-       >>hidden   10391  why nothing is stored >>black    10555  why all is black
-       >>wrong    10937  what else is wrong    >>verdict  11318  the calls
+       >>replay    8913  shaders, run again    >>survey    9181  experiments on a draw
+       >>numbers   9619  what makes no sense   >>doubts    9957  what is seldom right
+       >>unseen   10110  why nothing is in view
+       >>hidden   10392  why nothing is stored >>black    10556  why all is black
+       >>wrong    10938  what else is wrong    >>verdict  11319  the calls
      Sources
-       >>refs     11628                        >>history  11661
-       >>license  11667
+       >>refs     11629                        >>history  11662
+       >>license  11668
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -960,11 +960,12 @@ SHADE__CLOSE
                                                                                            >>math */
 
 /* Floats must be evaluated as floats, denormal ones too.  Compilers that do otherwise are refused,
-   without further errors.  On s390x gcc -std=c99 evaluates floats as doubles, as glibc once did;
-   SHADE__BEGIN turns that off for this file.  m68k -m68040 says that it evaluates floats as floats,
-   but only rounds their mantissa. */
+   without further errors; tools that check without <float.h>, as cppcheck does, are not.  On s390x
+   gcc -std=c99 evaluates floats as doubles, as glibc once did; SHADE__BEGIN turns that off for this
+   file.  m68k -m68040 says that it evaluates floats as floats, but only rounds their mantissa. */
 #define SHADE__EVAL_FLOAT
-#if FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53 || (defined(__SIZEOF_INT__) && __SIZEOF_INT__ < 4)
+#if (defined(FLT_MANT_DIG) && (FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53)) || \
+    (defined(__SIZEOF_INT__) && __SIZEOF_INT__ < 4)
 #error "shade.h needs an int of 32 bits, and IEEE numbers: a float of 24 bits, a double of 53"
 #undef SHADE_IMPLEMENTATION
 #elif defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
@@ -9055,8 +9056,8 @@ static SHADE__NOINLINE void shade__check_vertices(const shade_pipeline *p,
                                                   const shade_vertex_ids *in, shade__tally *t)
 {
     shade_vertices out;
-    shade__mark(out.clip[0], 4 * SHADE_LANES);
-    shade__mark(out.varying[0], SHADE_MAX_VARYINGS * SHADE_LANES);
+    shade__mark(&out.clip[0][0], 4 * SHADE_LANES);
+    shade__mark(&out.varying[0][0], SHADE_MAX_VARYINGS * SHADE_LANES);
     p->vertex(p->uniforms, in, &out);
     t->vertex_lanes_left |= shade__lanes_are_left(out.clip[0], 4, in->count);
     for (int k = 0; k < SHADE_MAX_VARYINGS; k++)

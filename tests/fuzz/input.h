@@ -21,6 +21,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* vector width of the hot loops, see SHADE__LEVEL; shade.c reads it */
 int fuzz_level;
+/* hash of what an input left in memory; shade.c prints it */
+uint64_t fuzz_bits;
 
 #define HOLDS(x) ((x) ? (void)0 : fuzz_fail(#x, __FILE__, __LINE__))
 static inline void fuzz_fail(const char *what, const char *file, int line)
@@ -329,6 +331,7 @@ static inline void guard_close(void)
         for (size_t i = 1; i <= g->left; i++) HOLDS(*(g->at - i) == GUARD_BYTE);
         for (size_t i = 0; i < g->right; i++) HOLDS(g->at[g->size + i] == GUARD_BYTE);
         HOLDS(!g->seal || g->seal == guard_hash(g->at, g->size));
+        if (!g->seal) fuzz_bits = fuzz_bits * 1099511628211u + guard_hash(g->at, g->size);
     }
     guard_count = 0;
 }
