@@ -73,14 +73,14 @@ function numbered(name, array, width, height, step, make) {
 
 /** The bytes of a PNG of 16-bit grey: depth in whole units, 0 where there is nothing. */
 export async function depthPng(depth, width, height, unit = 0.001) {
-    const { asked, library } = core, units = check.number("unit", unit, 1e-9, 1e9);
+    const { asked, library } = core, units = check.number("unit", unit, -Infinity, Infinity);
     return numbered("depth", Float32Array.from(check.rows("depth", depth, 1)), width, height, 1,
                     (name, at, n, grey) => asked(library.depth_numbers, name, at, n, units, grey, 0));
 }
 
 /** { width, height, depth } of such bytes: infinity where they have 0. */
 export async function readDepthPng(bytes, unit = 0.001) {
-    const { asked, library, withMemory, put } = core, units = check.number("unit", unit, 1e-9, 1e9);
+    const { asked, library, withMemory, put } = core, units = check.number("unit", unit, -Infinity, Infinity);
     const { width, height, grey } = await opened(bytes);
     return withMemory((room) => {
         const at = room(4 * grey.length);

@@ -63,7 +63,7 @@ def assert_same_ids(ids: object, golden: File) -> None:
 
 
 def _unit(unit: object) -> float:
-    return arguments.number("unit", unit, 1e-9, 1e9)
+    return arguments.number("unit", unit)
 
 
 def _depth_numbers(depth: object, unit: object) -> Array:
