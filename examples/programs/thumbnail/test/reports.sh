@@ -165,6 +165,9 @@ color_reports() {
     same "of VisCAM" four.obj viscam.stl 2 "$plain"
     stl_colors junk.stl "made by hand" '\000\000' '\022\000' '\377\177' '\000\000'
     same "words that are no colours" wedge.obj junk.stl 0 "$plain"
+    painted late "0.5225 0.5225 0.5225" "0 1 0" "0 0 1" "1 1 0"
+    stl_colors late.stl "made by hand" '\000\000' '\340\203' '\037\200' '\340\377'
+    same "colours behind a triangle without" late.obj late.stl 2 "$plain"
     stl_colors bare.stl "COLOR=@@@@" '\000\000' '\000\000' '\000\000' '\000\000'
     same "and no words" wedge.obj bare.stl 0 "$plain"
 
