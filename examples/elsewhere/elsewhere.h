@@ -667,8 +667,9 @@ static inline elsewhere_look elsewhere_three_phong(elsewhere_three_phong_numbers
     return k;
 }
 
-/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours that
-   are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.  Measured. */
+/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours
+   that are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.
+   Measured. */
 typedef struct elsewhere_three_mtl_numbers {
     shade_vec3 Kd, Ks, Ke;
     float Ns, illum;
