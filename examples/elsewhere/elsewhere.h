@@ -667,8 +667,9 @@ static inline elsewhere_look elsewhere_three_phong(elsewhere_three_phong_numbers
     return k;
 }
 
-/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours that
-   are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.  Measured. */
+/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours
+   that are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.
+   Measured. */
 typedef struct elsewhere_three_mtl_numbers {
     shade_vec3 Kd, Ks, Ke;
     float Ns, illum;
@@ -1079,7 +1080,8 @@ static inline elsewhere_look elsewhere_processing(elsewhere_processing_numbers v
 /* PlayCanvas 2.23.3: StandardMaterial without metalness, colours as a file has them.  By default it
    is no GGX but (n + 2)/8 (N.H)^n N.L of n = 2^(11 gloss), V to the camera's point even under
    parallel projection; enableGGXSpecular is not said here. N.L is not divided by pi; ambient light
-   counts times diffuse (1 - specular).  Bytes are light^(1/2.2).  Measured; lightSpecularBlinn of its shaders. */
+   counts times diffuse (1 - specular).  Bytes are light^(1/2.2).  Measured; lightSpecularBlinn of
+   its shaders. */
 typedef struct elsewhere_playcanvas_numbers {
     shade_vec3 diffuse, specular, emissive;
     float gloss;

@@ -1,4 +1,4 @@
-"""Programs that colour surfaces: matplotlib, Octave, gnuplot (Debian: python3-matplotlib, octave,
+"""Programs that colour surfaces: matplotlib, Octave, gnuplot (Debian: python3-matplotlib, octave, fonts-freefont-otf,
 gnuplot-nox, python3-numpy): python3 surfaces.py [NAME ...]
 
 Those that shade planes get one plane for each pixel, tangent to the ball there.
@@ -57,6 +57,8 @@ printf('%.6f\\n', out);'''
     with tempfile.TemporaryDirectory() as folder:
         open(os.path.join(folder, 'a.m'), 'w').write(text)
         done = subprocess.run(['octave-cli', '--quiet', 'a.m'], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=200)
+        # without a font its axes fail
+        if done.returncode: raise SystemExit('octave-cli failed; it wants a font, as of fonts-freefont-otf')
         return [float(v) for v in done.stdout.split()[-len(normals):]]
 
 def surfl_draw(case, size):
