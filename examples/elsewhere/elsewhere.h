@@ -916,6 +916,22 @@ static inline elsewhere_look elsewhere_mplot3d(elsewhere_mplot3d_numbers v)
     return k;
 }
 
+/* GDAL 3.6.2: gdaldem hillshade, azimuth clockwise from north and altitude in degrees, of a height
+   field whose east is x, north y and up z.  Bytes are 1 + 254 N.L, 1 where N.L < 0.  Measured. */
+typedef struct elsewhere_gdal_numbers {
+    float azimuth, altitude;
+} elsewhere_gdal_numbers;
+static inline elsewhere_look elsewhere_gdal(elsewhere_gdal_numbers v)
+{
+    const float azimuth = shade_radians(v.azimuth), altitude = shade_radians(v.altitude);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = elsewhere_grey(1 / 255.0f);
+    k.material.diffuse = elsewhere_grey(254 / 255.0f);
+    k.own =
+        shade_v3(sinf(azimuth) * cosf(altitude), cosf(azimuth) * cosf(altitude), sinf(altitude));
+    return k;
+}
+
 /* Octave 7.3: surfl with [ambient diffuse specular shine]. The sum over all is divided by
    ambient + diffuse + specular, so that a highlight dims the rest. Measured. */
 typedef struct elsewhere_surfl_numbers {

@@ -53,6 +53,7 @@ ELSEWHERE_ROW(tachyon_lamp, lamp)
 ELSEWHERE_ROW(gnuplot, look)
 ELSEWHERE_ROW(mplot3d, look)
 ELSEWHERE_ROW(surfl, look)
+ELSEWHERE_ROW(gdal, look)
 ELSEWHERE_ROW(opengl, look)
 ELSEWHERE_ROW(inventor, look)
 ELSEWHERE_ROW(mtl, look)
@@ -126,6 +127,7 @@ static const elsewhere_row elsewhere_rows[] = {
       elsewhere_row_tachyon_lamp },
     { "gnuplot", "color=1,1,1 primary=.5 specular=0", elsewhere_row_gnuplot, NULL },
     { "mplot3d", "color=1,1,1 azdeg=225 altdeg=19.4712", elsewhere_row_mplot3d, NULL },
+    { "gdal", "azimuth=315 altitude=45", elsewhere_row_gdal, NULL },
     { "surfl", "ambient=.55 diffuse=.6 specular=.4 shine=10", elsewhere_row_surfl, NULL },
     { "opengl",
       "ambient=.2,.2,.2 diffuse=.8,.8,.8 specular=0,0,0 emission=0,0,0 shininess=0 "

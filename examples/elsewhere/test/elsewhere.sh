@@ -36,9 +36,15 @@ again() {
     done
 }
 [ "${LONG:-}" ] || left_out "the programs themselves, which draw again with LONG=1"
+if [ "${LONG:-}" ] && [ ! "${DISPLAY:-}" ] && there Xvfb; then    # VTK wants a display
+    Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>"$T/display" >/dev/null 2>&1 & x=$!
+    trap 'kill $x; rm -rf "$T"' EXIT
+    for _ in 1 2 3 4 5 6 7 8 9 10; do [ -s "$T/display" ] || sleep 1; done
+    [ ! -s "$T/display" ] || export DISPLAY=":$(cat "$T/display")"
+fi
 header() { echo "echo '#include <$1>' | c++ $2 -w -E -x c++ -"; }
 again 'command -v povray' povray.py povray
-again '$PYTHON -c "import vtkmodules"' vtk.py vtk
+again '$PYTHON -c "import vtkmodules" && test "$DISPLAY"' vtk.py vtk
 again "$(header GL/osmesa.h)" opengl.py opengl
 again 'command -v tachyon' raytracers.py tachyon
 again 'test -x /usr/bin/render && command -v pngtopnm' raytracers.py raster3d
@@ -46,6 +52,7 @@ again '$PYTHON -c "import pymol" && command -v pngtopnm' raytracers.py pymol
 again '$PYTHON -c "import mpl_toolkits.mplot3d"' surfaces.py mplot3d
 again 'command -v octave-cli && command -v gnuplot' surfaces.py surfl
 again 'command -v gnuplot && command -v pngtopnm' surfaces.py gnuplot
+again 'command -v gdaldem && command -v gdal_translate' surfaces.py gdal
 again "$(header Inventor/SoDB.h) && $(header GL/osmesa.h)" toolkits.py inventor
 again "$(header osg/Version) && $(header GL/osmesa.h)" toolkits.py osg
 again "$(header mgl2/mgl_cf.h)" toolkits.py mathgl
