@@ -768,6 +768,16 @@ static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
     return k;
 }
 
+/* X3D as view3dscene 4.2.0 of Castle Game Engine draws it: as X_ITE, but that highlights are gated.
+   Measured. */
+typedef elsewhere_x_ite_numbers elsewhere_view3dscene_numbers;
+static inline elsewhere_look elsewhere_view3dscene(elsewhere_view3dscene_numbers v)
+{
+    elsewhere_look k = elsewhere_x_ite(v);
+    k.flags = 0;
+    return k;
+}
+
 /* p5.js 1.11: fill, specularMaterial, shininess, in the order of its words from 0 to 1. .73 N.L
    and 2 (R.V)^shininess, whatever the colours are; not gated; V to the camera's position even
    under parallel projection. Measured; totalLight of lighting.glsl. */

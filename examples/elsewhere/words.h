@@ -38,6 +38,7 @@ ELSEWHERE_ROW(three_toon, look)
 ELSEWHERE_ROW(babylon, look)
 ELSEWHERE_ROW(x_ite, look)
 ELSEWHERE_ROW(x3dom, look)
+ELSEWHERE_ROW(view3dscene, look)
 ELSEWHERE_ROW(three_lamp, lamp)
 ELSEWHERE_ROW(babylon_lamp, lamp)
 ELSEWHERE_ROW(x3d_lamp, lamp)
@@ -97,6 +98,8 @@ static const elsewhere_row elsewhere_rows[] = {
       elsewhere_row_x_ite, NULL },
     { "x3dom", "diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 shininess=.2",
       elsewhere_row_x3dom, NULL },
+    { "view3dscene", "diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 shininess=.2",
+      elsewhere_row_view3dscene, NULL },
     { "three_lamp",
       "at=0,0,1,0 color=1,1,1 aim=0,0,0 intensity=1 distance=0 decay=2 angle=1.0471976 "
       "penumbra=0",

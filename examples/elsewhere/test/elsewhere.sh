@@ -36,15 +36,16 @@ again() {
     done
 }
 [ "${LONG:-}" ] || left_out "the programs themselves, which draw again with LONG=1"
-if [ "${LONG:-}" ] && [ ! "${DISPLAY:-}" ] && there Xvfb; then    # VTK wants a display
+if [ "${LONG:-}" ] && [ ! "${DISPLAY:-}" ] && there Xvfb; then    # VTK and view3dscene want a display
     Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>"$T/display" >/dev/null 2>&1 & x=$!
     trap 'kill $x; rm -rf "$T"' EXIT
     for _ in 1 2 3 4 5 6 7 8 9 10; do [ -s "$T/display" ] || sleep 1; done
-    [ ! -s "$T/display" ] || export DISPLAY=":$(cat "$T/display")"
+    if [ -s "$T/display" ]; then DISPLAY=":$(cat "$T/display")" && export DISPLAY; fi
 fi
 header() { echo "echo '#include <$1>' | c++ $2 -w -E -x c++ -"; }
 again 'command -v povray' povray.py povray
 again '$PYTHON -c "import vtkmodules" && test "$DISPLAY"' vtk.py vtk
+again 'command -v view3dscene && command -v pngtopnm && test "$DISPLAY"' view3dscene.py view3dscene
 again "$(header GL/osmesa.h)" opengl.py opengl
 again 'command -v tachyon' raytracers.py tachyon
 again 'test -x /usr/bin/render && command -v pngtopnm' raytracers.py raster3d
