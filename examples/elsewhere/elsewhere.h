@@ -768,6 +768,16 @@ static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
     return k;
 }
 
+/* X3D as view3dscene 4.2.0 of Castle Game Engine draws it: as X_ITE, but that highlights are gated.
+   Measured. */
+typedef elsewhere_x_ite_numbers elsewhere_view3dscene_numbers;
+static inline elsewhere_look elsewhere_view3dscene(elsewhere_view3dscene_numbers v)
+{
+    elsewhere_look k = elsewhere_x_ite(v);
+    k.flags = 0;
+    return k;
+}
+
 /* p5.js 1.11: fill, specularMaterial, shininess, in the order of its words from 0 to 1. .73 N.L
    and 2 (R.V)^shininess, whatever the colours are; not gated; V to the camera's position even
    under parallel projection. Measured; totalLight of lighting.glsl. */
@@ -913,6 +923,22 @@ static inline elsewhere_look elsewhere_mplot3d(elsewhere_mplot3d_numbers v)
     k.law = ELSEWHERE_LAW_SIGNED;
     k.own =
         shade_v3(cosf(azimuth) * cosf(altitude), sinf(azimuth) * cosf(altitude), sinf(altitude));
+    return k;
+}
+
+/* GDAL 3.6.2: gdaldem hillshade, azimuth clockwise from north and altitude in degrees, of a height
+   field whose east is x, north y and up z.  Bytes are 1 + 254 N.L, 1 where N.L < 0.  Measured. */
+typedef struct elsewhere_gdal_numbers {
+    float azimuth, altitude;
+} elsewhere_gdal_numbers;
+static inline elsewhere_look elsewhere_gdal(elsewhere_gdal_numbers v)
+{
+    const float azimuth = shade_radians(v.azimuth), altitude = shade_radians(v.altitude);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = elsewhere_grey(1 / 255.0f);
+    k.material.diffuse = elsewhere_grey(254 / 255.0f);
+    k.own =
+        shade_v3(sinf(azimuth) * cosf(altitude), cosf(azimuth) * cosf(altitude), sinf(altitude));
     return k;
 }
 
