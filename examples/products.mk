@@ -10,7 +10,7 @@
 # make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader: solutions, wrong answers, what holds programs
 # make project       tries the project's judge: solutions, starters, mistakes, what students get
-# make questions     tries the bank of questions: answers, Moodle, QTI, sheets
+# make questions     tries the bank of questions and exams: answers, Moodle, QTI, sheets
 # make format        lays out kit and programs by .clang-format (clang-format 14); FORMAT=files
 
 # view and batch need POSIX; the window of view SDL2 (libsdl2-dev), its sixels libsixel

@@ -55,7 +55,11 @@ typedef enum elsewhere_encoding {
      STEPS      N.L becomes .7 where it is less than number, also behind, else 1; no highlight
      EXPONENT   k_a + k_s exp(-number (1 - R.V)); no N.L at all
      SIGNED     k_a + k_d N.L, which is negative behind
-     SHIFTED    (number + R.V)^n in place of (R.V)^n; below 0 where n is an odd number */
+     SHIFTED    (number + R.V)^n in place of (R.V)^n; below 0 where n is an odd number
+     BLEND      of one lamp: k_a + k_d N.L, mixed toward k_s by (N.L)^number
+     RAMP       of one lamp and s = 63 min(diffuse N.L + specular (R.V)^n, 1), diffuse and specular
+                those of the look: k_a at 0, k_d at 52, from there mixed toward k_s, by .4
+                at 63 */
 typedef enum elsewhere_law {
     ELSEWHERE_LAW_FOUR = 0,
     ELSEWHERE_LAW_SCHLICK,
@@ -63,7 +67,9 @@ typedef enum elsewhere_law {
     ELSEWHERE_LAW_STEPS,
     ELSEWHERE_LAW_EXPONENT,
     ELSEWHERE_LAW_SIGNED,
-    ELSEWHERE_LAW_SHIFTED
+    ELSEWHERE_LAW_SHIFTED,
+    ELSEWHERE_LAW_BLEND,
+    ELSEWHERE_LAW_RAMP
 } elsewhere_law;
 
 /* A material of another program */
@@ -111,12 +117,14 @@ typedef enum elsewhere_range {
 /* What is odd about the highlight of a lamp.
      SQUARED   it has 1 / (a + b r + c r^2) twice
      WHOLE     it is not dimmed at all, where any light arrives
-     AIM       it stands where light along the lamp's aim would put it */
+     AIM       it stands where light along the lamp's aim would put it
+     LONG      H is along reach L + V in place of L + V, and the lamp's colour does not count */
 typedef enum elsewhere_highlight {
     ELSEWHERE_HIGHLIGHT_PLAIN = 0,
     ELSEWHERE_HIGHLIGHT_SQUARED,
     ELSEWHERE_HIGHLIGHT_WHOLE,
-    ELSEWHERE_HIGHLIGHT_AIM
+    ELSEWHERE_HIGHLIGHT_AIM,
+    ELSEWHERE_HIGHLIGHT_LONG
 } elsewhere_highlight;
 
 /* A lamp of another program.  Rim and range become a row of visibility. */
@@ -342,7 +350,7 @@ static inline void elsewhere_add_whole(const elsewhere_packet *k, const shade_li
     for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] += one[i];
 }
 
-/* Adds the highlight of a lamp as if its its light came along its aim everywhere. */
+/* Adds the highlight of a lamp as if its light came along its aim everywhere. */
 static inline void elsewhere_add_aimed(const elsewhere_packet *k, const shade_light *lamp,
                                        float *rgb)
 {
@@ -360,6 +368,24 @@ static inline void elsewhere_add_aimed(const elsewhere_packet *k, const shade_li
     for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] += one[i];
 }
 
+/* Adds the highlight of a lamp at infinity whose H is along reach L + V. */
+static inline void elsewhere_add_long(const elsewhere_packet *k, const elsewhere_lamp *lamp,
+                                      float *rgb)
+{
+    const shade_material *m = &k->look->material;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const elsewhere_point p = elsewhere_at(k, i);
+        shade_vec3 L, H;
+        float lobe = k->look->specular * k->rows.visibility[i];
+        shade_light_at(&lamp->light, p.P, &L, NULL);
+        H = shade_normalize(shade_madd(p.V, lamp->reach, L));
+        lobe *= shade_dot(p.N, L) > 0 ? shade_power(fmaxf(shade_dot(p.N, H), 0), m->shininess) : 0;
+        rgb[i] += m->specular.x * lobe;
+        rgb[i + SHADE_LANES] += m->specular.y * lobe;
+        rgb[i + 2 * SHADE_LANES] += m->specular.z * lobe;
+    }
+}
+
 /* Rows in place of k_s for one lamp: F times the look's number */
 static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_light *lamp,
                                      float *rows)
@@ -375,6 +401,21 @@ static inline void elsewhere_fresnel(const elsewhere_packet *k, const shade_ligh
         rows[i + SHADE_LANES] = k->look->number * elsewhere_schlick(f0.y, cosine);
         rows[i + 2 * SHADE_LANES] = k->look->number * elsewhere_schlick(f0.z, cosine);
     }
+}
+
+/* What ELSEWHERE_LAW_BLEND and _RAMP add to k_a, of a lamp at N.L = cosine */
+static inline shade_vec3 elsewhere_toward(const elsewhere_look *k, float cosine, float lobe)
+{
+    const shade_material *m = &k->material;
+    const float w = fmaxf(cosine, 0);
+    shade_vec3 bright = shade_madd(m->ambient, w, m->diffuse);
+    float part = shade_power(w, k->number);
+    if (k->law == ELSEWHERE_LAW_RAMP) {
+        const float s = 63 * fminf(cosine > 0 ? k->diffuse * w + k->specular * lobe : 0, 1);
+        bright = shade_lerp(m->ambient, m->diffuse, fminf(s / 52, 1));
+        part = 0.4f / 11 * fmaxf(s - 52, 0);
+    }
+    return shade_sub(shade_lerp(bright, m->specular, part), m->ambient);
 }
 
 /* What one lamp adds at a point by a law that has another N.L, or none.  The highlight of
@@ -399,6 +440,10 @@ static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_li
         return shade_scale(shade_madd(shade_scale(k_d, cosine), lobe, k_s),
                            cosine > 0 ? amount : 0);
     }
+    if (k->law == ELSEWHERE_LAW_BLEND || k->law == ELSEWHERE_LAW_RAMP) {
+        const float turn = fmaxf(shade_dot(shade_mirror(L, p.N), p.V), 0);
+        return elsewhere_toward(k, cosine, shade_power(turn, k->material.shininess));
+    }
     if (k->law == ELSEWHERE_LAW_STEPS) weight = cosine < k->number ? 0.7f : 1;
     if (k->law == ELSEWHERE_LAW_POWER) weight = cosine > 0 ? shade_power(cosine, k->number) : 0;
     return shade_scale(shade_mul(k->material.diffuse, lamp->diffuse), weight * amount);
@@ -406,8 +451,9 @@ static inline shade_vec3 elsewhere_other(const elsewhere_look *k, const shade_li
 
 /* Adds what one lamp gives; rows.visibility is the lamp's. */
 static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_light *lamp,
-                                      elsewhere_highlight highlight, float *rgb)
+                                      const elsewhere_lamp *own, float *rgb)
 {
+    const elsewhere_highlight highlight = own ? own->highlight : ELSEWHERE_HIGHLIGHT_PLAIN;
     const elsewhere_law law = k->look->law;
     float one[3 * SHADE_LANES], factor[3 * SHADE_LANES];
     shade_lighting single = k->all;
@@ -432,6 +478,9 @@ static inline void elsewhere_add_lamp(const elsewhere_packet *k, const shade_lig
     } else if (highlight == ELSEWHERE_HIGHLIGHT_AIM) {
         elsewhere_add_aimed(k, lamp, rgb);
         single.terms = SHADE_TERM_DIFFUSE;
+    } else if (highlight == ELSEWHERE_HIGHLIGHT_LONG) {
+        elsewhere_add_long(k, own, rgb);
+        single.terms = SHADE_TERM_DIFFUSE;
     }
     if (law <= ELSEWHERE_LAW_POWER) shade_lit_lanes(&single, &material, k->eye, &rows, one);
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -449,10 +498,8 @@ static inline void elsewhere_add_lamps(elsewhere_packet *k, const elsewhere_scen
 {
     const float *visibility = k->rows.visibility;
     for (int j = 0; j < k->all.light_count; j++) {
-        const elsewhere_highlight odd =
-            j < s->lamp_count ? s->lamps[j].highlight : ELSEWHERE_HIGHLIGHT_PLAIN;
         k->rows.visibility = &visibility[j * SHADE_LANES];
-        elsewhere_add_lamp(k, &k->all.lights[j], odd, rgb);
+        elsewhere_add_lamp(k, &k->all.lights[j], j < s->lamp_count ? &s->lamps[j] : NULL, rgb);
     }
     k->rows.visibility = visibility;
 }
@@ -618,6 +665,22 @@ static inline elsewhere_look elsewhere_three_phong(elsewhere_three_phong_numbers
     k.law = ELSEWHERE_LAW_SCHLICK;
     k.number = (v.shininess + 2) / 8;
     return k;
+}
+
+/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours that
+   are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.  Measured. */
+typedef struct elsewhere_three_mtl_numbers {
+    shade_vec3 Kd, Ks, Ke;
+    float Ns, illum;
+} elsewhere_three_mtl_numbers;
+static inline elsewhere_look elsewhere_three_mtl(elsewhere_three_mtl_numbers v)
+{
+    elsewhere_three_phong_numbers phong;
+    phong.color = shade_linear_from_srgb(v.Kd);
+    phong.specular = shade_linear_from_srgb(v.Ks);
+    phong.emissive = shade_linear_from_srgb(v.Ke);
+    phong.shininess = v.Ns;
+    return elsewhere_three_phong(phong);
 }
 
 /* three.js 0.187.0: MeshLambertMaterial, colour i N.L / pi.  Measured. */
@@ -890,8 +953,9 @@ static inline elsewhere_look elsewhere_opengl(elsewhere_opengl_numbers v)
     return k;
 }
 
-/* Open Inventor and Coin: SoMaterial, (N.H)^(128 shininess) by OpenGL's fixed function, at
-   vertices.  By its specification (SoMaterial of Coin 4.0, OpenGL 2.1), not measured. */
+/* Open Inventor as Coin 4.0.0 draws it: SoMaterial, (N.H)^(128 shininess) by OpenGL's fixed
+   function, at vertices.  scene.ambient is SoEnvironment's, .2 by default.  Measured; SoMaterial of
+   its reference. */
 typedef struct elsewhere_inventor_numbers {
     shade_vec3 ambientColor, diffuseColor, specularColor, emissiveColor;
     float shininess;
@@ -909,8 +973,9 @@ static inline elsewhere_look elsewhere_inventor(elsewhere_inventor_numbers v)
 }
 
 /* Wavefront's MTL: Ka, Kd, Ks, Ke, Ns, illum; (N.H)^Ns.  illum 0 is Kd alone, without light, 1 has
-   no highlight.  By its specification ("Object Files", Alias Wavefront, version 4.2), not measured:
-   no program is the reference.  Blender 3.4 reads it as roughness 1 - sqrt(Ns/1000). */
+   no highlight.  By its specification ("Object Files", Alias Wavefront, version 4.2): no program is
+   the reference.  elsewhere_three_mtl is one reader.  Blender 3.4 reads it as roughness
+   1 - sqrt(Ns/1000), whose surface is no Phong; Assimp 5.2 hands Ns over as it is. */
 typedef struct elsewhere_mtl_numbers {
     shade_vec3 Ka, Kd, Ks, Ke;
     float Ns, illum;
@@ -927,8 +992,8 @@ static inline elsewhere_look elsewhere_mtl(elsewhere_mtl_numbers v)
     return k;
 }
 
-/* Irrlicht 1.8.5, Burning's Video: directional lamps alone, N.L exact, no highlight whatever the
-   Shininess; its point lamps follow a law that was not found.  Measured once, without a table. */
+/* Irrlicht 1.8.5, Burning's Video: directional lamps alone, N.L exact, no highlight whatever
+   SpecularColor and Shininess; its point lamps follow a law that was not found.  Measured. */
 typedef struct elsewhere_irrlicht_numbers {
     shade_vec3 DiffuseColor, EmissiveColor;
 } elsewhere_irrlicht_numbers;
@@ -940,8 +1005,8 @@ static inline elsewhere_look elsewhere_irrlicht(elsewhere_irrlicht_numbers v)
     return k;
 }
 
-/* MathGL 8.0.1: ambient light (.5) and exp(-3 (1 - R.V)) of white; no N.L at all.  Measured once,
-   without a table. */
+/* MathGL 8.0.1: color times ambient light (.5) and exp(-3 (1 - R.V)) of white; no N.L at all. A
+   lamp of brightness b, .5 by default, is one of colour 2 b here.  Measured. */
 typedef struct elsewhere_mathgl_numbers {
     shade_vec3 color;
     float ambient;
@@ -951,8 +1016,135 @@ static inline elsewhere_look elsewhere_mathgl(elsewhere_mathgl_numbers v)
     elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
     k.material.ambient = shade_scale(v.color, v.ambient);
     k.material.specular = elsewhere_grey(1);
+    k.cut = 1;
     k.law = ELSEWHERE_LAW_EXPONENT;
     k.number = 3;
+    return k;
+}
+
+/* OpenSceneGraph 3.6.5: osg::Material, by OpenGL's fixed function without a local viewer.
+   scene.ambient is that of the light model, .1 by default.  Measured. */
+typedef struct elsewhere_osg_numbers {
+    shade_vec3 ambient, diffuse, specular, emission;
+    float shininess;
+} elsewhere_osg_numbers;
+static inline elsewhere_look elsewhere_osg(elsewhere_osg_numbers v)
+{
+    elsewhere_inventor_numbers same;
+    same.ambientColor = v.ambient;
+    same.diffuseColor = v.diffuse;
+    same.specularColor = v.specular;
+    same.emissiveColor = v.emission;
+    same.shininess = v.shininess / 128;
+    return elsewhere_inventor(same);
+}
+
+/* deck.gl 9.4.0: the material of a SimpleMeshLayer, colours of 0 to 1 in place of 0 to 255.
+   (N.H)^shininess where N.L > 0, V to the camera's point even under parallel projection.
+   scene.ambient is that of the AmbientLight.  Measured; phongMaterial of luma.gl's shaders. */
+typedef struct elsewhere_deck_numbers {
+    shade_vec3 color, specularColor;
+    float ambient, diffuse, shininess;
+} elsewhere_deck_numbers;
+static inline elsewhere_look elsewhere_deck(elsewhere_deck_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambient);
+    k.material.diffuse = shade_scale(v.color, v.diffuse);
+    k.material.specular = v.specularColor;
+    k.material.shininess = v.shininess;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* Processing.js 1.6.6: fill, ambient, specular, emissive, shininess, colours of 0 to 1. (N.H)^n at
+   vertices, V to the camera's point even under parallel projection; ambient light counts times
+   fill and times ambient.  Measured; vertexShaderSrc3D of its source. */
+typedef struct elsewhere_processing_numbers {
+    shade_vec3 fill, ambient, specular, emissive;
+    float shininess;
+} elsewhere_processing_numbers;
+static inline elsewhere_look elsewhere_processing(elsewhere_processing_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    k.material.emission = v.emissive;
+    k.material.ambient = shade_mul(v.fill, v.ambient);
+    k.material.diffuse = v.fill;
+    k.material.specular = v.specular;
+    k.material.shininess = v.shininess;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    return k;
+}
+
+/* PlayCanvas 2.23.3: StandardMaterial without metalness, colours as a file has them.  By default it
+   is no GGX but (n + 2)/8 (N.H)^n N.L of n = 2^(11 gloss), V to the camera's point even under
+   parallel projection; enableGGXSpecular is not said here. N.L is not divided by pi; ambient light
+   counts times diffuse (1 - specular).  Bytes are light^(1/2.2).  Measured; lightSpecularBlinn of its shaders. */
+typedef struct elsewhere_playcanvas_numbers {
+    shade_vec3 diffuse, specular, emissive;
+    float gloss;
+} elsewhere_playcanvas_numbers;
+static inline elsewhere_look elsewhere_playcanvas(elsewhere_playcanvas_numbers v)
+{
+    const shade_vec3 *file[] = { &v.diffuse, &v.specular, &v.emissive };
+    shade_vec3 light[3];
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_BLINN_PHONG);
+    for (int i = 0; i < 3; i++)
+        light[i] = shade_v3(powf(file[i]->x, 2.2f), powf(file[i]->y, 2.2f), powf(file[i]->z, 2.2f));
+    k.material.diffuse = light[0];
+    k.material.specular = light[1];
+    k.material.ambient = shade_mul(light[0], shade_sub(shade_v3(1, 1, 1), light[1]));
+    k.material.emission = light[2];
+    k.material.shininess = powf(2, 11 * v.gloss);
+    k.flags = SHADE_FLAG_WEIGHTED_SPECULAR;
+    k.specular = (k.material.shininess + 2) / 8;
+    k.viewer = ELSEWHERE_VIEWER_POINT;
+    k.encoding = ELSEWHERE_ENCODING_GAMMA;
+    return k;
+}
+
+/* RasMol 2.7.6: set ambient a, set specular, set specpower n, of 0 to 100, of a colour. color (a +
+   (1 - a) N.L), mixed toward white by (N.L)^(n + 1): a highlight that does not depend on where it
+   is seen from.  In 32 steps of N.L, from a lamp of its own along 1, 1, 2 of the screen. Parallel
+   projection alone.  Measured. */
+typedef struct elsewhere_rasmol_numbers {
+    shade_vec3 color;
+    float ambient, specular, specpower;
+} elsewhere_rasmol_numbers;
+static inline elsewhere_look elsewhere_rasmol(elsewhere_rasmol_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.ambient = shade_scale(v.color, v.ambient / 100);
+    k.material.diffuse = shade_scale(v.color, 1 - v.ambient / 100);
+    k.material.specular = elsewhere_grey(1);
+    k.own = shade_v3(1, 1, 2);
+    k.own_turns = 1;
+    k.law = v.specular > 0 ? ELSEWHERE_LAW_BLEND : ELSEWHERE_LAW_FOUR;
+    k.number = v.specpower + 1;
+    return k;
+}
+
+/* Jmol 14.32.83: set ambientPercent, diffusePercent, specularPercent, phongExponent.  A ramp of 64
+   shades by diffusePercent N.L + specularPercent (R.V)^n: from color times ambientPercent to color
+   at 52, above that toward white, so that a red ball turns pink without any highlight. The lamp is
+   its own.  Balls are dithered.  Measured. */
+typedef struct elsewhere_jmol_numbers {
+    shade_vec3 color;
+    float ambientPercent, diffusePercent, specularPercent, phongExponent;
+} elsewhere_jmol_numbers;
+static inline elsewhere_look elsewhere_jmol(elsewhere_jmol_numbers v)
+{
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_PHONG);
+    k.material.ambient = shade_scale(v.color, v.ambientPercent / 100);
+    k.material.diffuse = v.color;
+    k.material.specular = elsewhere_grey(1);
+    k.material.shininess = v.phongExponent;
+    k.viewer = ELSEWHERE_VIEWER_AXIS;
+    k.own = shade_v3(-1, 1, 2.5f);
+    k.own_turns = 1;
+    k.diffuse = v.diffusePercent / 100;
+    k.specular = v.specularPercent / 100;
+    k.law = ELSEWHERE_LAW_RAMP;
     return k;
 }
 
@@ -1124,6 +1316,23 @@ static inline elsewhere_lamp elsewhere_x3d_lamp(elsewhere_x3d_lamp_numbers v)
     return lamp;
 }
 
+/* Open Inventor, Coin 4.0.0: SoDirectionalLight, SoPointLight, SoSpotLight; attenuation is
+   SoEnvironment's, from its last number to its first.  A spot has cos^(128 dropOffRate) within
+   cutOffAngle, in radians.  Measured. */
+typedef struct elsewhere_inventor_lamp_numbers {
+    shade_vec4 at;
+    shade_vec3 color, attenuation, aim;
+    float cutOffAngle, dropOffRate;
+} elsewhere_inventor_lamp_numbers;
+static inline elsewhere_lamp elsewhere_inventor_lamp(elsewhere_inventor_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_sends(v.at, v.color, v.aim);
+    elsewhere_attenuate(&lamp, v.attenuation);
+    lamp.light.spot_cos_cutoff = cosf(v.cutOffAngle);
+    lamp.light.spot_exponent = 128 * v.dropOffRate;
+    return lamp;
+}
+
 /* p5.js 1.11: directionalLight, pointLight, spotLight, lightFalloff.  The highlight of a point lamp
    has the square of 1 / (a + b r + c r^2), that of a spot does not.  angle is from the axis to the
    edge, in radians, with cos^concentration.  Measured; totalLight of lighting.glsl. */
@@ -1139,6 +1348,22 @@ static inline elsewhere_lamp elsewhere_p5_lamp(elsewhere_p5_lamp_numbers v)
     lamp.light.spot_cos_cutoff = cosf(v.angle);
     lamp.light.spot_exponent = v.concentration;
     if (v.at.w != 0 && shade_dot(v.aim, v.aim) == 0) lamp.highlight = ELSEWHERE_HIGHLIGHT_SQUARED;
+    return lamp;
+}
+
+/* Processing.js 1.6.6: directionalLight, pointLight, spotLight, lightFalloff.  The H of a
+   directionalLight is that of the vector as it was given: a longer one moves the highlight toward
+   where N.L is 1.  color is the light's; that of highlights is lightSpecular, white here.
+   angle is from the axis to the edge, in radians, with cos^concentration.  Measured. */
+typedef elsewhere_p5_lamp_numbers elsewhere_processing_lamp_numbers;
+static inline elsewhere_lamp elsewhere_processing_lamp(elsewhere_processing_lamp_numbers v)
+{
+    elsewhere_lamp lamp = elsewhere_p5_lamp(v);
+    lamp.highlight = ELSEWHERE_HIGHLIGHT_PLAIN;
+    lamp.light.specular = shade_v3(1, 1, 1);
+    if (v.at.w != 0) return lamp;
+    lamp.highlight = ELSEWHERE_HIGHLIGHT_LONG;
+    lamp.reach = shade_length(shade_v3(v.at.x, v.at.y, v.at.z));
     return lamp;
 }
 

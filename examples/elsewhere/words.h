@@ -32,6 +32,7 @@ ELSEWHERE_ROW(opengl_lamp, lamp)
 ELSEWHERE_ROW(vtk_lamp, lamp)
 ELSEWHERE_ROW(povray_lamp, lamp)
 ELSEWHERE_ROW(three_phong, look)
+ELSEWHERE_ROW(three_mtl, look)
 ELSEWHERE_ROW(three_lambert, look)
 ELSEWHERE_ROW(three_toon, look)
 ELSEWHERE_ROW(babylon, look)
@@ -58,6 +59,14 @@ ELSEWHERE_ROW(mtl, look)
 ELSEWHERE_ROW(irrlicht, look)
 ELSEWHERE_ROW(mathgl, look)
 ELSEWHERE_ROW(seen, look)
+ELSEWHERE_ROW(inventor_lamp, lamp)
+ELSEWHERE_ROW(osg, look)
+ELSEWHERE_ROW(deck, look)
+ELSEWHERE_ROW(processing, look)
+ELSEWHERE_ROW(processing_lamp, lamp)
+ELSEWHERE_ROW(playcanvas, look)
+ELSEWHERE_ROW(rasmol, look)
+ELSEWHERE_ROW(jmol, look)
 
 static const elsewhere_row elsewhere_rows[] = {
     { "vtk", "color=1,1,1 specular_color=1,1,1 ambient=0 diffuse=1 specular=0 power=1",
@@ -77,6 +86,8 @@ static const elsewhere_row elsewhere_rows[] = {
       NULL, elsewhere_row_povray_lamp },
     { "three_phong", "color=1,1,1 specular=.0056,.0056,.0056 emissive=0,0,0 shininess=30",
       elsewhere_row_three_phong, NULL },
+    { "three_mtl", "Kd=1,1,1 Ks=.0667,.0667,.0667 Ke=0,0,0 Ns=30 illum=2", elsewhere_row_three_mtl,
+      NULL },
     { "three_lambert", "color=1,1,1 emissive=0,0,0", elsewhere_row_three_lambert, NULL },
     { "three_toon", "color=1,1,1 emissive=0,0,0", elsewhere_row_three_toon, NULL },
     { "babylon", "diffuse=1,1,1 specular=1,1,1 ambient=0,0,0 emissive=0,0,0 power=64",
@@ -127,6 +138,23 @@ static const elsewhere_row elsewhere_rows[] = {
     { "mtl", "Ka=0,0,0 Kd=.8,.8,.8 Ks=0,0,0 Ke=0,0,0 Ns=0 illum=2", elsewhere_row_mtl, NULL },
     { "irrlicht", "DiffuseColor=1,1,1 EmissiveColor=0,0,0", elsewhere_row_irrlicht, NULL },
     { "mathgl", "color=1,1,1 ambient=.5", elsewhere_row_mathgl, NULL },
+    { "inventor_lamp",
+      "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 cutOffAngle=.7853982 dropOffRate=0", NULL,
+      elsewhere_row_inventor_lamp },
+    { "osg", "ambient=.2,.2,.2 diffuse=.8,.8,.8 specular=0,0,0 emission=0,0,0 shininess=0",
+      elsewhere_row_osg, NULL },
+    { "deck", "color=0,0,0 specularColor=.15,.15,.15 ambient=.35 diffuse=.6 shininess=32",
+      elsewhere_row_deck, NULL },
+    { "processing", "fill=1,1,1 ambient=.5,.5,.5 specular=.5,.5,.5 emissive=0,0,0 shininess=1",
+      elsewhere_row_processing, NULL },
+    { "processing_lamp",
+      "at=0,0,1,0 color=1,1,1 attenuation=1,0,0 aim=0,0,0 angle=1.0471976 concentration=100", NULL,
+      elsewhere_row_processing_lamp },
+    { "playcanvas", "diffuse=1,1,1 specular=0,0,0 emissive=0,0,0 gloss=.25",
+      elsewhere_row_playcanvas, NULL },
+    { "rasmol", "color=1,1,1 ambient=40 specular=0 specpower=10", elsewhere_row_rasmol, NULL },
+    { "jmol", "color=1,1,1 ambientPercent=45 diffusePercent=84 specularPercent=22 phongExponent=64",
+      elsewhere_row_jmol, NULL },
     { "seen", "color=.5,.5,.5 specularColor=1,1,1 specularExponent=15", elsewhere_row_seen, NULL },
     { NULL, NULL, NULL, NULL }
 };

@@ -10,6 +10,7 @@
 #include "shade.h"
 #include "examples/kit/image/apart.h"
 #include "examples/kit/image/pictures.h"
+#include "examples/kit/image/numbers.h"
 #include "examples/kit/image/png.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
@@ -785,8 +786,8 @@ typedef char python_png_room[sizeof(png) <= 256 ? 1 : -1];
 
 /* Finds what a PNG has; facts: width, height, the bytes that are packed and those that they unpack
    to.  Returns what is wrong, or NULL. */
-SHADEDEF const char *python_png_open(png *p, const unsigned char *bytes, size_t size,
-                                     double facts[4]);
+NATIVE(png_open)
+const char *python_png_open(png *p, const unsigned char *bytes, size_t size, double facts[4]);
 const char *python_png_open(png *p, const unsigned char *bytes, size_t size, double facts[4])
 {
     const char *wrong = png_open(p, bytes, size);
@@ -797,13 +798,65 @@ const char *python_png_open(png *p, const unsigned char *bytes, size_t size, dou
     return wrong;
 }
 
-SHADEDEF void python_png_gather(const png *p, unsigned char *out);
+NATIVE(png_gather) void python_png_gather(const png *p, unsigned char *out);
 void python_png_gather(const png *p, unsigned char *out) { png_gather(p, out); }
 
 SHADEDEF const char *python_png_rgba(const png *p, unsigned char *raw, uint8_t *rgba);
 const char *python_png_rgba(const png *p, unsigned char *raw, uint8_t *rgba)
 {
     return png_rgba(p, raw, rgba);
+}
+
+NATIVE(png_grey) const char *python_png_grey(const png *p, unsigned char *raw, uint16_t *out);
+const char *python_png_grey(const png *p, unsigned char *raw, uint16_t *out)
+{
+    return png_grey(p, raw, out);
+}
+
+NATIVE(png_lines)
+size_t python_png_lines(const uint8_t *rgba, int width, int height, int *kind, unsigned char *out);
+size_t python_png_lines(const uint8_t *rgba, int width, int height, int *kind, unsigned char *out)
+{
+    return png_lines(rgba, width, height, kind, out);
+}
+
+NATIVE(png_lines16)
+size_t python_png_lines16(const uint16_t *grey, int width, int height, unsigned char *out);
+size_t python_png_lines16(const uint16_t *grey, int width, int height, unsigned char *out)
+{
+    return png_lines16(grey, width, height, out);
+}
+
+NATIVE(png_file)
+size_t python_png_file(int width, int height, int kind, const unsigned char *packed, size_t size,
+                       unsigned char *out);
+size_t python_png_file(int width, int height, int kind, const unsigned char *packed, size_t size,
+                       unsigned char *out)
+{
+    return png_file(width, height, kind, packed, size, out);
+}
+
+/* Depths as grey, or back where depth is to be written: to_depth 1 */
+NATIVE(depth_numbers)
+int python_depth_numbers(core_refusal *r, const char *argument, float *depth, size_t n, double unit,
+                         uint16_t *grey, int to_depth);
+int python_depth_numbers(core_refusal *r, const char *argument, float *depth, size_t n, double unit,
+                         uint16_t *grey, int to_depth)
+{
+    return to_depth ? numbers_to_depth(r, grey, n, unit, depth)
+                    : numbers_from_depth(r, argument, depth, n, unit, grey);
+}
+
+/* Numbers of objects as grey, the first of step for each pixel; step 0: back */
+NATIVE(id_numbers)
+int python_id_numbers(core_refusal *r, const char *argument, int32_t *ids, size_t n, size_t step,
+                      uint16_t *grey);
+int python_id_numbers(core_refusal *r, const char *argument, int32_t *ids, size_t n, size_t step,
+                      uint16_t *grey)
+{
+    if (step) return numbers_from_ids(r, argument, ids, n, step, grey);
+    numbers_to_ids(grey, n, ids);
+    return 0;
 }
 
 SHADEDEF void python_apart(const uint8_t *a, const uint8_t *b, size_t n, int32_t *out);
@@ -1024,11 +1077,17 @@ int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh,
     return renderer_set_mesh(scene, number, mesh, smooth, origin);
 }
 
-/* 1: done, 0: out of memory, -1: the mesh has other counts, -2: a position is not finite */
+/* 1: done, 0: out of memory, -1: the mesh has other counts, -2: a position is not finite.  Normals
+   that are given are directed where they stand. */
 NATIVE(scene_deform)
 int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m);
 int python_scene_deform(renderer_scene *scene, int number, const renderer_moved *m)
 {
+    const shade_mesh moved = { .positions = m->positions,
+                               .vertex_count = m->vertex_count,
+                               .indices = m->faces,
+                               .index_count = m->index_count };
+    if (m->given && python_direct_normals(&moved, m->given)) return 0;
     return renderer_deform(scene, number, m);
 }
 

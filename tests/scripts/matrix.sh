@@ -61,18 +61,33 @@ if [ "$LONG" ]; then
     while read -r runner command <&3; do
         one "$command" "$runner" $command -static
     done 3<"$T/far"
-    # A board of qemu: 4 MB of flash, 16 MB of memory.  picolibc prints by semihosting, and hands a
-    # program its own path, which the scenes take for a folder of pictures.
+    # Boards of qemu with 4 MB of flash and 16 MB of memory; the code of a Cortex-M0 runs on an M3.
+    # picolibc prints by semihosting, and hands a program its own path, which the scenes take for a
+    # folder of pictures.
     cat >"$T/board" <<'END'
-qemu-system-arm -nographic -semihosting -M "$1" -kernel "$2" </dev/null 2>&1 | grep -v 'cannot be written$'
+case $1 in *riscv32) bios="-bios none" ;; esac
+"$1" -nographic -semihosting $bios -M "$2" -kernel "$3" </dev/null 2>&1 | grep -v 'cannot be written$'
 END
-    there qemu-system-arm && board="sh $T/board" || board=qemu-system-arm
-    places="-Wl,--defsym=__flash=0x0 -Wl,--defsym=__flash_size=0x400000 -Wl,--defsym=__ram=0x21000000
-        -Wl,--defsym=__ram_size=0x1000000 -Wl,--defsym=__stack_size=0x40000"
-    picolibc="arm-none-eabi-gcc --specs=picolibc.specs --oslib=semihost --crt0=semihost -mthumb $places -O2"
-    one "Cortex-M3" "$board mps2-an385" $picolibc -mcpu=cortex-m3
+    # name, system, machine, flash, memory, compiler and flags
+    board() {
+        name=$1 system=$2 machine=$3 flash=$4 ram=$5 run=$2; shift 5
+        ! there "$system" || run="sh $T/board $system $machine"
+        one "$name" "$run" "$@" --specs=picolibc.specs --oslib=semihost --crt0=semihost -O2 \
+            "-Wl,--defsym=__flash=$flash" -Wl,--defsym=__flash_size=0x400000 "-Wl,--defsym=__ram=$ram" \
+            -Wl,--defsym=__ram_size=0x1000000 -Wl,--defsym=__stack_size=0x40000
+    }
+    arm() {
+        name=$1 machine=$2 ram=$3; shift 3
+        board "$name" qemu-system-arm "$machine" 0 "$ram" arm-none-eabi-gcc -mthumb "$@"
+    }
+    arm "Cortex-M0" mps2-an385 0x21000000 -mcpu=cortex-m0
+    arm "Cortex-M3" mps2-an385 0x21000000 -mcpu=cortex-m3
+    arm "Cortex-M4F" mps2-an386 0x21000000 -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16
+    arm "Cortex-M7" mps2-an500 0x60000000 -mcpu=cortex-m7 -mfloat-abi=hard -mfpu=fpv5-d16
+    board "riscv32 without an FPU" qemu-system-riscv32 virt 0x80000000 0x80400000 \
+        riscv64-unknown-elf-gcc -march=rv32imac -mabi=ilp32
 else
-    left_out "$(far_machines | wc -l) processors and a board more, with LONG=1"
+    left_out "$(far_machines | wc -l) processors and five boards more, with LONG=1"
 fi
 
 # gcc heeds the header under -ffast-math too; clang is refused

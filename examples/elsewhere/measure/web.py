@@ -1,9 +1,18 @@
 """Programs of the npm registry, drawn by a headless chromium (Debian: chromium):
 
-    npm install --prefix DIR three@0.187.0 ...      the versions below
+    npm install --prefix DIR PACKAGES
+    packages: three@0.187.0 babylonjs@9.35.0 x_ite@15.0.1 x3dom@1.8.3 p5@1.11.13 processing-js@1.6.6
+    packages: @xeokit/xeokit-sdk@2.6.114 @kitware/vtk.js@37.4.3 playcanvas@2.23.3 seen@0.2.7 esbuild@0.25.12
+    packages: @deck.gl/core@9.4.0 @deck.gl/mesh-layers@9.4.0 @luma.gl/engine@9.4.2
     MODULES=DIR/node_modules python3 web.py three_phong babylon ... [--write]
 
 Without names all of them.  web/PAGE.js draws a case on a canvas.
+
+Guesses before anything was drawn, and what became of them:
+  deck.gl        (N.H)^n, V to the camera's point, not gated       gated, else right
+  Processing.js  (R.V)^n, gated, at vertices                       (N.H)^n; length of a direction, falloff of ambient light not thought of
+  PlayCanvas     GGX of roughness (1 - gloss)^2                    wrong: (n + 2)/8 (N.H)^n, n = 2^(11 gloss)
+  MTLLoader      (written after its source was read)
 """
 import http.server, json, os, signal, subprocess, sys, tempfile, threading
 from urllib.parse import urlparse
@@ -14,7 +23,7 @@ MODULES = os.environ.get('MODULES', os.path.join(os.getcwd(), 'node_modules'))
 KINDS = {'.js': 'text/javascript', '.mjs': 'text/javascript', '.html': 'text/html',
          '.css': 'text/css', '.json': 'application/json', '.wasm': 'application/wasm'}
 
-BUNDLED = ('vtkjs',)    # whose modules a browser cannot load as they are; by esbuild@0.25.12 (npm)
+BUNDLED = ('vtkjs', 'deck')    # whose modules a browser cannot load as they are; by esbuild@0.25.12 (npm)
 
 def bundle(page):
     done = subprocess.run([os.path.join(MODULES, '.bin', 'esbuild'), os.path.join(HERE, 'web', page + '.js'), '--bundle',
@@ -97,6 +106,11 @@ def three_lambert():
     measure('three', 'three_lambert', 'three 0.187.0 MeshLambertMaterial (npm)',
             every(m, [[dict(at=at, intensity=3)] for at in DIRECTIONS]), lamp='three_lamp', head='ambient .25\n')
 
+def three_mtl():
+    m = [dict(Kd=ORANGE, Ks=(.5, .5, .5), Ns=10, illum=2), dict(Kd=(.6, .6, .6), Ks=(.3, .3, .3), Ns=30, illum=1),
+         dict(Kd=BLUE, Ks=(.2, .1, 0), Ke=(.1, 0, .2), Ns=100, illum=0)]
+    measure('three', 'three_mtl', 'three 0.187.0 MTLLoader (npm)', every(m, [[dict(at=at, intensity=math.pi)] for at in DIRECTIONS]), lamp='three_lamp', head='ambient .25\n')
+
 def babylon():
     m = [dict(diffuse=(.6, .3, .12), specular=(.3, .3, .3), power=10), dict(diffuse=(.6, .6, .6), specular=(.8, .8, .8), power=30),
          dict(diffuse=(.14, .28, .63), specular=(.5, .4, .3), power=100, emissive=(.04, .08, .18), ambient=(.4, .2, .8))]
@@ -139,7 +153,25 @@ def vtkjs():
              [dict(at=(2, 1.5, 2.5, 1), aim=(-1, 0, 0), cone=120, exponent=20, attenuation=(.5, 0, .1))]]
     measure('vtkjs', 'vtkjs', 'vtk.js 37.4.3 (npm)', every(m, directions()) + every(m[:1], lamps), Case('parallel', m[1], [dict(at=KEY)]), lamp='vtkjs_lamp', head='within 1.6\n')
 
-PROGRAMS = [three_phong, three_toon, three_lambert, babylon, x_ite, x3dom, p5, xeokit, vtkjs]
+def deck():
+    m = [dict(color=ORANGE, ambient=.1, diffuse=.6, specularColor=(.3, .3, .3), shininess=10),
+         dict(color=WHITE, ambient=0, diffuse=.6, specularColor=(.8, .8, .8), shininess=30),
+         dict(color=BLUE, ambient=.2, diffuse=.7, specularColor=(.5, .4, .3), shininess=100)]
+    measure('deck', 'deck', 'deck.gl 9.4.0 SimpleMeshLayer (npm)', every(m, directions()) + every(m[:1], [POINT, [dict(at=(2, 1.5, 2.5, 1), attenuation=(.5, .2, .1))]]))
+
+def processing():
+    m = [dict(fill=ORANGE, ambient=(.4, .4, .4), specular=(.2, .2, .2), shininess=10), dict(fill=(.6, .6, .6), ambient=(0, 0, 0), specular=(.4, .4, .4), shininess=30),
+         dict(fill=BLUE, ambient=(.2, .4, .6), specular=(.6, .4, .2), emissive=(.04, .08, .12), shininess=100)]
+    lamps = [[dict(at=(10, 10, 10, 0))], [dict(at=(.3, .3, .3, 0))], [dict(at=(1, 1, 3, 1), aim=(-1, -1, -3), angle=.35, concentration=20)]]
+    # lightFalloff dims ambient light too: a material without it
+    falls = [[dict(at=(2, 1.5, 2.5, 1), attenuation=(.5, .2, .1))]]
+    measure('processing', 'processing', 'Processing.js 1.6.6 (npm)', every(m, directions()) + every(m[:1], lamps) + every(m[1:2], falls), lamp='processing_lamp', head=f'ambient {64 / 255:.6f}\n')
+
+def playcanvas():
+    m = [dict(diffuse=ORANGE, specular=(.3, .3, .3), gloss=.5), dict(diffuse=(.6, .6, .6), specular=(.8, .8, .8), gloss=.7), dict(diffuse=BLUE, specular=(.5, .4, .3), gloss=.25, emissive=(.2, .1, .3))]
+    measure('playcanvas', 'playcanvas', 'PlayCanvas 2.23.3 StandardMaterial (npm)', every(m, directions()), head=f'ambient {.25 ** 2.2:.6f}\n')
+
+PROGRAMS = [three_phong, three_toon, three_lambert, three_mtl, babylon, x_ite, x3dom, p5, xeokit, vtkjs, deck, processing, playcanvas]
 if __name__ == '__main__':
     names = [a for a in sys.argv[1:] if not a.startswith('-')]
     failed = 0

@@ -1,7 +1,7 @@
 /* save.h - writes files.  A new name appears whole or not at all: the file is written under another
    name first, which a signal that ends the program removes.  A file that exists stays the same
    file, with its mode, owner and links, as a file manager that holds it open wants it: what is to
-   be in it is made in memory and written over it at once (not on Windows, where it is replaced).
+   be in it is made first, and written over it at once.
 
        const int failed = save_bytes("a.ppm", writes, &data);       (a line on stderr has said why)
 
@@ -285,6 +285,58 @@ static inline int save_end(FILE *file, const char *path, int failed)
     free(name);
     return failed != 0;
 }
+
+/* 1: a file has that name, which is written over. */
+static inline int save_is_there(const char *path)
+{
+    wchar_t *name = path_wide(path);
+    const DWORD is = name ? GetFileAttributesW(name) : INVALID_FILE_ATTRIBUTES;
+    free(name);
+    return is != INVALID_FILE_ATTRIBUTES && !(is & FILE_ATTRIBUTE_DIRECTORY);
+}
+
+static inline int save_set_end(HANDLE file, LARGE_INTEGER size)
+{
+    return SetFilePointerEx(file, size, NULL, FILE_BEGIN) && SetEndOfFile(file);
+}
+
+/* Copies a file over another one, whose room is taken before anything in it changes.  0: the
+   reason is that of the system */
+static inline int save_copy(HANDLE from, HANDLE to)
+{
+    const LARGE_INTEGER start = { .QuadPart = 0 };
+    LARGE_INTEGER size, was;
+    char bytes[16384];
+    DWORD n = 0, done = 0;
+    if (!GetFileSizeEx(from, &size) || !GetFileSizeEx(to, &was)) return 0;
+    if (was.QuadPart < size.QuadPart && !save_set_end(to, size)) return 0;
+    if (!SetFilePointerEx(to, start, NULL, FILE_BEGIN)) return 0;
+    while (ReadFile(from, bytes, sizeof bytes, &n, NULL) && n)
+        if (!WriteFile(to, bytes, n, &done, NULL) || done != n) return 0;
+    return save_set_end(to, size);
+}
+
+/* Writes what stands under the other name over a file, one writer after the other.  Non-zero: the
+   reason is in errno */
+static inline int save_over(const char *path)
+{
+    const DWORD all = FILE_SHARE_READ | FILE_SHARE_DELETE;
+    wchar_t *name = path_wide(path);
+    HANDLE from = CreateFileW(guard_part, GENERIC_READ, all, NULL, OPEN_EXISTING, 0, NULL);
+    HANDLE to = INVALID_HANDLE_VALUE;
+    int failed;
+    for (int tries = 0; name && tries < 100 && to == INVALID_HANDLE_VALUE; tries++) {
+        to = CreateFileW(name, GENERIC_WRITE, all, NULL, OPEN_EXISTING, 0, NULL);
+        if (to != INVALID_HANDLE_VALUE || GetLastError() != ERROR_SHARING_VIOLATION) break;
+        Sleep(20); /* another writer has it */
+    }
+    failed = from == INVALID_HANDLE_VALUE || to == INVALID_HANDLE_VALUE || !save_copy(from, to);
+    if (failed && name) save_reason();
+    if (from != INVALID_HANDLE_VALUE) CloseHandle(from);
+    if (to != INVALID_HANDLE_VALUE) CloseHandle(to);
+    free(name);
+    return failed;
+}
 #else
 static inline int save_is_device(const char *name) { return (void)name, 0; }
 static inline int save_same(const char *a, const char *b) { return !strcmp(a, b); }
@@ -325,6 +377,19 @@ static inline int save_again(const char *path, save_writer *writes, const void *
     free(bytes);
     return failed != 0;
 }
+#elif defined(GUARD_WINDOWS)
+/* Makes under another name what is to be in a file that exists, and writes it over that. */
+static inline int save_again(const char *path, save_writer *writes, const void *data)
+{
+    FILE *file = save_begin(path);
+    int failed = file ? writes(file, data) : SAVE_SAID;
+    if (file && fclose(file) && !failed) failed = 1;
+    if (!failed) failed = save_over(path);
+    if (failed == 1) save_failed(path);
+    if (file) DeleteFileW(guard_part);
+    guard_part[0] = 0;
+    return failed != 0;
+}
 #endif
 
 /* Writes a file; - is standard output.  Returns 1 with a line on stderr. */
@@ -336,6 +401,8 @@ static inline int save_bytes(const char *path, save_writer *writes, const void *
 #ifdef GUARD_POSIX
     char room[4096];
     if (!out) path = save_target(path, room, sizeof room);
+#endif
+#if defined(GUARD_POSIX) || defined(GUARD_WINDOWS)
     if (!out && save_is_there(path)) return save_again(path, writes, data);
 #endif
     if (!out && !save_is_device(path)) {

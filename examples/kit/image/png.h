@@ -1,11 +1,14 @@
-/* png.h - reads PNG of every depth and kind of colour, interlaced too.  Checksums are checked.
-   What is packed the caller unpacks, by zlib.
+/* png.h - reads PNG of every depth and kind of colour, interlaced too, and writes it.  Checksums
+   are checked.  What is packed the caller unpacks, and packs, by zlib.
 
        png p;
        const char *wrong = png_open(&p, bytes, size);            the header; finds the chunks
        png_gather(&p, packed);                                   p.packed bytes, of zlib's format
        ... png_bytes(&p) bytes of raw ...
-       if (png_rgba(&p, raw, rgba)) ...                          4 * width * height bytes */
+       if (png_rgba(&p, raw, rgba)) ...                          4 * width * height bytes
+
+       n = png_lines(rgba, width, height, &kind, lines);         rows, which pack well
+       n = png_file(width, height, kind, packed, size, file);    the file around what is packed */
 #ifndef MODEL_PNG_H
 #define MODEL_PNG_H
 
@@ -257,5 +260,113 @@ static inline const char *png_rgba(const png *p, unsigned char *raw, uint8_t *rg
         failed = png_draw(p, png_pass_of(p, i), &raw, zeros, rgba);
     free(zeros);
     return failed ? "has an unknown filter, or a colour that its palette does not have" : NULL;
+}
+
+/* The samples of a grey picture without alpha as they are stored, 0 to 65,535.  raw is changed.
+   Returns what is wrong, or NULL. */
+static inline const char *png_grey(const png *p, unsigned char *raw, uint16_t *out)
+{
+    unsigned char *zeros = (unsigned char *)calloc(png_row_bytes(p, p->width) + 1, 1);
+    int failed = 0;
+    if (!zeros) return "needs more memory than there is";
+    for (int i = 0; i < (p->interlaced ? 7 : 1) && p->kind == PNG_GREY && !failed; i++) {
+        const png_pass s = png_pass_of(p, i);
+        const int columns = png_across(p, s), rows = columns ? png_along(p, s) : 0;
+        const unsigned char *above = zeros;
+        const size_t n = png_row_bytes(p, columns);
+        for (int y = 0; y < rows && !failed; y++, raw += 1 + n) {
+            uint16_t *to = out + (size_t)(s.y + y * s.down) * (size_t)p->width + (size_t)s.x;
+            failed = png_unfilter(*raw, raw + 1, above, n, ((size_t)p->depth + 7) / 8);
+            above = raw + 1;
+            for (int x = 0; x < columns; x++)
+                to[x * s.right] = (uint16_t)png_sample(p, raw + 1, (size_t)x);
+        }
+    }
+    free(zeros);
+    if (p->kind != PNG_GREY) return "is no PNG of one grey number a pixel";
+    return failed ? "has an unknown filter" : NULL;
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+/* Rows as their differences from the rows above, each behind the byte of that filter: so they pack
+   well, and at once. */
+static inline size_t png_differences(const unsigned char *bytes, int rows, size_t row,
+                                     unsigned char *out)
+{
+    for (int y = 0; y < rows; y++, bytes += row) {
+        *out++ = 2;
+        for (size_t i = 0; i < row; i++)
+            *out++ = (unsigned char)(y ? bytes[i] - *(bytes + i - row) : bytes[i]);
+    }
+    return (size_t)rows * (1 + row);
+}
+
+/* RGB where all of RGBA is opaque, else RGBA, as *kind says.  out has room for a byte a row and
+   four a pixel.  Returns how many bytes there are; 0: out of memory */
+static inline size_t png_lines(const uint8_t *rgba, int width, int height, int *kind,
+                               unsigned char *out)
+{
+    const size_t pixels = (size_t)width * (size_t)height;
+    unsigned char *rgb;
+    size_t bytes, i = 0;
+    while (i < pixels && rgba[4 * i + 3] == 255) i++;
+    *kind = i < pixels ? PNG_RGBA : PNG_RGB;
+    if (i < pixels) return png_differences(rgba, height, 4 * (size_t)width, out);
+    rgb = (unsigned char *)malloc(3 * pixels + 1);
+    if (!rgb) return 0;
+    for (i = 0; i < pixels; i++) memcpy(rgb + 3 * i, rgba + 4 * i, 3);
+    bytes = png_differences(rgb, height, 3 * (size_t)width, out);
+    free(rgb);
+    return bytes;
+}
+
+/* Numbers as grey of 16 bits.  out has room for a byte a row and two a pixel. */
+static inline size_t png_lines16(const uint16_t *grey, int width, int height, unsigned char *out)
+{
+    uint16_t above = 0;
+    unsigned char *const start = out;
+    for (int y = 0; y < height; y++) {
+        *out++ = 2;
+        for (int x = 0; x < width; x++, grey++) {
+            above = y ? *(grey - width) : 0;
+            *out++ = (unsigned char)((*grey >> 8) - (above >> 8));
+            *out++ = (unsigned char)((*grey & 255) - (above & 255));
+        }
+    }
+    return (size_t)(out - start);
+}
+
+static inline unsigned char *png_put(unsigned char *to, uint32_t x)
+{
+    for (int k = 24; k >= 0; k -= 8) *to++ = (unsigned char)(x >> k);
+    return to;
+}
+
+static inline unsigned char *png_put_chunk(unsigned char *to, const char *kind,
+                                           const unsigned char *data, size_t size)
+{
+    unsigned char *const start = png_put(to, (uint32_t)size);
+    memcpy(start, kind, 4);
+    if (size) memcpy(start + 4, data, size);
+    return png_put(start + 4 + size, zip_crc(0, start, 4 + size));
+}
+
+/* The file of rows that are packed, below 2 GB: grey of 16 bits, or RGB or RGBA of 8, as a display
+   has them.  out has room for 70 bytes more than are packed.  Returns how many bytes there are. */
+enum { PNG_AROUND = 70 };
+static inline size_t png_file(int width, int height, int kind, const unsigned char *packed,
+                              size_t size, unsigned char *out)
+{
+    const unsigned char relative = 0; /* of sRGB: how colours that are not shown are replaced */
+    unsigned char head[13] = { 0 }, *to = out + 8;
+    memcpy(out, "\x89PNG\r\n\x1A\n", 8);
+    png_put(png_put(head, (uint32_t)width), (uint32_t)height);
+    head[8] = kind == PNG_GREY ? 16 : 8;
+    head[9] = (unsigned char)kind;
+    to = png_put_chunk(to, "IHDR", head, sizeof head);
+    if (kind != PNG_GREY) to = png_put_chunk(to, "sRGB", &relative, 1);
+    to = png_put_chunk(to, "IDAT", packed, size);
+    return (size_t)(png_put_chunk(to, "IEND", NULL, 0) - out);
 }
 #endif

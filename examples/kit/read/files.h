@@ -106,9 +106,9 @@ static const struct {
                     { "3mf", "attribute", threemf_attributes },
                     { "3mf", "type", threemf_types } };
 
-static inline int model_read_stl(mesh_reader *r, model *m)
+static inline int model_read_stl(mesh_reader *r, model *m, FILE *file)
 {
-    if (stl_read(r, m)) return 1;
+    if (stl_read(r, m, file)) return 1;
     m->part = (model_part *)calloc(1, sizeof *m->part);
     if (!m->part) return mesh_fail(r, "out of memory");
     m->part->count = m->mesh.view.index_count;
@@ -130,19 +130,26 @@ typedef struct model_request {
     const volatile int *stop; /* as in mesh_reader */
 } model_request;
 
+static inline mesh_reader model_reader(const void *bytes, size_t size, const char *name,
+                                       const model_request *q)
+{
+    mesh_reader r = mesh_of(bytes, size, name, q->error, q->error_size);
+    r.line = 1;
+    r.progress = q->progress;
+    r.user = q->user;
+    r.most = q->most;
+    r.stop = q->stop;
+    return r;
+}
+
 static inline int model_read_once(const void *bytes, size_t size, const char *name, model *m,
                                   const model_request *q)
 {
     static const unsigned char nothing[1];
     const unsigned char *all = size ? (const unsigned char *)bytes : nothing;
     const unsigned char *begin = model_text_of(all, &size);
-    mesh_reader r = mesh_of(begin, size, name, q->error, q->error_size);
+    mesh_reader r = model_reader(begin, size, name, q);
     int failed;
-    r.line = 1;
-    r.progress = q->progress;
-    r.user = q->user;
-    r.most = q->most;
-    r.stop = q->stop;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
     else if (mesh_is_utf16(begin, size))
@@ -158,7 +165,7 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
         failed = ply_read(&r, m);
     else if (mesh_is_stl(name, begin, size) ||
              (!model_kind_of(name).text[0] && stl_seems(begin, size)))
-        failed = model_read_stl(&r, m);
+        failed = model_read_stl(&r, m, NULL);
     else
         failed = obj_read(&r, m);
     if (failed) model_free(m);
@@ -373,21 +380,49 @@ static inline void model_read_libraries(const char *path, model *m)
     }
 }
 
+/* Opens binary STL that fits its count, whose head of 84 bytes is read; NULL: the file is something
+   else, or cannot be opened.  Such a file is read in pieces: it can be twice as large as the mesh in
+   it. */
+static inline FILE *model_open_stl(const char *path, unsigned char *head, long *size)
+{
+    mesh_reader r = mesh_about(path, NULL, 0);
+    size_t n = 84;
+    FILE *file = strcmp(model_kind_of(path).text, "stl") ? NULL : model_open_file(&r, path);
+    if (!file) return NULL;
+    if (fread(head, 1, n, file) == n && !fseek(file, 0, SEEK_END) && (*size = ftell(file)) > 0 &&
+        stl_fits(head, (size_t)*size) && (double)*size <= MODEL_BYTES &&
+        !mesh_is_gltf(path, head, n) && model_text_of(head, &n) == head &&
+        !fseek(file, 84, SEEK_SET))
+        return file;
+    fclose(file);
+    return NULL;
+}
+
 static inline int model_read_file(const char *path, model *m, const model_request *q)
 {
     static const model empty;
     mesh_reader r = mesh_about(path, q->error, q->error_size);
-    unsigned char *bytes = NULL;
+    unsigned char *bytes = NULL, head[84];
     size_t size = 0;
+    long all = 0;
     model said = empty;
-    int failed = model_load(&r, path, MODEL_BYTES, &bytes, &size);
+    FILE *file = model_open_stl(path, head, &all);
+    int failed = !file && model_load(&r, path, MODEL_BYTES, &bytes, &size);
     *m = empty;
     said.path = path;
     said.beside = model_load_file;
     said.inflate = model_inflate;
     said.polish_wanted = 1;
     said.lines_wanted = q->lines;
-    if (!failed) failed = model_read_with(bytes, size, path, m, q, &said);
+    if (file) {
+        *m = said;
+        r = model_reader(head, sizeof head, path, q);
+        r.all = (double)all;
+        failed = model_read_stl(&r, m, file);
+        if (failed) model_free(m);
+        fclose(file);
+    } else if (!failed)
+        failed = model_read_with(bytes, size, path, m, q, &said);
     free(bytes);
     if (!failed) model_read_libraries(path, m);
     return failed;

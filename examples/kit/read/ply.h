@@ -1,7 +1,8 @@
 /* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue (or r g
-   b, diffuse_red ..., or f_dc_0 ... of Gaussian splats), u v (or s t, texture_u texture_v) of
-   vertices, lists of corners of faces and of their texture coordinates, red green blue of faces
-   where vertices have none, triangle strips, and the picture named by a comment TextureFile.
+   b, diffuse_red ..., or f_dc_0 ... of Gaussian splats, with their opacity, scale_0 ... and rot_0
+   ...), u v (or s t, texture_u texture_v) of vertices, lists of corners of faces and of their
+   texture coordinates, red green blue of faces where vertices have none, triangle strips, and the
+   picture named by a comment TextureFile.
    Other elements and properties are skipped. */
 #ifndef MODEL_PLY_H
 #define MODEL_PLY_H
@@ -11,13 +12,16 @@
 
 enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
 enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
-enum { PLY_POSITION, PLY_NORMAL, PLY_COLOR, PLY_PLACE, PLY_COLUMNS };
+enum { PLY_POSITION, PLY_NORMAL, PLY_COLOR, PLY_PLACE, PLY_SPLAT, PLY_COLUMNS };
 enum {
     PLY_X,
     PLY_NX = 3,
     PLY_RED = 6,
     PLY_U = 9,
-    PLY_VALUES = 11,
+    PLY_OPACITY = 11,
+    PLY_SCALE,
+    PLY_TURN = 15,
+    PLY_VALUES = 19,
     PLY_CORNERS,
     PLY_TEXCOORD,
     PLY_ALPHA,
@@ -25,7 +29,8 @@ enum {
     PLY_UNUSED
 };
 enum { PLY_MOST = 256 }; /* properties in all */
-static const int ply_first[PLY_COLUMNS + 1] = { PLY_X, PLY_NX, PLY_RED, PLY_U, PLY_VALUES };
+static const int ply_first[PLY_COLUMNS + 1] = { PLY_X, PLY_NX,      PLY_RED,
+                                                PLY_U, PLY_OPACITY, PLY_VALUES };
 
 /* signed and unsigned integers of 1, 2, 4 bytes, floats of 4 and 8 */
 typedef enum ply_type {
@@ -127,6 +132,11 @@ static const known_name ply_of_face[] = { { "vertex_indices", KNOWN_DRAWN },
                                           { "texnumber", KNOWN_TOLD },
                                           { NULL, KNOWN_TOLD } };
 
+/* In the order of SPLAT_OPACITY ... */
+static const char *const ply_splat_names[SPLAT_VALUES] = { "opacity", "scale_0", "scale_1",
+                                                           "scale_2", "rot_0",   "rot_1",
+                                                           "rot_2",   "rot_3" };
+
 /* ---- the header ----------------------------------------------------------------------------- */
 
 static inline int ply_take_type(mesh_reader *r, ply_type *out)
@@ -183,6 +193,8 @@ static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
         if (mesh_take_word(r, names[k])) return meaning[k];
     for (int k = PLY_RED; kind == PLY_FACE && !is_list && k < PLY_U; k++)
         if (mesh_take_word(r, names[k])) return k;
+    for (int k = 0; kind == PLY_VERTEX && !is_list && k < SPLAT_VALUES; k++)
+        if (mesh_take_word(r, ply_splat_names[k])) return PLY_OPACITY + k;
     return PLY_UNUSED;
 }
 
@@ -423,10 +435,12 @@ static inline double ply_white(const ply_data *p)
     return p->bright > 255 && p->whole > 0 ? p->whole : 255;
 }
 
-/* 1: the file has such a column; normals may lack a coordinate. */
+/* 1: the file has such a column; normals may lack a coordinate, splats opacity and turn. */
 static inline int ply_has(const ply_data *p, int column)
 {
     const int *has = p->has + ply_first[column];
+    if (column == PLY_SPLAT)
+        return has[SPLAT_SCALE] && has[SPLAT_SCALE + 1] && has[SPLAT_SCALE + 2];
     return has[0] || (column == PLY_NORMAL && (has[1] || has[2]));
 }
 
@@ -439,7 +453,7 @@ static inline double ply_splat(double value)
 
 static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e)
 {
-    double v[PLY_VALUES] = { 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0 };
+    double v[PLY_VALUES] = { 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 1e30, 0, 0, 0, 1 }; /* solid */
     float single[PLY_VALUES];
     for (int k = e->first; k < e->first + e->properties; k++) {
         const ply_property *at = &p->property[k];
@@ -458,7 +472,9 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
     }
     if (e->kind == PLY_FACE && p->by_corner && ply_place(r, p, v + PLY_RED)) return 1;
     if (e->kind != PLY_VERTEX) return 0;
-    for (int k = PLY_RED; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
+    for (int k = PLY_RED; k < PLY_OPACITY; k++) single[k] = mesh_or_zero(v[k]);
+    for (int k = PLY_OPACITY; k < PLY_VALUES; k++) /* not finite: of no size */
+        single[k] = fabs(v[k]) <= 1e30 ? (float)v[k] : -1e30f;
     mesh_normal(v + PLY_NX, single + PLY_NX);
     single[PLY_U + 1] = 1 - single[PLY_U + 1];
     mesh_relative(&p->origin, v, single);
@@ -552,6 +568,12 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     if ((p->clear || p->least < p->most || p->least < 1) &&
         known_take(r, out, KNOWN_TOLD, 0, p->alpha, strlen(p->alpha)))
         return 1;
+    for (int k = 0; k < SPLAT_VALUES && (has_faces || !ply_has(p, PLY_SPLAT)); k++)
+        if (p->has[PLY_OPACITY + k] &&
+            known_take(r, out, KNOWN_TOLD, 0, ply_splat_names[k], strlen(ply_splat_names[k])))
+            return 1;
+    if (!has_faces && ply_has(p, PLY_SPLAT))
+        return points_splats(r, out, n, p->column[PLY_SPLAT].v);
     if (!has_faces) return points_finish(r, out, n);
     m->texcoords = ply_take(p, PLY_PLACE);
     m->normals = ply_take(p, PLY_NORMAL);

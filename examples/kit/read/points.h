@@ -1,5 +1,5 @@
 /* points.h - points without faces as small balls: octahedra with the normals of a ball, as large as
-   the points around them are apart. */
+   the points around them are apart; and Gaussian splats as ellipsoids. */
 #ifndef MODEL_POINTS_H
 #define MODEL_POINTS_H
 
@@ -128,8 +128,9 @@ static inline double points_radii(points_spread *s)
 
 /* ---- the model ------------------------------------------------------------------------------- */
 
-/* Drops the points that are not finite from the mesh of a model, and returns how many stay. */
-static inline size_t points_keep(mesh_reader *r, model *m, size_t n)
+/* Drops the points that are not finite from the mesh of a model, and returns how many stay.  axes,
+   which may be NULL, has nine numbers of each. */
+static inline size_t points_keep(mesh_reader *r, model *m, size_t n, float *axes)
 {
     float *p = m->mesh.positions, *c = m->mesh.colors;
     size_t kept = 0;
@@ -137,15 +138,35 @@ static inline size_t points_keep(mesh_reader *r, model *m, size_t n)
         if (!mesh_finite(p + 3 * i)) continue;
         memmove(p + 3 * kept, p + 3 * i, 3 * sizeof *p);
         if (c) memmove(c + 3 * kept, c + 3 * i, 3 * sizeof *c);
+        if (axes) memmove(axes + 9 * kept, axes + 9 * i, 9 * sizeof *axes);
         kept++;
     }
     model_warn_dropped(m, r->name, n - kept, "points have coordinates");
     return kept;
 }
 
+/* A corner of an octahedron around a point at p, which moves there, and its normal: of a ball, or
+   of an ellipsoid by its half axes, or NULL */
+static inline void points_corner(size_t corner, double radius, const float *axes, float *p,
+                                 float *N)
+{
+    const float sign = corner % 2 ? -1.0f : 1.0f;
+    const float *a = axes + (axes ? 3 * (corner / 2) : 0);
+    const double length = axes ? sqrt((double)a[0] * (double)a[0] + (double)a[1] * (double)a[1] +
+                                      (double)a[2] * (double)a[2])
+                               : radius;
+    for (size_t k = 0; k < 3; k++) {
+        double place;
+        N[k] = axes ? sign * (float)((double)a[k] / length) : k == corner / 2 ? sign : 0;
+        place = (double)p[k] + length * (double)N[k];
+        p[k] = (float)fmax(-(double)FLT_MAX, fmin(place, (double)FLT_MAX));
+    }
+}
+
 /* Makes n points, whose positions and colours, or NULL, the mesh of a model holds, a model of one
-   part, and warns of it.  Non-zero: a message of the reader says why not. */
-static inline int points_show(mesh_reader *r, model *m, size_t n)
+   part, and warns of it.  axes: three half axes of each, or NULL for balls.  Non-zero: a message
+   of the reader says why not. */
+static inline int points_show(mesh_reader *r, model *m, size_t n, const float *axes)
 {
     static const uint32_t face[8][3] = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
                                          { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
@@ -161,7 +182,7 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
                       .normals = (float *)calloc(kept, 18 * sizeof(float)),
                       .colors = from.colors ? (float *)malloc(kept * 18 * sizeof(float)) : NULL,
                       .indices = (uint32_t *)malloc(kept * sizeof face) };
-    const double radius = spread.order && spread.apart ? points_radii(&spread) : 0;
+    const double radius = !spread.order || !spread.apart ? 0 : axes ? 1 : points_radii(&spread);
     char text[160], every[40] = "";
     const int enough = radius > 0 && to.positions && to.normals && to.indices;
     m->mesh = to;
@@ -170,11 +191,8 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
         const size_t at = 3 * i * step;
         for (size_t c = 0; c < 6; c++) {
             float *p = to.positions + 18 * i + 3 * c, *N = to.normals + 18 * i + 3 * c;
-            double place;
             memcpy(p, from.positions + at, 3 * sizeof *p);
-            N[c / 2] = c % 2 ? -1.0f : 1.0f;
-            place = (double)p[c / 2] + (double)spread.apart[i] * (double)N[c / 2];
-            p[c / 2] = (float)fmax(-(double)FLT_MAX, fmin(place, (double)FLT_MAX));
+            points_corner(c, (double)spread.apart[i], axes ? axes + 3 * at : NULL, p, N);
             if (to.colors) memcpy(to.colors + 18 * i + 3 * c, from.colors + at, 3 * sizeof *p);
         }
         for (size_t k = 0; k < 24; k++)
@@ -190,9 +208,13 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
     m->part->count = 24 * (int)kept;
     m->part_count = m->normals_given = 1;
     if (step > 1) snprintf(every, sizeof every, ", one of %lu", (unsigned long)step);
-    snprintf(text, sizeof text,
-             "%lu points have no faces: they are drawn as small balls of radius %.3g or so%s",
-             (unsigned long)n, radius, every);
+    if (axes)
+        snprintf(text, sizeof text, "%lu Gaussian splats are drawn as solid ellipsoids%s",
+                 (unsigned long)n, every);
+    else
+        snprintf(text, sizeof text,
+                 "%lu points have no faces: they are drawn as small balls of radius %.3g or so%s",
+                 (unsigned long)n, radius, every);
     model_warn(m, r->name, text);
     return 0;
 }
@@ -200,11 +222,80 @@ static inline int points_show(mesh_reader *r, model *m, size_t n)
 /* The same of those that are finite; where the model wants them as they are, they stay points. */
 static inline int points_finish(mesh_reader *r, model *m, size_t n)
 {
-    n = points_keep(r, m, n);
+    n = points_keep(r, m, n, NULL);
     if (!n) return mesh_fail(r, "no point of it is finite");
-    if (!m->points_wanted) return points_show(r, m, n);
+    if (!m->points_wanted) return points_show(r, m, n, NULL);
     if (n > INT_MAX) return mesh_fail(r, "more than 2^31 - 1 points");
     mesh_link(&m->mesh, (int)n, 0);
     return 0;
+}
+
+/* ---- Gaussian splats ------------------------------------------------------------------------- */
+
+/* What a file stores of each splat: its opacity as a logit, the logarithms of its three standard
+   deviations, and the quaternion w, x, y, z that turns them, of any length */
+enum { SPLAT_OPACITY, SPLAT_SCALE, SPLAT_TURN = 4, SPLAT_VALUES = 8 };
+
+/* How many standard deviations from its middle a splat of an opacity a covers half of what is
+   behind it: a exp(-d^2 / 2) = 1/2.  0: nowhere */
+static inline double points_half(double logit)
+{
+    const double a = 1 / (1 + exp(-logit));
+    return a > 0.5 ? sqrt(2 * log(2 * a)) : 0;
+}
+
+/* The three half axes of a splat; halves: standard deviations.  0: it has none that is finite */
+static inline int points_axes(const float *splat, double halves, float *out)
+{
+    const float *q = splat + SPLAT_TURN;
+    const double w = (double)q[0], x = (double)q[1], y = (double)q[2], z = (double)q[3];
+    const double s = 2 / (w * w + x * x + y * y + z * z);
+    const double turn[9] = { 1 - s * (y * y + z * z), s * (x * y + w * z),
+                             s * (x * z - w * y),     s * (x * y - w * z),
+                             1 - s * (x * x + z * z), s * (y * z + w * x),
+                             s * (x * z + w * y),     s * (y * z - w * x),
+                             1 - s * (x * x + y * y) };
+    double most = 0, least = 1e300;
+    for (int k = 0; k < 9; k++)
+        out[k] = (float)(turn[k] * halves * exp((double)splat[SPLAT_SCALE + k / 3]));
+    for (int k = 0; k < 3; k++) {
+        const double length = halves * exp((double)splat[SPLAT_SCALE + k]);
+        most = fmax(most, length);
+        least = fmin(least, length);
+    }
+    return s > 0 && s < 1e30 && least > 1e-30 && most < 1e30;
+}
+
+/* Makes n splats, of SPLAT_VALUES numbers each, a model as points are: each is drawn where it
+   covers half of what is behind it.  Those that do so nowhere are left out, unless none does. */
+static inline int points_splats(mesh_reader *r, model *m, size_t n, const float *splats)
+{
+    float *axes = (float *)malloc((n + 1) * 9 * sizeof *axes), *p = m->mesh.positions;
+    float *c = m->mesh.colors;
+    size_t solid = 0, kept = 0;
+    int failed = 1;
+    for (size_t i = 0; i < n; i++) solid += points_half((double)splats[SPLAT_VALUES * i]) > 0;
+    for (size_t i = 0; i < n && axes; i++) {
+        const float *one = splats + SPLAT_VALUES * i;
+        const double halves = solid ? points_half((double)*one) : 1;
+        if (halves <= 0 || !points_axes(one, halves, axes + 9 * kept)) continue;
+        memmove(p + 3 * kept, p + 3 * i, 3 * sizeof *p);
+        if (c) memmove(c + 3 * kept, c + 3 * i, 3 * sizeof *c);
+        kept++;
+    }
+    if (axes && kept < n) {
+        char text[120];
+        snprintf(text, sizeof text,
+                 "%lu Gaussian splats that cover less than half of what is behind",
+                 (unsigned long)(n - kept));
+        model_leave_out(m, r->name, text);
+    }
+    kept = axes ? points_keep(r, m, kept, axes) : 0;
+    if (!kept)
+        mesh_fail(r, axes ? "no splat of it has a finite place and size" : "out of memory");
+    else
+        failed = points_show(r, m, kept, axes);
+    free(axes);
+    return failed;
 }
 #endif

@@ -24,6 +24,8 @@ typedef struct mesh_reader {
     void *user;
     size_t most;              /* triangles; 0: what int can count */
     const volatile int *stop; /* non-zero there: the reading ends; may be NULL */
+    double before, all;       /* where only a piece of a file is here: its bytes before begin, and
+                                 all of them; 0: the whole is here */
 } mesh_reader;
 
 /* A reader of nothing, for what is said about a file */
@@ -80,7 +82,10 @@ enum { MESH_TELL = 16384 };
 static inline int mesh_tell(mesh_reader *r, size_t things)
 {
     if (things % MESH_TELL) return 0;
-    if (r->progress) r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+    if (r->progress) {
+        const double all = r->all > 0 ? r->all : (double)(r->end - r->begin);
+        r->progress(r->user, (r->before + (double)(r->at - r->begin)) / all);
+    }
     return mesh_stopped(r);
 }
 
@@ -156,7 +161,12 @@ static inline int mesh_push_uint(mesh_uints *a, uint32_t v)
 
 static inline int mesh_push_triangle(mesh_uints *a, uint32_t i, uint32_t j, uint32_t k)
 {
-    return mesh_push_uint(a, i) || mesh_push_uint(a, j) || mesh_push_uint(a, k);
+    if (a->capacity - a->count < 3)
+        return mesh_push_uint(a, i) || mesh_push_uint(a, j) || mesh_push_uint(a, k);
+    a->v[a->count++] = i;
+    a->v[a->count++] = j;
+    a->v[a->count++] = k;
+    return 0;
 }
 
 /* A set of triples, numbered in order of arrival: hash table with linear probing, at most half

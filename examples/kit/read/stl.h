@@ -20,8 +20,11 @@ typedef struct stl_data {
     mesh_origin origin;         /* of text; binary files hold floats */
     size_t dropped;             /* triangles with a corner that is not finite */
     size_t behind;              /* triangles beyond the count of a binary file */
-    mesh_uints word;            /* the last two bytes of each triangle of a binary file */
+    mesh_uints word;            /* the last two bytes of each triangle of a binary file, as far as
+                                   the last that are not 0 */
     int colored;                /* some say more than nothing */
+    FILE *file;                 /* holds what follows the head of a binary file; NULL: it is here */
+    unsigned char *piece;       /* of that file */
     const unsigned char *usual; /* the header of Materialise Magics: red, green, blue, alpha behind
                                    COLOR=; NULL: the dialect of VisCAM and SolidView */
 } stl_data;
@@ -46,12 +49,37 @@ static inline int stl_triangle(mesh_reader *r, stl_data *s, uint32_t a, uint32_t
     return mesh_push_triangle(&s->indices, a, b, c) ? mesh_fail(r, "out of memory") : 0;
 }
 
-/* The word of the triangle that was added last, unless that was dropped */
-static inline int stl_word(mesh_reader *r, stl_data *s, uint32_t word)
+/* The word of the triangle that was added last; before is how many there were until then: no more
+   where it was dropped. */
+static inline int stl_word(mesh_reader *r, stl_data *s, size_t before, uint32_t word)
 {
-    if (s->word.count == s->indices.count / 3) return 0;
+    int failed = 0;
+    if (!word || before == s->indices.count / 3) return 0;
     s->colored |= s->usual ? word != 0 : word >> 15 != 0;
-    return mesh_push_uint(&s->word, word) ? mesh_fail(r, "out of memory") : 0;
+    while (s->word.count < before && !failed) failed = mesh_push_uint(&s->word, 0);
+    return failed || mesh_push_uint(&s->word, word) ? mesh_fail(r, "out of memory") : 0;
+}
+
+/* Finds corners that one of the two triangles before has too: of[i] becomes the number of corner i
+   among the positions that differ, which move to the front of p.  Returns their number.  Of files
+   that are written along strips two thirds need not be looked for in memory far away. */
+static inline size_t stl_merge(float *p, size_t corners, unsigned char *of)
+{
+    uint32_t recent[MESH_BLOCK][3];
+    size_t count = 0;
+    for (size_t i = 0; i < corners; i++) {
+        const size_t begin = i - i % 3, first = begin > 6 ? begin - 6 : 0;
+        uint32_t *own = recent[i];
+        size_t k = begin;
+        memcpy(own, p + 3 * i, sizeof *recent);
+        while (k > first && (recent[k - 1][0] != own[0] || recent[k - 1][1] != own[1] ||
+                             recent[k - 1][2] != own[2]))
+            k--;
+        of[i] = k > first ? of[k - 1] : (unsigned char)count;
+        if (k > first) continue;
+        memmove(p + 3 * count++, p + 3 * i, sizeof *recent);
+    }
+    return count;
 }
 
 /* n triangles of a binary file.  Positions that are finite, nearly all, are added at once. */
@@ -60,20 +88,43 @@ static inline int stl_block(mesh_reader *r, stl_data *s, size_t n)
 {
     float p[3 * MESH_BLOCK] = { 0 }; /* gcc does not know that n is not 0 */
     uint32_t number[MESH_BLOCK];
+    unsigned char of[MESH_BLOCK];
     int finite = 1, failed = 0;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 9; k++) {
             p[9 * i + k] = mesh_float(mesh_uint32(r->at + 50 * i + 12 + 4 * k));
             finite &= fabsf(p[9 * i + k]) <= FLT_MAX;
         }
-    if (finite && mesh_set_positions(&s->places, p, 3 * n, number))
+    if (finite && mesh_set_positions(&s->places, p, stl_merge(p, 3 * n, of), number))
         return mesh_fail(r, "out of memory");
-    for (size_t i = 0; i < 3 * n && !finite && !failed; i++)
+    for (size_t i = 0; i < 3 * n && !finite && !failed; i++) {
+        of[i] = (unsigned char)i;
         failed = stl_place(r, s, p + 3 * i, &number[i]);
-    for (size_t i = 0; i < n && !failed; i++, r->at += 50)
-        failed = stl_triangle(r, s, number[3 * i], number[3 * i + 1], number[3 * i + 2]) ||
-                 stl_word(r, s, mesh_uint16(r->at + 48));
+    }
+    for (size_t i = 0; i < n && !failed; i++, r->at += 50) {
+        const size_t before = s->indices.count / 3;
+        const unsigned char *c = of + 3 * i;
+        failed = stl_triangle(r, s, number[c[0]], number[c[1]], number[c[2]]) ||
+                 stl_word(r, s, before, mesh_uint16(r->at + 48));
+    }
     return failed;
+}
+
+/* Reads a piece of the file, of which so many triangles are left, where the last piece is used up.
+   Pieces are small enough to stay in the processor's caches. */
+enum { STL_PIECE = 20 * STL_BLOCK };
+static inline int stl_refill(mesh_reader *r, stl_data *s, size_t left)
+{
+    const size_t n = left < STL_PIECE ? left : STL_PIECE;
+    if (!s->file || r->at < r->end) return 0;
+    if (!s->piece) s->piece = (unsigned char *)malloc(50 * (size_t)STL_PIECE);
+    if (!s->piece) return mesh_fail(r, "out of memory");
+    r->before += (double)(r->end - r->begin);
+    r->at = r->begin = s->piece;
+    r->end = s->piece + 50 * n;
+    errno = 0;
+    if (fread(s->piece, 50, n, s->file) == n) return 0;
+    return mesh_fail(r, "%s", errno ? strerror(errno) : "became shorter while it was read");
 }
 
 /* Whether the last two bytes of each triangle say how many bytes of the writer's own follow it, as
@@ -95,7 +146,7 @@ static inline int stl_has_own(const unsigned char *bytes, size_t size)
    and two, see above */
 static inline int stl_read_binary(mesh_reader *r, stl_data *s)
 {
-    uint64_t size = (uint64_t)(r->end - r->begin), count, there;
+    uint64_t size = s->file ? (uint64_t)r->all : (uint64_t)(r->end - r->begin), count, there;
     int own;
     r->line = 0;
     if (size < 84) return mesh_fail(r, "neither text nor binary STL");
@@ -105,19 +156,22 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
         return mesh_fail(r, "ends after %lld of %lld triangles", (long long)there,
                          (long long)count);
     if (!count && (size - 84) % 50 == 0) count = there; /* who writes as it goes, may leave 0 */
-    own = stl_has_own(r->begin, (size_t)size);
+    own = !s->file && stl_has_own(r->begin, (size_t)size);
     s->behind = own ? 0 : (size_t)(there - count);
     r->at = r->begin + 84;
     for (const unsigned char *p = r->begin; p < r->begin + 70 && !s->usual; p++)
         if (!memcmp(p, "COLOR=", 6)) s->usual = p + 6;
-    if (mesh_set_reserve(&s->places, (size_t)count / 2 + 2)) return mesh_fail(r, "out of memory");
+    s->indices.capacity = 3 * (size_t)(r->most && r->most < count ? r->most : count);
+    s->indices.v = (uint32_t *)malloc((s->indices.capacity + 1) * sizeof *s->indices.v);
+    if (!s->indices.v || mesh_set_reserve(&s->places, (size_t)count / 2 + 2))
+        return mesh_fail(r, "out of memory");
     for (uint64_t i = 0; i < count && own; i++) {
         if (mesh_tell(r, (size_t)i) || stl_block(r, s, 1)) return 1;
         r->at += mesh_uint16(r->at - 2);
     }
     if (own) s->colored = 0; /* those bytes are no colours */
     for (uint64_t i = 0; i < count && !own; i += STL_BLOCK)
-        if (mesh_tell(r, (size_t)i) ||
+        if (mesh_tell(r, (size_t)i) || stl_refill(r, s, (size_t)(count - i)) ||
             stl_block(r, s, count - i < STL_BLOCK ? (size_t)(count - i) : STL_BLOCK))
             return 1;
     return 0;
@@ -271,7 +325,8 @@ static inline int stl_paint(const stl_data *s, model *out)
     out->surface->material.diffuse = out->surface->material.ambient = shade_v3(1, 1, 1);
     out->surface->set = 1;
     for (int i = 0; i < m->view.index_count && !failed; i++) {
-        const mesh_triple key = { { m->indices[i], s->word.v[i / 3], 0 } };
+        const size_t t = (size_t)i / 3;
+        const mesh_triple key = { { m->indices[i], t < s->word.count ? s->word.v[t] : 0, 0 } };
         failed = mesh_set_add(&vertices, key, &m->indices[i]);
     }
     positions = (float *)malloc((vertices.count + 1) * 12);
@@ -292,20 +347,26 @@ static inline int stl_paint(const stl_data *s, model *out)
     return failed;
 }
 
-static inline int stl_read(mesh_reader *r, model *out)
+/* file: NULL, or r has the head alone of a binary file that fits its count, and what follows is
+   read from there. */
+static inline int stl_read(mesh_reader *r, model *out, FILE *file)
 {
     owned_mesh *m = &out->mesh;
     static const stl_data empty;
     stl_data s = empty;
-    const int is_text = stl_is_text(r);
+    const int is_text = !file && stl_is_text(r);
     int failed;
+    s.file = file;
     if (is_text) model_place(out, &s.origin);
     failed = is_text ? stl_read_text(r, &s, out) : stl_read_binary(r, &s);
     if (!failed && !s.indices.count)
         failed = mesh_fail(r, s.dropped ? "no triangle of it has corners that are all finite"
                                         : "no triangles in it");
+    free(s.piece);
     if (!failed) {
         size_t n = s.places.count;
+        free(s.places.slot);
+        s.places.slot = NULL;
         m->positions = mesh_set_take(&s.places);
         m->normals = (float *)calloc(n, 3 * sizeof(float));
         m->indices = s.indices.v;

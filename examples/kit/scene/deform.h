@@ -19,7 +19,7 @@ typedef enum renderer_shading {
 
 typedef struct renderer_moved {
     const float *positions; /* of each vertex, as finite numbers */
-    const float *given;     /* normals of each vertex; NULL: none are given */
+    float *given;           /* normals of each vertex; NULL: none are given */
     const uint32_t *faces;  /* corners, all below vertex_count */
     int vertex_count, index_count;
     int normals; /* renderer_shading */

@@ -5,6 +5,7 @@
 #include "examples/kit/scene/renderer.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
+#include "examples/kit/image/numbers.h"
 #include "examples/kit/read/json.h"
 
 enum { MOST = 64 };
@@ -248,6 +249,34 @@ static int run_scene(asked *a)
     return same;
 }
 
+/* Numbers of 16 bits: of depth in a unit, or of objects */
+static int run_depth(asked *a)
+{
+    double depth[MOST], want[MOST];
+    float rows[MOST];
+    uint16_t grey[MOST];
+    const int count = numbers(a, "depth", depth, MOST);
+    int same = numbers(a, "want", want, MOST) == count;
+    for (int k = 0; k < count; k++) rows[k] = (float)depth[k];
+    if (numbers_from_depth(&a->why, "depth", rows, (size_t)count, number(a, "unit"), grey))
+        return 0;
+    for (int k = 0; k < count; k++) same &= grey[k] == want[k];
+    return same;
+}
+
+static int run_ids(asked *a)
+{
+    double ids[MOST], want[MOST];
+    int32_t rows[MOST];
+    uint16_t grey[MOST];
+    const int count = numbers(a, "ids", ids, MOST);
+    int same = numbers(a, "want", want, MOST) == count;
+    for (int k = 0; k < count; k++) rows[k] = (int32_t)ids[k];
+    if (numbers_from_ids(&a->why, "ids", rows, (size_t)count, 1, grey)) return 0;
+    for (int k = 0; k < count; k++) same &= grey[k] == want[k];
+    return same;
+}
+
 typedef struct runner {
     const char *call;
     int (*run)(asked *a);
@@ -257,7 +286,7 @@ static const runner runners[] = {
     { "color", run_color },   { "colors", run_colors }, { "look_at", run_look_at },
     { "opencv", run_opencv }, { "opengl", run_opengl }, { "fit", run_fit },
     { "faces", run_faces },   { "pose", run_pose },     { "handles", run_handles },
-    { "scene", run_scene },
+    { "scene", run_scene },   { "depth", run_depth },   { "ids", run_ids },
 };
 
 /* Whether the core refuses just what the case says, if it says so */

@@ -300,5 +300,19 @@ for which in range(14):
     for far in ([0, 0, 0], [524288, 4194304, 128], [0, 0, 6400000], [2 ** 27, -2 ** 27, 2 ** 26], [-2 ** 20, 0, 2 ** 30]):
         case("scene", balls=[[*at, radius] for at, radius in balls], eye=eye, target=[0, 0, 0], fov=50, size=48, far=far, want=wanted)
 
+# ---- depth and numbers of objects in 16 bits
+
+for unit in (0.001, 0.0002, 1):
+    for _ in range(3):
+        steps = [rng.randrange(1, 65536) for _ in range(6)] + [1, 65535]
+        off = [rng.uniform(-0.4, 0.4) if k < 65535 else -0.25 for k in steps]    # far from a half, which floats would move
+        case("depth", unit=unit, depth=[0, -unit, unit / 100] + [(k + d) * unit for k, d in zip(steps, off)],
+             want=[0, 0, 1] + steps)
+case("depth", unit=0.001, depth=[1, 65.6], want=[], refused=["depth", "must be at most 65.535"])
+case("depth", unit=0, depth=[1], want=[], refused=["unit", "must be from"])
+case("ids", ids=[-1, 0, 1, 65534, 77], want=[0, 1, 2, 65535, 78])
+for wrong in (-2, 65535, 2147483647):
+    case("ids", ids=[0, wrong], want=[], refused=["ids", "must be from -1"])
+
 if __name__ == "__main__":
     print('{"cases": [\n' + ",\n".join(json.dumps(one) for one in cases) + "\n]}")

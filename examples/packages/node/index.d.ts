@@ -175,6 +175,17 @@ export const PROGRAMS: { readonly [program: string]: string };
 export function render(meshes: Mesh | MeshSource | readonly (Mesh | MeshSource)[],
                        options?: Options): Picture;
 
+/** The bytes of a PNG of 16-bit grey, as depth cameras' data sets have it: depth in whole units, of a millimetre where
+    the scene's is a metre, at least 1, and 0 where there is nothing.  What lies beyond 65,535 units is refused. */
+export function depthPng(depth: Numbers, width: number, height: number, unit?: number): Promise<ReturnType<Uint8ArrayConstructor["from"]>>;
+/** Reads such bytes, of any PNG of one grey number a pixel: infinity where they have 0. */
+export function readDepthPng(bytes: Uint8Array, unit?: number): Promise<{ width: number; height: number; depth: Float32Array }>;
+/** The bytes of a PNG of 16-bit grey: numbers of objects, of a Picture or a Frame, each one higher, 0 where there is none;
+    numbers above 65,534 are refused. */
+export function idsPng(ids: Int32Array, width: number, height: number): Promise<ReturnType<Uint8ArrayConstructor["from"]>>;
+/** Reads such bytes: -1 where they have 0. */
+export function readIdsPng(bytes: Uint8Array): Promise<{ width: number; height: number; ids: Int32Array }>;
+
 /** What a Renderer fills; null is left out. */
 export interface Frame {
     /** R, G, B bytes (or R, G, B, A), row by row. */
@@ -257,10 +268,12 @@ export class Renderer {
     /** A matrix for each of numbers, or for all objects in order; nothing moves where one is refused. */
     poses(poses: readonly Numbers[], numbers?: readonly (number | Solid)[]): void;
     show(number: number | Solid, visible?: boolean): void;
-    /** Gives a shape other vertices, as mesh() takes them, or heights.  Its objects show it. */
-    update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers): void;
+    /** Gives a shape other vertices: positions alone, where options may have others of the rest, which stays without a
+        word; or all, as mesh() takes it; or heights, as height_field() took them.  Its objects show it. */
+    update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers,
+           options?: { indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers; uv?: Numbers; colors?: Numbers }): void;
     update_texture(number: number, picture: Texture & { faces?: 1 | 6 }): void;
-    /** Takes away an object, whose number the next one may have, or a shape that no object shows. */
+    /** Takes away an object, whose number none is given again, or a shape that no object shows. */
     remove(what: number | Solid | Shape): void;
     remove_texture(number: number): void;
     /** Takes away all objects, shapes and textures. */

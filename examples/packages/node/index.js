@@ -4,11 +4,11 @@ import { boxOf, camerasOf, eyeOf } from "./camera.js";
 import encoded from "./module.js";
 import { readersOf } from "./model.js";
 import { mujocoOf } from "./mujoco.js";
-import { Picture } from "./picture.js";
+import * as pictures from "./picture.js";
 import { rendererOf } from "./renderer.js";
 
-const { ShadeError } = check;
-export { Picture, ShadeError };
+const { ShadeError } = check, { Picture, depthPng, idsPng, readDepthPng, readIdsPng } = pictures;
+export { Picture, ShadeError, depthPng, idsPng, readDepthPng, readIdsPng };
 
 // Compiled at once, without await, which neither require nor a classic script can do.
 const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));
@@ -111,6 +111,7 @@ function shown(label, numbers, columns, whole, bytes) {
     });
 }
 check.useCore({ named, shown });
+pictures.useCore({ library, withMemory, put, text, asked, bytes: (at, count) => new Uint8Array(library.memory.buffer, at, count) });
 
 /** Cameras by an eye and a target, by OpenCV's and OpenGL's matrices, and fitted: see index.d.ts. */
 export const Camera = cameras.Camera;
@@ -204,7 +205,47 @@ function gloss(color) {
 
 // ---- meshes
 
-const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
+// Meshes that the module keeps, { at, bytes }, the last used last.  What the collector took is told between two turns of
+// the event loop alone, so a new mesh makes room before it: those not drawn for longest are put away, and are made
+// anew where somebody draws them after all.
+const KEPT = 256e6, kept = new Set();
+let keptBytes = 0;
+
+function putAway(one) {
+    if (one.at) library.mesh_free(one.at);
+    keptBytes -= one.bytes;
+    one.at = one.bytes = 0;
+    kept.delete(one);
+}
+
+function makeRoom() {
+    for (const one of kept) {
+        if (keptBytes <= KEPT) return;
+        putAway(one);
+    }
+}
+
+function touch(one) {
+    const bytes = library.mesh_bytes(one.at);
+    keptBytes += bytes - one.bytes;
+    one.bytes = bytes;
+    kept.delete(one);
+    kept.add(one);
+}
+
+const forgotten = new FinalizationRegistry(putAway);
+
+/** Positions as floats that count from an origin: of numbers in double, near them. */
+function localOf(value) {
+    const exact = check.doubles("positions", value, 3);
+    const origin = exact instanceof Float64Array ? cameras.originOf(...boxOf(exact)) : [0, 0, 0];
+    const positions = Float32Array.from(exact);
+    if (origin.some((x) => x !== 0)) {
+        for (let i = 0; i < exact.length; i++) positions[i] = exact[i] - origin[i % 3];
+    }
+    return { positions, origin };
+}
+
 /** Indices of faces, rows of 3 or 4 corners */
 function triangles(faces, vertices) {
     const columns = faces?.[0]?.length ?? 3, flat = Array.isArray(faces) ? faces.flat() : [];
@@ -225,18 +266,14 @@ const MESH_OPTIONS = ["positions", "indices", "faces", "normals", "color", "colo
 const PICTURES = ["texture", "relief", "glow"];
 
 export class Mesh {
-    #at = 0;
+    #kept = { at: 0, bytes: 0 };
+    #handed;    // what the module makes it of; null: it was freed
 
     constructor(source) {
         if (source === undefined) throw new ShadeError("mesh must be an object with positions");
         const got = check.record("mesh", source, MESH_OPTIONS);
         const { normals = "auto", color, colors, edges = false, twoSided = true } = got;
-        const exact = check.doubles("positions", got.positions, 3);
-        this.origin = exact instanceof Float64Array ? cameras.originOf(...boxOf(exact)) : [0, 0, 0];
-        this.positions = Float32Array.from(exact);
-        if (this.origin.some((x) => x !== 0)) {
-            for (let i = 0; i < exact.length; i++) this.positions[i] = exact[i] - this.origin[i % 3];
-        }
+        Object.assign(this, localOf(got.positions));
         const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
         this.indices = got.faces === undefined ? check.indices("indices", got.indices, vertices, sentence).slice()
             : triangles(got.faces, vertices);
@@ -258,14 +295,14 @@ export class Mesh {
         this.material = got.material !== undefined ? material(got.material)
             : gloss(plain ?? (white ? [1, 1, 1] : linear(check.color("color", "clay"))));
         this.tint = plain === null && got.material === undefined ? null : this.material.slice(6, 9);
-        this.#at = this.#made(normals, colors, got);
-        this.reach = library.mesh_reach(this.#at);
-        if (this.reach < 0) throw new RangeError("memory is not enough for the mesh");
-        forgotten.register(this, this.#at, this);
+        this.#handed = this.#asked(normals, colors, got);
+        makeRoom();
+        this.#make();
+        forgotten.register(this, this.#kept, this);
     }
 
-    /** Hands the arrays over to the module. */
-    #made(normals, colors, { uv, ...rest }) {
+    /** What the module makes the mesh of, in arrays of our own: { ask, arrays }. */
+    #asked(normals, colors, { uv, ...rest }) {
         const vertices = this.positions.length / 3, faces = this.indices.length / 3;
         const kinds = { flat: 0, auto: 1, smooth: 2 }, ask = new Uint32Array(MESH);
         const rows = (name, value, width, ...counts) => {
@@ -274,10 +311,11 @@ export class Mesh {
                 throw new ShadeError(`${name} must have a row for each of ${vertices} vertices` +
                     `${counts.length > 1 ? ` or ${faces} faces` : ""}, not ${array.length / width}`);
             }
-            return array;
+            return array === value ? array.slice() : array;
         };
         const given = check.isArray(normals);
         if (!given) check.choice("normals", normals, Object.keys(kinds));
+        this.quick = given ? 2 : ["flat", "smooth"].indexOf(normals);    // as renderer_shading has it; -1: none of it
         const pictured = PICTURES.find((name) => rest[name] !== undefined);
         if ((uv === undefined) !== (pictured === undefined)) {
             throw new ShadeError(`uv and ${pictured ?? "texture"} belong together: one of them is missing`);
@@ -293,7 +331,14 @@ export class Mesh {
                         uv && rows("uv", uv, 2, vertices), this.indices, ...maps.map((map) => map?.data)];
         ask.set([vertices, this.indices.length, shown ? shown.length / 3 : 0, given ? 0 : kinds[normals]], 5);
         maps.forEach((map, i) => map && ask.set([map.width, map.height, ...map.wrap], 10 + 6 * i));
-        return withMemory((room) => {
+        if (normals !== "flat" && shown && shown.length !== 3 * vertices) this.quick = -1;    // corners are split
+        return { ask, arrays };
+    }
+
+    /** Hands the arrays over to the module. */
+    #make() {
+        const { ask, arrays } = this.#handed;
+        this.#kept.at = withMemory((room) => {
             const at = room(4 * MESH), result = room(4), held = [];
             try {
                 for (const array of arrays) held.push(array ? take(array.byteLength) : 0);
@@ -303,23 +348,30 @@ export class Mesh {
             }
             arrays.forEach((array, i) => array && put(held[i], array));
             ask.set(held.slice(0, 5));
-            maps.forEach((_, i) => { ask[9 + 6 * i] = held[5 + i]; });
+            PICTURES.forEach((_, i) => { ask[9 + 6 * i] = held[5 + i]; });
             const mesh = library.mesh_make(put(at, ask), result);
             succeed("mesh", words(result, 1)[0]);
             return mesh;
         });
+        touch(this.#kept);
+        this.reach = library.mesh_reach(this.#kept.at);
+        if (this.reach >= 0) return;
+        putAway(this.#kept);
+        throw new RangeError("memory is not enough for the mesh");
     }
 
-    /** Where the module keeps the mesh */
+    /** Where the module keeps the mesh.  The memory of the module may grow. */
     get address() {
-        if (!this.#at) throw new ShadeError("mesh was freed");
-        return this.#at;
+        if (!this.#handed) throw new ShadeError("mesh was freed");
+        if (!this.#kept.at) this.#make();
+        touch(this.#kept);
+        return this.#kept.at;
     }
 
     free() {
         forgotten.unregister(this);
-        if (this.#at) library.mesh_free(this.#at);
-        this.#at = 0;
+        putAway(this.#kept);
+        this.#handed = null;
     }
 }
 
@@ -349,9 +401,9 @@ function quick({ view }) {
 
 function writeItems(at, meshes, camera, surface) {
     meshes.forEach(({ mesh, pose }, i) => {
-        const start = at + 4 * ITEM * i, from = eyeOf(camera, pose);
+        const start = at + 4 * ITEM * i, from = eyeOf(camera, pose), { address } = mesh;
         new Float64Array(library.memory.buffer, start, 3).set(from?.eye ?? [0, 0, 0]);
-        words(start + 24, 4).set([mesh.address, mesh.edges && from ? 1 : 0, mesh.twoSided ? 1 : 0,
+        words(start + 24, 4).set([address, mesh.edges && from ? 1 : 0, mesh.twoSided ? 1 : 0,
                                   from?.parallel ? 1 : 0]);
         floats(start + 40, 13).set(surface ?? mesh.material);
         floats(start + 92, 16).set(pose);
@@ -440,7 +492,7 @@ export const readGltf = readers.readGltf;
 export const read3mf = readers.read3mf;
 
 /** One scene and many cameras: see index.d.ts. */
-export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared, cameras });
+export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared, localOf, cameras });
 
 /** MuJoCo's own class without OpenGL: new mujoco.Renderer(mj, model, height, width). */
 export const mujoco = mujocoOf(Renderer);

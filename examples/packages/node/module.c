@@ -75,6 +75,7 @@ typedef struct module_mesh {
     uint8_t *used;                     /* of source: vertices of triangles that can be seen */
     int owned_count;
     void *owned[40];
+    double bytes; /* of all that it owns */
 } module_mesh;
 
 /* Memory that is freed with the mesh.  NULL is remembered. */
@@ -86,6 +87,7 @@ static void *keep(module_mesh *m, void *memory)
 }
 static void *room(module_mesh *m, size_t count, size_t size)
 {
+    m->bytes += (double)(count + 1) * (double)size;
     return keep(m, calloc(count + 1, size));
 }
 
@@ -257,6 +259,17 @@ void module_mesh_free(module_mesh *m)
     free(m);
 }
 
+/* The bytes of the arrays that are handed over */
+static double asked_bytes(const asked_mesh *a)
+{
+    const asked_map *const map[] = { &a->map, &a->relief, &a->glow };
+    double words = (a->normals ? 6.0 : 3.0) * a->vertices + (a->uv ? 2.0 : 0.0) * a->vertices;
+    words += 3.0 * a->color_count + a->corners;
+    for (int i = 0; i < 3; i++)
+        if (map[i]->texels) words += (double)map[i]->width * map[i]->height;
+    return 4 * words;
+}
+
 /* Makes a mesh of the arrays, which belong to it from now on; *result says why it is NULL. */
 EXPORT(mesh_make) module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result);
 module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result)
@@ -271,6 +284,7 @@ module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result)
         else free(given[i]);
     }
     if (!m) return NULL;
+    m->bytes = asked_bytes(asked);
     if (asked->colors) python_linear(asked->colors, (size_t)asked->color_count);
     for (int i = 0; asked->uv && i < asked->vertices; i++)
         asked->uv[2 * i + 1] = 1 - asked->uv[2 * i + 1];
@@ -289,6 +303,10 @@ module_mesh *module_mesh_make(const asked_mesh *asked, shade_result *result)
     module_mesh_free(m);
     return NULL;
 }
+
+/* The memory that a mesh holds by now: its edges come when they are drawn. */
+EXPORT(mesh_bytes) double module_mesh_bytes(const module_mesh *m);
+double module_mesh_bytes(const module_mesh *m) { return m->bytes; }
 
 /* ---- where they are ------------------------------------------------------------------------- */
 
@@ -682,8 +700,9 @@ int module_size(int which)
                                    sizeof(shade_light), sizeof(renderer_object),
                                    sizeof(renderer_picture), sizeof(module_model),
                                    sizeof(python_part), sizeof(shade_mesh),
-                                   sizeof(renderer_image), sizeof(python_picture) };
-    return which >= 0 && which < 11 ? (int)size[which] : 0;
+                                   sizeof(renderer_image), sizeof(python_picture),
+                                   sizeof(renderer_moved) };
+    return which >= 0 && which < 12 ? (int)size[which] : 0;
 }
 
 EXPORT(take) void *module_take(size_t bytes);

@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8;
+const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8, MOVED = 14;
 const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
               "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
               "indices16"];
@@ -95,8 +95,8 @@ function own(options) {
 }
 
 /** The class, over the functions of index.js that know the module's memory. */
-export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared, cameras }) {
-    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length], [9, IMAGE]].forEach(([i, words]) => {
+export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared, localOf, cameras }) {
+    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length], [9, IMAGE], [11, MOVED]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
     const forgotten = new FinalizationRegistry((scene) => library.scene_close(scene));
@@ -157,8 +157,9 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const kept = library.scene_made(this.#scene, number, made.address, ...made.origin);
             if (made !== source) made.free();
             if (!kept) throw new RangeError("memory is not enough for the mesh");
-            const shape = this.#shape(number, made.indices.length / 3);
+            const shape = this.#shape(number, made.indices.length / 3), { indices, quick, positions } = made;
             if (made === source) this.#dress(shape, made);
+            else Object.assign(shape, { source: own({ ...source, positions: null }), indices, quick, vertices: positions.length / 3 });
             return shape;
         }
 
@@ -196,12 +197,19 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             floats[AT.cutoff] = cutoff;
         }
 
-        /** Gives a shape other vertices, as mesh() takes them, or heights as height_field() took them.  Its
-         *  objects show it. */
-        update(shape, source) {
+        /** Gives a shape other vertices: positions alone, where options may have others of indices, normals, uv and
+         *  colors, and the rest stays; or all, as mesh() takes it; or heights as height_field() took them.  Its objects
+         *  show it. */
+        update(shape, source, options = undefined) {
             this.#known(shape);
+            const others = check.record("options", options, ["indices", "normals", "uv", "colors"]);
+            const moves = check.isArray(source) && !shape.ground;
+            if (moves && !shape.source) throw new ShadeError("source must be a Mesh: the shape was made of one");
+            if (!moves && options !== undefined) throw new ShadeError("options go with an array of positions");
+            if (moves && this.#moved(shape, source, others)) return;
+            const whole = moves ? { ...shape.source, ...others, positions: source } : source;
             this.#atOnce(() => {
-                const made = shape.ground ? this.#ground(source, ...shape.ground, shape.mesh) : this.#taken(source, shape.mesh);
+                const made = shape.ground ? this.#ground(whole, ...shape.ground, shape.mesh) : this.#taken(whole, shape.mesh);
                 const gone = shape.textures;
                 Object.assign(shape, made);
                 for (const [number, { shape: of, options }] of this.#shown) {
@@ -209,6 +217,26 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 }
                 gone.forEach((texture) => this.#drop(texture));
             });
+        }
+
+        /** Moves the vertices of a shape, where nothing else of it changes: false where more does. */
+        #moved(shape, value, { normals = shape.source.normals, ...others }) {
+            const given = check.isArray(normals) ? 2 : ["flat", "smooth"].indexOf(normals), { indices } = shape;
+            if (Object.keys(others).length || given < 0 || given !== shape.quick) return false;
+            const { positions, origin } = localOf(value), vertices = positions.length / 3;
+            const directions = given === 2 ? check.rows("normals", normals, 3) : null;
+            if (vertices !== shape.vertices || (directions && directions.length !== positions.length)) return false;
+            const done = withMemory((room) => {
+                const at = [positions, directions, indices].map((array) => (array ? put(room(array.byteLength + 4), array) : 0));
+                const ask = new Float64Array(MOVED / 2);
+                new Uint32Array(ask.buffer).set([...at, vertices, indices.length, given]);
+                ask.set(origin, 4);
+                return library.scene_deform(this.#scene, shape.mesh, put(room(4 * MOVED), ask));
+            });
+            if (done === -2) throw new ShadeError("positions must hold finite numbers");
+            if (done === 0) throw new RangeError("memory is not enough for the mesh");
+            if (done > 0 && directions) shape.source.normals = directions.slice();
+            return done > 0;
         }
 
         /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
@@ -307,7 +335,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         /** A texture of 2 x 2 squares, which repeats. */
         checker(one = "#5a6e82", other = "#8fa3b5") {
             const data = new Uint8Array(4 * 64 * 64).fill(255);
-            const colors = [one, other].map((c) => check.color("color", c).map((x) => Math.round(255 * x)));
+            const colors = Object.entries({ one, other }).map((c) => check.color(...c).map((x) => Math.round(255 * x)));
             for (let i = 0; i < 64 * 64; i++) data.set(colors[(i < 2048) !== (i % 64 < 32) ? 0 : 1], 4 * i);
             return this.texture({ data, width: 64, height: 64 });
         }
@@ -389,8 +417,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return { floats, ints, doubles: new Float64Array(floats.buffer, 0, POSE) };
         }
 
-        #known(shape) {
-            if (!shape || this.#meshes.get(shape.mesh) !== shape) throw new ShadeError("shape must be of this renderer");
+        #known(shape, name = "shape") {
+            if (!shape || this.#meshes.get(shape.mesh) !== shape) throw new ShadeError(`${name} must be of this renderer`);
         }
 
         /** The number of an object, which may be given as a Solid */
@@ -502,7 +530,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                 this.#shown.delete(number);
                 return;
             }
-            this.#known(what);
+            this.#known(what, "what: shape");
             for (const [number, { shape }] of this.#shown) {
                 if (shape === what) throw new ShadeError(`what: object ${number} shows the shape; remove that before`);
             }

@@ -315,13 +315,19 @@ local function sections(heading, slide)
     return out
 end
 
--- A comma stays on the line of the formula before it.
+-- A comma stays on the line of the formula before it, a bracket on that of the formula behind it.
+local function is_formula(inline)
+    if not inline then return false end
+    if inline.t == 'Span' then return inline.classes:includes('glued') and is_formula(inline.content[#inline.content]) end
+    if inline.t == 'Link' then return #inline.content == 1 and is_formula(inline.content[1]) end
+    return inline.t == 'Math'
+end
 local function glued(inlines)
     local out = pandoc.List()
     for _, inline in ipairs(inlines) do
         local before = out[#out]
-        local formula = before and (before.t == 'Link' and #before.content == 1 and before.content[1] or before)
-        if formula and formula.t == 'Math' and inline.t == 'Str' and inline.text:match('^[,.;:)?]') then
+        if is_formula(before) and inline.t == 'Str' and inline.text:match('^[,.;:)?]') or
+            is_formula(inline) and before and before.t == 'Str' and before.text:match('%($') then
             out[#out] = pandoc.Span({ before, inline }, { class = 'glued' })
         else out:insert(inline) end
     end

@@ -1,14 +1,20 @@
 #!/usr/bin/env python3
 """Draws the plane figures whose curves are computed: vectors, lobes, attenuation, cone, projection.
 
-    python3 figures.py
+    python3 figures.py [OUT [COURSE]]
 
-writes them beside itself, as SVG, black on white. The others are those of ../course.
+writes them beside itself, as SVG, black on white. Into OUT it writes all figures, those of the slides in
+../course too, black on white and, with COURSE (uw, massey, shirley, berkeley), in the letters of it.
 """
 import math
+import re
+import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from letters import COURSES, letters  # noqa: E402
+
 STYLE = ("text{font:italic 22px serif}.b{font-weight:bold;font-style:normal}.n{font-style:normal}"
          "path,line,circle{fill:none;stroke:#000;stroke-width:2}.thin{stroke-width:1}"
          ".dash{stroke-dasharray:6 5;stroke-width:1.5}.grey{stroke:#777}")
@@ -135,8 +141,65 @@ def svg(draw):
             f'<style>{STYLE}</style><rect width="{wide}" height="{tall}" fill="#fff"/>{body}</svg>\n')
 
 
+# ---- black on white, in the letters of a course ----------------------------------------------------
+
+def without_colours(text):
+    """Returns an SVG of the slides in black and greys on white: lines and letters that are dark are
+    black, areas of a colour of their own light grey."""
+    def grey(found):
+        area, r, g, b = found.group(1) or "", *(int(found.group(2)[k:k + 2], 16) for k in (0, 2, 4))
+        light = (0.299 * r + 0.587 * g + 0.114 * b) / 255
+        light = 0.5 + light / 2 if area else light if light > 0.55 else 0
+        return area + "#" + 3 * f"{round(255 * light):02x}"
+    text = re.sub(r"@media \(prefers-color-scheme: dark\) \{.*?\}\s*\}\s*", "", text, flags=re.S)
+    text = re.sub(r"((?:fill|stop-color)=\")?#([0-9a-fA-F]{6})\b", grey, text)
+    return text.replace("</style>", '</style>\n<rect width="100%" height="100%" fill="#ffffff"/>', 1)
+
+
+def sign(tex):
+    """Returns a letter in TeX as an SVG has it."""
+    names = {"alpha": "α", "sigma": "σ", "phi": "φ"}
+    tex = re.sub(r"\\(\w+)", lambda found: names[found.group(1)], tex)
+    return re.sub(r"_\{?(\w+)\}?", r'<tspan dy=".25em" font-size="70%">\1</tspan>', tex)
+
+
+def in_letters(text, of):
+    """Returns an SVG in the letters of a course."""
+    def one(found):
+        begin, name, end = found.groups()
+        if name[1:] == " = ":
+            return begin + sign(of.get(name[0], name[0])) + " = " + end
+        return begin + sign(of.get({"φ": "\\phi"}.get(name, name), name)) + end
+    text = re.sub(r"(<text[^>]*>)([NLVRH]), ([nlve])(?=</text>)", r"\1\2", text)
+    text = re.sub(r"(?<=>)L, V, N(?= and)", lambda found: ", ".join(of.get(name, name) for name in "LVN"), text)
+    text = re.sub(r"(<text[^>]*>)([NLVRHφ]|n = )((?:[\d]+)?</text>)", one, text)
+    return re.sub(r"\bk<tspan[^>]*>([sd])</tspan>",
+                  lambda found: sign(of.get(f"k_{found.group(1)}", f"k_{found.group(1)}")), text)
+
+
+OTHER = ("spaces.svg", "spectrum.svg")  # V is a matrix there, and R red
+
+
+def taken_along(out, course):
+    """Writes all figures into a folder."""
+    of = letters(course) if course else {}
+    out.mkdir(parents=True, exist_ok=True)
+    for name, draw in FIGURES.items():
+        (out / f"{name}.svg").write_text(in_letters(svg(draw), of), encoding="utf-8")
+    for path in sorted((HERE.parent / "course").glob("*.svg")):
+        text = without_colours(path.read_text(encoding="utf-8"))
+        if path.name not in OTHER:
+            text = in_letters(text, of)
+        (out / path.name).write_text(text, encoding="utf-8")
+
+
 def main():
-    """Writes all figures."""
+    """Runs the command line."""
+    if len(sys.argv) > 3 or sys.argv[2:] and sys.argv[2] not in COURSES:
+        sys.exit("usage: figures.py [OUT [uw|massey|shirley|berkeley]]")
+    if len(sys.argv) > 1:
+        taken_along(Path(sys.argv[1]), sys.argv[2] if len(sys.argv) > 2 else "")
+        return
     for name, draw in FIGURES.items():
         (HERE / f"{name}.svg").write_text(svg(draw), encoding="utf-8")
 

@@ -27,10 +27,10 @@ const minus = (a, b) => a.map((v, i) => v - b[i]);
 const dotted = (a, b) => a.map((v, i) => `${short(v)} \\cdot ${short(b[i])}`).join(' + ');
 
 // A line: the name in C and in LaTeX, its formula, the same with numbers, what C computes it by, and
-// the value, and why.  given: the value alone, from which the rest follows.
-const lineOf = (c, tex, formula, numbers, code, value, why = '') =>
-    ({ c, tex, formula, numbers, code, value, why });
-const given = (c, tex, value) => lineOf(c, tex, '', '', '', value);
+// the value, and why.  given: the value alone, from which the rest follows, and what it is.
+const lineOf = (c, tex, formula, numbers, code, value, why = '', what = '') =>
+    ({ c, tex, formula, numbers, code, value, why, what });
+const given = (c, tex, value, what = '') => lineOf(c, tex, '', '', '', value, '', what);
 
 // Why a term is 0, as the first of these that holds
 const whyZero = (value, reasons) => Math.max(...value) === 0 ? (reasons.find(([holds]) => holds) || [0, ''])[1] : '';
@@ -47,7 +47,7 @@ function lampLines(j, q, a, model, used, out) {
     NL[1] = `${N[1]} \\cdot ${L[1]}`;
     const lit = used & 12, gooch = model === 5, dims = (lit && !gooch) || (used & 2 && S.flags & 16);
     if (!lit && !dims) { ambientLine(); return; }
-    out.push(given('', X[1], of('p')));
+    out.push(given('', X[1], of('p'), (of('far') ? 'toward lamp ' : 'the place of lamp ') + j));
     if (of('far')) out.push(lineOf(L[0], L[1], `\\frac{${X[1]}}{|${X[1]}|}`, '', `unit(${X[0]})`, a.unitL));
     else {
         out.push(lineOf(r[0], r[1], `|${X[1]} - ${P[1]}|`,
@@ -169,7 +169,7 @@ function explanation() {
     if (!answer.hit) return null;
     const { model } = shownModel(), used = usedTerms();
     const panel = { model, distance: camera(canvas.width, canvas.height).distance };
-    if (used & 12 && !(S.flags & 32)) out.push(given('', bold('E'), [0, 0, panel.distance]));
+    if (used & 12 && !(S.flags & 32)) out.push(given('', bold('E'), [0, 0, panel.distance], 'the eye'));
     if (S.shading === 1) {
         const sums = [1, 2, 3].map((q, k) => pointLines(k, String(q), panel, used, out));
         const w = answer.weights, mixed = TERMS.reduce((all, name) => all.map((v, c) => v + answer[name][c]), [0, 0, 0]);
@@ -184,10 +184,10 @@ function explanation() {
 
 // ---- as LaTeX, as C -----------------------------------------------------------------------------
 
-function lineTex({ tex, formula, numbers, value, why }, sign = '=') {
+function lineTex({ tex, formula, numbers, value, why, what }, sign = '=') {
     const parts = [formula, numbers, write(value)].filter((part, i, all) => part !== '' &&
         part !== all[i + 1]);
-    return `${tex} ${sign} ${parts.join(' = ')}` + (why && `\\quad\\text{since }${why}`);
+    return `${tex} ${sign} ${parts.join(' = ')}` + (why && `\\quad\\text{since }${why}`) + (what && `\\quad\\text{${what}}`);
 }
 const asLatex = ({ lines }) => spell('\\begin{align*}\n' +
     lines.map(line => lineTex(line, '&=')).join(' \\\\\n') + '\n\\end{align*}\n');

@@ -125,9 +125,12 @@ function camera(width, height) {
 
 // The floats of page_state, in its order
 let alone = 0;                          // the one term that is shown, as its bit; 0: all that are on
+// lines are as thick on a slide as its letters want them
+const thick = () => document.documentElement.classList.contains('slide')
+    ? Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 14) : 1;
 function words(width, height, pen, terms = alone || S.terms) {
     const { distance, near, far } = camera(width, height), [x, y, z, radius, tall] = bounds();
-    return [width, height, S.shape, S.view, S.compare && !S.view, S.wire * pen, S.model, S.shading,
+    return [width, height, S.shape, S.view, S.compare && !S.view, S.wire * pen * thick(), S.model, S.shading,
         S.flags, terms, S.lamp - 1, S.detail, S.room, floorOf(radius, tall), S.yaw, S.pitch,
         distance, near, far, scaleOf(radius), x, y, z,
         ...paper, ...ink, ...S.ke, ...S.ka, ...S.kd, ...S.ks, S.n, ...S.Ia,
@@ -363,7 +366,7 @@ function buildControls() {
             color(of('I'), 'I_d,\\,I_s', 'light of the lamp', 'lamps'),
             color(of('A'), 'I_{La}', 'ambient light of the lamp', 'a'),
             ...['x', 'y', 'z'].map((axis, part) =>
-                slider(of('p'), 'X_' + axis, 'position ' + axis, { part, step: 0.1 })),
+                slider(of('p'), `\\text{lamp}_${axis}`, 'position ' + axis, { part, step: 0.1 })),
             slider(of('a'), 'a', 'constant attenuation'),
             slider(of('b'), 'b', 'linear attenuation'),
             slider(of('c'), 'c', 'quadratic attenuation'),

@@ -233,16 +233,18 @@ def item(q, name):
                 f'<div>{in_html(q.text)}</div><extendedTextInteraction responseIdentifier="RESPONSE" '
                 f'expectedLines="5"/><rubricBlock view="scorer"><div>{in_html(q.solution)}</div>'
                 "</rubricBlock></itemBody></assessmentItem>")
+    # both bounds, and not equal with a tolerance, which some players do not know
+    bounds = "".join(f'<{compares}><variable identifier="RESPONSE"/><baseValue baseType="float">{bound:.6g}'
+                     f"</baseValue></{compares}>"
+                     for compares, bound in (("gte", q.answer - q.within), ("lte", q.answer + q.within)))
     return (head + '<responseDeclaration identifier="RESPONSE" cardinality="single" baseType="float">'
             f"<correctResponse><value>{q.answer:.6g}</value></correctResponse></responseDeclaration>"
             '<outcomeDeclaration identifier="SCORE" cardinality="single" baseType="float"/><itemBody>'
             f'<div>{in_html(q.text)}</div><p><textEntryInteraction responseIdentifier="RESPONSE" '
             f'expectedLength="10"/></p><rubricBlock view="scorer"><div>{in_html(q.solution)}</div>'
-            "</rubricBlock></itemBody><responseProcessing><responseCondition><responseIf>"
-            f'<equal toleranceMode="absolute" tolerance="{q.within:.3g} {q.within:.3g}"><variable '
-            'identifier="RESPONSE"/><correct identifier="RESPONSE"/></equal><setOutcomeValue '
-            'identifier="SCORE"><baseValue baseType="float">1</baseValue></setOutcomeValue></responseIf>'
-            "</responseCondition></responseProcessing></assessmentItem>")
+            f"</rubricBlock></itemBody><responseProcessing><responseCondition><responseIf><and>{bounds}</and>"
+            '<setOutcomeValue identifier="SCORE"><baseValue baseType="float">1</baseValue></setOutcomeValue>'
+            "</responseIf></responseCondition></responseProcessing></assessmentItem>")
 
 
 def qti(questions, path):

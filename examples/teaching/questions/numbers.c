@@ -5,20 +5,9 @@
 #define SHADE_NO_DISPATCH
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include <stdint.h>
+#include "drawn.h"
 #include <stdio.h>
-#include <stdlib.h>
 
-static uint32_t state;
-/* A number from low to high in steps, as one writes it on paper. */
-static float drawn(float low, float high, float step)
-{
-    const int steps = (int)((high - low) / step + 1.5f);
-    state ^= state << 13; /* Marsaglia's xorshift */
-    state ^= state >> 17;
-    state ^= state << 5;
-    return low + step * (float)((int)(state >> 8) % steps);
-}
 static void given(float x) { printf(" %.6g", (double)x); }
 static void answer(float x) { printf(" | %.9g\n", (double)x); }
 /* Unit vectors with few digits: from triples of Pythagoras, in a plane through z. */
@@ -62,7 +51,7 @@ int main(int count, char **words)
 {
     const shade_vec3 N = { 0, 0, 1 }, down = { 0, 0, -1 };
     if (count != 3) return 2;
-    state = (uint32_t)strtoul(words[1], NULL, 10) * 2654435761u + 362436069u;
+    drawn_seed(words[1]);
     for (int k = 0; k < atoi(words[2]); k++) {
         const shade_vec3 L = direction(), V = direction();
         const float n = drawn(5, 60, 5), a = drawn(0, 1, 0.25f), b = drawn(0.1f, 0.5f, 0.1f);

@@ -1,8 +1,16 @@
 import * as THREE from 'three'
+import { MTLLoader } from '/node_modules/three/examples/jsm/loaders/MTLLoader.js'
 const color = c => new THREE.Color().setRGB(...c)
 const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true })
 const shape = new THREE.SphereGeometry(1, 360, 180)
+function mtl(m) {
+    const text = `newmtl m\nKd ${m.Kd.join(' ')}\nKs ${m.Ks.join(' ')}\nKe ${(m.Ke || [0, 0, 0]).join(' ')}\nNs ${m.Ns}\nillum ${m.illum}\n`
+    const made = new MTLLoader().parse(text, '')
+    made.preload()
+    return made.materials.m
+}
 const makes = {
+    three_mtl: mtl,
     three_phong: m => new THREE.MeshPhongMaterial({ color: color(m.color), specular: color(m.specular), shininess: m.shininess,
                                                     emissive: color(m.emissive || [0, 0, 0]) }),
     three_toon: m => new THREE.MeshToonMaterial({ color: color(m.color) }),

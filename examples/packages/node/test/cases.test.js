@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
-import { Camera, Mesh, Renderer, ShadeError } from "shade-h";
+import { Camera, Mesh, Renderer, ShadeError, depthPng, idsPng, readIdsPng } from "shade-h";
 
 const table = process.env.CASES ?? new URL("../../../kit/test/cases.json", import.meta.url);
 const { cases } = JSON.parse(readFileSync(table, "utf8"));
@@ -89,12 +89,21 @@ const run = {
     },
 };
 
+run.depth = async ({ depth, unit, want }) => {
+    const { ids } = await readIdsPng(await depthPng(depth, depth.length, 1, unit));
+    assert.deepEqual(Array.from(ids, (x) => x + 1), want);
+};
+run.ids = async ({ ids, want }) => {
+    const got = await readIdsPng(await idsPng(Int32Array.from(ids), ids.length, 1));
+    assert.deepEqual(Array.from(got.ids, (x) => x + 1), want);
+};
+
 test("the table is whole", () => assert.ok(cases.length >= 400));
 cases.forEach((one, i) => test(`case ${i}, ${one.call}`, () => {
     assert.ok(run[one.call], `no such call: ${one.call}`);
     if (!one.refused) return run[one.call](one);
     const [argument, words] = one.refused;
-    assert.throws(() => run[one.call](one), (error) => {
+    return assert.rejects(async () => run[one.call](one), (error) => {
         assert.ok(error instanceof ShadeError, `${error}`);
         assert.ok(error.message.startsWith(`${argument} ${words}`), error.message);
         return true;

@@ -103,6 +103,10 @@ else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
 check "the cases that C and Python run too" env CASES="$PWD/examples/kit/test/cases.json" \
     sh -c "cd '$T/use' && node --test test/cases.test.js"
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
+check "5,000 mistakes in arguments" env MISTAKES="$PWD/examples/kit/test/mistakes.json" \
+    sh -c "cd '$T/use' && node --test test/mistakes.test.js"
+check "objects that come and go" sh -c "cd '$T/use' && node --test test/living.test.js"
+check "PNG of 16 bits" sh -c "cd '$T/use' && node --test test/png.test.js"
 check "looks of other programs" sh -c "cd '$T/use' && node --test test/elsewhere.test.js"
 
 find_python "numpy, setuptools, wheel, PIL"

@@ -5,7 +5,6 @@ import ctypes
 import errno
 import os
 import stat
-import struct
 import threading
 import zlib
 from importlib import import_module
@@ -15,7 +14,7 @@ from typing import Any, BinaryIO, Union
 import numpy as np
 
 from ._arguments import array, integer, shown
-from ._native import Bytes, Doubles, Error, Floats, Integers, library, pointer
+from ._native import Array, Bytes, Doubles, Error, Floats, Integers, library, pointer
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 File = Union[str, bytes, "os.PathLike[str]"]
@@ -62,6 +61,16 @@ def write_file(path: Path, data: bytes) -> None:
         os.replace(beside, target)
     finally:
         beside.unlink(missing_ok=True)
+
+
+def put_file(path: Path, data: bytes) -> None:
+    """The same, whose errors name the path."""
+    try:
+        write_file(path, data)
+    except ValueError as why:
+        raise Error(f"path: {why}") from None
+    except OSError as why:
+        raise type(why)(why.errno, why.strerror, str(path)) from None
 
 
 class Picture:
@@ -170,9 +179,7 @@ class Picture:
 
     def png(self) -> bytes:
         """The bytes of a PNG file: RGB where every pixel is opaque, else RGBA."""
-        opaque = bool((self.rgba[:, :, 3] == 255).all())
-        rows = self.rgba[:, :, :3] if opaque else self.rgba
-        return _encode(np.ascontiguousarray(rows), opaque)
+        return encode(self.rgba)
 
     def ppm(self) -> bytes:
         """The bytes of a PPM file (P6), which cannot be transparent."""
@@ -193,21 +200,15 @@ class Picture:
             path.write(self.png())
             return
         target = png_path("path", path, ".ppm")
-        data = self.ppm() if target.suffix.lower() == ".ppm" else self.png()
-        try:
-            write_file(target, data)
-        except ValueError as why:
-            raise Error(f"path: {why}") from None
-        except OSError as why:
-            raise type(why)(why.errno, why.strerror, str(target)) from None
+        put_file(target, self.ppm() if target.suffix.lower() == ".ppm" else self.png())
 
     @staticmethod
     def open(path: Any) -> Picture:
         """Reads a PNG file, a path or an open file: grey, palette, RGB and RGBA of every depth, of
         which 16 bits are rounded to 8."""
         if callable(getattr(path, "read", None)):
-            return Picture(_decode(path.read(), "the file"))
-        return Picture(_decode(read_file(path, PICTURE_BYTES), os.fsdecode(path)))
+            return Picture(decode(path.read(), "the file"))
+        return Picture(decode(read_file(path, PICTURE_BYTES), os.fsdecode(path)))
 
     def __eq__(self, other: object) -> bool:
         """Are all bytes the same, those of pixels that cannot be seen too?"""
@@ -282,26 +283,24 @@ def png_path(name: str, path: Any, other: str = ".png") -> Path:
     return target
 
 
-def _chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+def encode(pixels: Array) -> bytes:
+    """A PNG file of RGBA bytes, (H, W, 4), or of 16-bit numbers, (H, W)."""
+    height, width = pixels.shape[:2]
+    kind, lines = ctypes.c_int(0), np.empty(height * (1 + pixels[0].nbytes), np.uint8)
+    rows = np.ascontiguousarray(pixels)
+    if pixels.ndim == 2:
+        size = library.python_png_lines16(pointer(rows), width, height, pointer(lines))
+    else:
+        size = library.python_png_lines(pointer(rows), width, height, ctypes.addressof(kind), pointer(lines))
+    if not size:
+        raise MemoryError("memory is not enough for the picture")
+    packed = zlib.compress(lines[:size].data, 6)
+    file = np.empty(len(packed) + 70, np.uint8)    # PNG_AROUND
+    return file[:library.python_png_file(width, height, kind, packed, len(packed), pointer(file))].tobytes()
 
 
-def _encode(rows: Bytes, opaque: bool) -> bytes:
-    """Each row is stored as its difference from the row above, which packs well and is fast."""
-    height, width = rows.shape[:2]
-    lines = np.empty((height, 1 + rows[0].size), np.uint8)
-    flat = rows.reshape(height, -1)
-    lines[:, 0] = 2
-    lines[0, 1:] = flat[0]
-    lines[1:, 1:] = flat[1:] - flat[:-1]
-    head = struct.pack(">IIBBBBB", width, height, 8, 2 if opaque else 6, 0, 0, 0)
-    packed = zlib.compress(lines.tobytes(), 6)
-    return SIGNATURE + _chunk(b"IHDR", head) + _chunk(b"sRGB", b"\0") + \
-        _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
-
-
-def _decode(data: bytes, name: str) -> Bytes:
-    """The pixels of a PNG file."""
+def decode(data: bytes, name: str, numbers: bool = False) -> Array:
+    """The pixels of a PNG file: RGBA bytes, or the numbers of a grey one as they are stored."""
     file, facts = ctypes.create_string_buffer(256), np.zeros(4)
 
     def refuse(wrong: Any) -> None:
@@ -320,9 +319,10 @@ def _decode(data: bytes, name: str) -> Bytes:
         raise Error(f"{name}: {why}") from None
     if len(lines) != wanted:
         raise Error(f"{name} ends early")
-    rgba = np.empty((height, width, 4), np.uint8)
-    refuse(library.python_png_rgba(file, pointer(lines), pointer(rgba)))
-    return rgba
+    pixels: Array = np.empty((height, width) if numbers else (height, width, 4), np.uint16 if numbers else np.uint8)
+    read = library.python_png_grey if numbers else library.python_png_rgba
+    refuse(read(file, pointer(lines), pointer(pixels)))
+    return pixels
 
 
 def assert_same(picture: Picture, golden: File, limit: int = 0) -> None:

@@ -6,6 +6,7 @@ import copy
 import ctypes
 import functools
 import os
+import re
 import threading
 import weakref
 from typing import Any, NamedTuple, Sequence
@@ -290,7 +291,10 @@ class Renderer:
                 raise Error("normals, uv and colors go with vertices and faces, not with a mesh of another library")
             return as_mesh(vertices)
         texture = None if uv is None else np.full((1, 1, 3), 255, np.uint8)
-        return Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
+        try:
+            return Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
+        except Error as why:    # the argument has another name here
+            raise Error(re.sub(r"^color\b", "colors", str(why))) from None
 
     def _shape(self, made: Mesh, source: tuple[Any, ...], number: int | None) -> Shape:
         if not np.isfinite(made.positions).all():
@@ -418,9 +422,6 @@ class Renderer:
                       2 if not isinstance(kind, str) else int(kind == "smooth"), 0, (ctypes.c_double * 3)(*origin))
         if moved.normals == 2:
             given = arguments.floats("normals", kind, at.shape)
-            mesh = NativeMesh(positions=pointer(at), vertex_count=len(at), indices=pointer(faces),
-                              index_count=faces.size)
-            check(library.python_direct_normals(ctypes.byref(mesh), pointer(given)), "normals")
             moved.given = pointer(given)
         done = library.python_scene_deform(self._scene.handle, shape.number, ctypes.byref(moved))
         if done == -2:
@@ -710,7 +711,7 @@ class Renderer:
         """Takes away an object by its number, which none is given again, or a shape that no object
         shows, with the textures that came with it.  Its memory is given back."""
         if not isinstance(what, Shape):
-            self._options("number", what)
+            self._options("what", what)
             self._put(what, _PLAIN[:0])
             del self._shown[what]
             return

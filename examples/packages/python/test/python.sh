@@ -48,7 +48,7 @@ done
 
 # the tests, beside the tree but not beside its sources
 mkdir -p "$T/run/examples/packages/python" "$T/run/examples/kit/test" "$T/run/tests"
-cp "$OLDPWD/examples/kit/test/cases.json" "$T/run/examples/kit/test"
+cp "$OLDPWD"/examples/kit/test/*.json "$T/run/examples/kit/test"
 ln -s "$OLDPWD/tests/scripts" "$T/run/tests/scripts"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/test" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/packages/python"

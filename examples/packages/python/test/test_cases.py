@@ -1,4 +1,5 @@
 """The table of cases that C, Python and JavaScript run alike: examples/kit/test/cases.json."""
+import io
 import json
 from pathlib import Path
 
@@ -73,6 +74,20 @@ def pose(case):
     near(ball.pose[:3, 3], case["want"], 0)
 
 
+def depth(case):
+    file = io.BytesIO()
+    shade.save_depth(file, [case["depth"]], case["unit"])
+    file.seek(0)
+    assert (shade.open_ids(file) + 1)[0].tolist() == case["want"]
+
+
+def ids(case):
+    file = io.BytesIO()
+    shade.save_ids(file, [case["ids"]])
+    file.seek(0)
+    assert (shade.open_ids(file) + 1)[0].tolist() == case["want"]
+
+
 def handles(case):
     made = shade.Renderer(8, 8)
     for step, *given in case["steps"]:
@@ -107,7 +122,7 @@ def test_the_table_is_whole():
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["call"])
 def test_a_case(case):
     run = {"color": color, "colors": colors, "look_at": look_at, "opencv": opencv, "opengl": opengl, "fit": fit,
-           "faces": faces, "pose": pose, "handles": handles, "scene": scene}[case["call"]]
+           "faces": faces, "pose": pose, "handles": handles, "scene": scene, "depth": depth, "ids": ids}[case["call"]]
     if "refused" not in case:
         run(case)
         return

@@ -165,6 +165,9 @@ color_reports() {
     same "of VisCAM" four.obj viscam.stl 2 "$plain"
     stl_colors junk.stl "made by hand" '\000\000' '\022\000' '\377\177' '\000\000'
     same "words that are no colours" wedge.obj junk.stl 0 "$plain"
+    painted late "0.5225 0.5225 0.5225" "0 1 0" "0 0 1" "1 1 0"
+    stl_colors late.stl "made by hand" '\000\000' '\340\203' '\037\200' '\340\377'
+    same "colours behind a triangle without" late.obj late.stl 2 "$plain"
     stl_colors bare.stl "COLOR=@@@@" '\000\000' '\000\000' '\000\000' '\000\000'
     same "and no words" wedge.obj bare.stl 0 "$plain"
 
@@ -685,6 +688,29 @@ writer_reports() {
     { points_of "f_dc_0 f_dc_1 f_dc_2"
       printf "0 0 0 $one -$one -$one\n2 0 0 -$one 9 -$one\n0 1.5 0 -$one -$one $one\n0 0 1 0 0 0\n"; } >"$T/splats.ply"
     same "colours of splats" points.ply splats.ply 0 ""
+    # size and opacity: an ellipsoid where it covers half, of .3, .1 and .05 times sqrt(2 ln 2), a quarter turn about z
+    { printf "ply\nformat ascii 1.0\nelement vertex 6\n"
+      for k in x y z nx ny nz red green blue; do echo "property float $k"; done
+      printf 'element face 8\nproperty list uchar int vertex_indices\nend_header\n'
+      printf '1 2.353223 3 0 1 0 1 0 0\n1 1.646777 3 0 -1 0 1 0 0\n.882259 2 3 -1 0 0 1 0 0\n1.117741 2 3 1 0 0 1 0 0\n'
+      printf '1 2 3.0588705 0 0 1 1 0 0\n1 2 2.9411295 0 0 -1 1 0 0\n'
+      printf '3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n'; } >"$T/ellipsoid.ply"
+    splat_of() {                # opacities of two splats, of which the second is far away
+        { printf "ply\nformat ascii 1.0\nelement vertex 2\n"
+          for k in x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do
+              echo "property float $k"
+          done
+          printf 'end_header\n'
+          printf "1 2 3 $one -$one -$one $1 -1.2039728 -2.3025851 -2.9957323 2 0 0 2\n"
+          printf "9 9 9 $one -$one -$one $2 -1.2039728 -2.3025851 -2.9957323 2 0 0 2\n"; } >"$T/splats.ply"
+    }
+    splat_of 40 -.001
+    same "sizes of splats" ellipsoid.ply splats.ply 1 ""
+    check "both are told" told "splats.ply: 1 Gaussian splats that cover less than half of what is behind (left out); 1 Gaussian splats are drawn as solid ellipsoids"
+    splat_of .2231436 -9           # 1 / (1 + exp(-x)) is 5/9: half is covered within sqrt(2 ln(10/9))
+    awk 'NF == 9 { k = sqrt(log(10 / 9) / log(2)); $1 = 1 + ($1 - 1) * k; $2 = 2 + ($2 - 2) * k; $3 = 3 + ($3 - 3) * k }
+         { print }' "$T/ellipsoid.ply" >"$T/less.ply"
+    same "and by how much they hide" less.ply splats.ply 1 ""
 }
 
 # Pictures of one kind as other programs store them

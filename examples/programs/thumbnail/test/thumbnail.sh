@@ -32,10 +32,12 @@ compile $STB examples/programs/thumbnail/test/look.c -lm -o "$T/look"
 compile examples/kit/test/ears.c -lm -o "$T/ears"
 compile -pthread -Wno-unused-function examples/kit/test/hidden.c -lm -o "$T/hidden"
 compile -Wno-unused-function examples/kit/test/meshopt.c -lm -o "$T/meshopt"
+compile -Wno-unused-function examples/kit/test/pieces.c "$T/shade.o" -lm -o "$T/pieces"
 check "models" "$T/models" "$T"
 
-for build in ears hidden meshopt; do
-    "$T/$build" examples/kit/test/meshopt.txt >"$T/$build.log" || grep FAIL "$T/$build.log"
+for line in ears hidden "meshopt examples/kit/test/meshopt.txt" "pieces $T"; do
+    build=${line%% *}
+    "$T"/$line >"$T/$build.log" || grep FAIL "$T/$build.log"
     passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/$build.log")))
     failed=$((failed + $(sed -n 's/.* \([0-9]*\) failed$/\1/p' "$T/$build.log")))
 done

@@ -3,44 +3,15 @@
 A scene is a list of numbers in the order of `struct scene` of scene.h.
 """
 import math
-import random
 import re
 from pathlib import Path
+
+from judge.tools import Draw, add, cross, dot, scale, sub, unit
 
 VERTICES, TRIANGLES, LAMPS, MAP = 96, 160, 2, 16
 FLAT, GOURAUD, PHONG = 0, 1, 2
 SHADOW, BUMP, CLIP, SILHOUETTES = 0, 1, 2, 3
 TRIES = 5  # scenes of a case
-
-
-def add(a, b):
-    """Returns a + b."""
-    return [x + y for x, y in zip(a, b)]
-
-
-def sub(a, b):
-    """Returns a - b."""
-    return [x - y for x, y in zip(a, b)]
-
-
-def scale(s, v):
-    """Returns s v."""
-    return [s * x for x in v]
-
-
-def dot(a, b):
-    """Returns a.b."""
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    """Returns a x b."""
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def unit(v):
-    """Returns v / |v|."""
-    return scale(1 / (math.sqrt(dot(v, v)) or 1), v)
 
 
 def product(a, b):
@@ -65,25 +36,6 @@ def perspective(fovy, aspect, near, far):
     f = 1 / math.tan(fovy / 2)
     return [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0,
             2 * far * near / (near - far), 0]
-
-
-class Draw(random.Random):
-    """Random numbers, the same on every machine for the same seed."""
-
-    def between(self, low, high):
-        """Returns a number."""
-        return low + (high - low) * self.random()
-
-    def some(self, low, high, count):
-        """Returns several numbers."""
-        return [self.between(low, high) for _ in range(count)]
-
-    def direction(self):
-        """Returns a unit vector."""
-        while True:
-            v = self.some(-1, 1, 3)
-            if 0.1 < dot(v, v) < 1:
-                return unit(v)
 
 
 # ---- meshes: vertices of position, normal, colour, uv, tangent; triangles -------------------------
