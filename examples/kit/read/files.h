@@ -380,8 +380,8 @@ static inline void model_read_libraries(const char *path, model *m)
     }
 }
 
-/* Opens binary STL that fits its count, whose head of 84 bytes is read; NULL: the file is something
-   else, or cannot be opened.  Such a file is read in pieces, as it may be twice as large as the mesh. */
+/* Opens binary STL that fits its count, whose head of 84 bytes is read; NULL: it is something else,
+   or cannot be opened.  It is read in pieces, as it may be twice as large as the mesh. */
 static inline FILE *model_open_stl(const char *path, unsigned char *head, long *size)
 {
     mesh_reader r = mesh_about(path, NULL, 0);

@@ -105,7 +105,8 @@ async function loadModule() {
     const bytes = base64 => Uint8Array.from(atob(base64), c => c.charCodeAt(0));
     const simd = bytes(WASM.simd);
     kind = S.simd && WebAssembly.validate(simd) ? 'simd' : 'plain';
-    const made = await WebAssembly.instantiate(kind === 'simd' ? simd : bytes(WASM.plain), {});
+    const made = await WebAssembly.instantiate(kind === 'simd' ? simd : bytes(WASM.plain),
+        { env: { exp: Math.exp, log: Math.log } });
     wasm = made.instance.exports;
 }
 
