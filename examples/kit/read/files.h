@@ -381,8 +381,8 @@ static inline void model_read_libraries(const char *path, model *m)
 }
 
 /* Opens binary STL that fits its count, whose head of 84 bytes is read; NULL: the file is something
-   else, or cannot be opened.  Such a file is read in pieces: it can be twice as large as the mesh in
-   it. */
+   else, or cannot be opened.  Such a file is read in pieces: it can be twice as large as the mesh
+   in it. */
 static inline FILE *model_open_stl(const char *path, unsigned char *head, long *size)
 {
     mesh_reader r = mesh_about(path, NULL, 0);
