@@ -83,10 +83,10 @@
        >>numbers   9627  what makes no sense   >>doubts    9961  what is seldom right
        >>unseen   10110  why nothing is in view
        >>hidden   10389  why nothing is stored >>black    10553  why all is black
-       >>wrong    10935  what else is wrong    >>verdict  11319  the calls
+       >>wrong    10935  what else is wrong    >>verdict  11323  the calls
      Sources
-       >>refs     11609                        >>history  11642
-       >>license  11648
+       >>refs     11613                        >>history  11646
+       >>license  11652
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -10993,9 +10993,10 @@ static int shade__lacks_depth(shade__survey *q)
     return shade__hides_nearest(q, 1);
 }
 
-/* Edges by the number of other triangles that have them: one (pairs) or more (crowded).  turned:
-   both of a pair go through it in the same direction, so that one is wound the other way. */
-typedef struct shade__seams { int pairs, turned, crowded; } shade__seams;
+/* Edges by the number of other triangles that have them: none (open), one (pairs) or more
+   (crowded).  turned: both of a pair go through it in the same direction, so that one is wound the
+   other way. */
+typedef struct shade__seams { int open, pairs, crowded, turned; } shade__seams;
 
 /* Counts the edge from corner k of a triangle to the next. */
 static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__seams *seams)
@@ -11012,10 +11013,11 @@ static void shade__count_edge(const shade_mesh *m, int triangle, int k, shade__s
         same += at_a && shade__is_zero(shade_sub(next, b));
         opposite += at_b && shade__is_zero(shade_sub(next, a));
     }
-    if (same + opposite == 1) {
-        seams->pairs++;
-        seams->turned += same;
-    } else seams->crowded += same + opposite > 1;
+    seams->open += same + opposite == 0;
+    seams->crowded += same + opposite > 1;
+    if (same + opposite != 1) return;
+    seams->pairs++;
+    seams->turned += same;
 }
 
 /* Looks at as many triangles as take the time of some frames: all of a small mesh. */
@@ -11023,7 +11025,7 @@ static shade__seams shade__seams_of(const shade_mesh *m)
 {
     const int all = shade__corner_count(m) / 3;
     const int step = 1 + (int)((double)all * all / 4e6);
-    shade__seams seams = { 0, 0, 0 };
+    shade__seams seams = { 0, 0, 0, 0 };
     for (int i = 0; i < all; i += step) {
         shade_vec3 p[3];
         if (shade__is_zero(shade__face_normal(m, (uint32_t)i, p))) continue;
@@ -11039,11 +11041,13 @@ static int shade__is_crowded(const shade__survey *s)
     return seams.crowded * 10 > seams.pairs;
 }
 
-/* Is at least one pair of so many turned?  Below one of a hundred it may be the knot of a mesh. */
+/* Is at least one pair of so many turned?  Below one of a hundred it may be the knot of a mesh.  A
+   quad has two open edges a triangle; loose triangles, as without indices, have more. */
 static int shade__is_turned(const shade__survey *s, int of)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
-    return seams.turned > 1 && seams.turned * of >= seams.pairs && !shade__is_crowded(s);
+    return seams.turned > 1 && seams.turned * of >= seams.pairs &&
+           seams.open <= 2 * seams.pairs && !shade__is_crowded(s);
 }
 
 /* Is a face left out whose neighbour is not? */
@@ -11064,12 +11068,12 @@ static int shade__view_mirrors(shade__survey *q)
 
 static const char shade__both_ways[] =
     "Faces are wound both ways: some neighbours, fewer than a tenth, go through their common edge "
-    "in the same direction.  Wind all faces counter-clockwise as seen from outside; until then "
-    "use SHADE_CULL_NONE and SHADE_FLAG_TWO_SIDED.";
+    "in the same direction.  If mesh.indices is not forgotten, wind all faces counter-clockwise as "
+    "seen from outside; until then use SHADE_CULL_NONE and SHADE_FLAG_TWO_SIDED.";
 static const char shade__often_both_ways[] =
     "Faces are wound both ways: a tenth or more of all neighbours go through their common edge in "
-    "the same direction.  Wind all faces counter-clockwise as seen from outside; until then use "
-    "SHADE_CULL_NONE and SHADE_FLAG_TWO_SIDED.";
+    "the same direction.  If mesh.indices is not forgotten, wind all faces counter-clockwise as "
+    "seen from outside; until then use SHADE_CULL_NONE and SHADE_FLAG_TWO_SIDED.";
 static const char shade__mirrored_view[] =
     "state.view mirrors, since its determinant is negative, so that front faces count as back "
     "faces: make it with shade_mat4_look_at, which only turns and moves.";

@@ -1,6 +1,6 @@
 #!/bin/sh
 # PlayCanvas 2.23.3: the highlight of a StandardMaterial is (n + 2)/8 (N.H)^n of n = 2^(11 gloss), Blinn's, not GGX, unless
-# enableGGXSpecular is set; at gloss .5 it is four times as bright in its middle as with it.
+# enableGGXSpecular is set; at gloss .25 it is four times as bright in its middle as with it.
 # Most would guess GGX, which an engine of physically based materials has everywhere else.
 cd "$(dirname "$0")/.." || exit 1
 T=$(mktemp -d) && trap 'rm -rf "$T"' EXIT

@@ -10,6 +10,7 @@ apt-get install -qq -y --no-install-recommends --download-only -o Dir::State::st
     -o Dir::Cache::archives="$T/debs" -o Debug::NoLocking=1 xvfb xterm=379-1 rxvt-unicode=9.30-2+b4 >apt.log 2>&1 || exit 77
 rm -f debs/libc6_*.deb
 for deb in debs/*.deb; do dpkg-deb -x "$deb" root || exit 77; done
+chmod -R ug-s root/usr/bin    # or LD_LIBRARY_PATH is not read
 LD_LIBRARY_PATH=$(find "$T/root" -name '*.so*' -printf '%h\n' | sort -u | tr '\n' ':')
 XKB=$T/root/usr/share/X11/xkb
 export LD_LIBRARY_PATH

@@ -667,8 +667,9 @@ static inline elsewhere_look elsewhere_three_phong(elsewhere_three_phong_numbers
     return k;
 }
 
-/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours that
-   are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.  Measured. */
+/* three.js 0.187.0: what its MTLLoader makes of Wavefront's MTL: a MeshPhongMaterial of colours
+   that are sRGB in the file.  illum counts for nothing, so that 0 and 1 have highlights too.
+   Measured. */
 typedef struct elsewhere_three_mtl_numbers {
     shade_vec3 Kd, Ks, Ke;
     float Ns, illum;
@@ -764,6 +765,16 @@ static inline elsewhere_look elsewhere_x3dom(elsewhere_x3dom_numbers v)
     elsewhere_look k = elsewhere_x_ite(v);
     k.viewer = ELSEWHERE_VIEWER_RAY;
     k.encoding = ELSEWHERE_ENCODING_GAMMA;
+    return k;
+}
+
+/* X3D as view3dscene 4.2.0 of Castle Game Engine draws it: as X_ITE, but that highlights are gated.
+   Measured. */
+typedef elsewhere_x_ite_numbers elsewhere_view3dscene_numbers;
+static inline elsewhere_look elsewhere_view3dscene(elsewhere_view3dscene_numbers v)
+{
+    elsewhere_look k = elsewhere_x_ite(v);
+    k.flags = 0;
     return k;
 }
 
@@ -912,6 +923,22 @@ static inline elsewhere_look elsewhere_mplot3d(elsewhere_mplot3d_numbers v)
     k.law = ELSEWHERE_LAW_SIGNED;
     k.own =
         shade_v3(cosf(azimuth) * cosf(altitude), sinf(azimuth) * cosf(altitude), sinf(altitude));
+    return k;
+}
+
+/* GDAL 3.6.2: gdaldem hillshade, azimuth clockwise from north and altitude in degrees, of a height
+   field whose east is x, north y and up z.  Bytes are 1 + 254 N.L, 1 where N.L < 0.  Measured. */
+typedef struct elsewhere_gdal_numbers {
+    float azimuth, altitude;
+} elsewhere_gdal_numbers;
+static inline elsewhere_look elsewhere_gdal(elsewhere_gdal_numbers v)
+{
+    const float azimuth = shade_radians(v.azimuth), altitude = shade_radians(v.altitude);
+    elsewhere_look k = elsewhere_plain(SHADE_MODEL_LAMBERT);
+    k.material.emission = elsewhere_grey(1 / 255.0f);
+    k.material.diffuse = elsewhere_grey(254 / 255.0f);
+    k.own =
+        shade_v3(sinf(azimuth) * cosf(altitude), cosf(azimuth) * cosf(altitude), sinf(altitude));
     return k;
 }
 
@@ -1079,7 +1106,8 @@ static inline elsewhere_look elsewhere_processing(elsewhere_processing_numbers v
 /* PlayCanvas 2.23.3: StandardMaterial without metalness, colours as a file has them.  By default it
    is no GGX but (n + 2)/8 (N.H)^n N.L of n = 2^(11 gloss), V to the camera's point even under
    parallel projection; enableGGXSpecular is not said here. N.L is not divided by pi; ambient light
-   counts times diffuse (1 - specular).  Bytes are light^(1/2.2).  Measured; lightSpecularBlinn of its shaders. */
+   counts times diffuse (1 - specular).  Bytes are light^(1/2.2).  Measured; lightSpecularBlinn of
+   its shaders. */
 typedef struct elsewhere_playcanvas_numbers {
     shade_vec3 diffuse, specular, emissive;
     float gloss;

@@ -38,6 +38,7 @@ ELSEWHERE_ROW(three_toon, look)
 ELSEWHERE_ROW(babylon, look)
 ELSEWHERE_ROW(x_ite, look)
 ELSEWHERE_ROW(x3dom, look)
+ELSEWHERE_ROW(view3dscene, look)
 ELSEWHERE_ROW(three_lamp, lamp)
 ELSEWHERE_ROW(babylon_lamp, lamp)
 ELSEWHERE_ROW(x3d_lamp, lamp)
@@ -53,6 +54,7 @@ ELSEWHERE_ROW(tachyon_lamp, lamp)
 ELSEWHERE_ROW(gnuplot, look)
 ELSEWHERE_ROW(mplot3d, look)
 ELSEWHERE_ROW(surfl, look)
+ELSEWHERE_ROW(gdal, look)
 ELSEWHERE_ROW(opengl, look)
 ELSEWHERE_ROW(inventor, look)
 ELSEWHERE_ROW(mtl, look)
@@ -96,6 +98,8 @@ static const elsewhere_row elsewhere_rows[] = {
       elsewhere_row_x_ite, NULL },
     { "x3dom", "diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 shininess=.2",
       elsewhere_row_x3dom, NULL },
+    { "view3dscene", "diffuseColor=.8,.8,.8 specularColor=0,0,0 emissiveColor=0,0,0 shininess=.2",
+      elsewhere_row_view3dscene, NULL },
     { "three_lamp",
       "at=0,0,1,0 color=1,1,1 aim=0,0,0 intensity=1 distance=0 decay=2 angle=1.0471976 "
       "penumbra=0",
@@ -126,6 +130,7 @@ static const elsewhere_row elsewhere_rows[] = {
       elsewhere_row_tachyon_lamp },
     { "gnuplot", "color=1,1,1 primary=.5 specular=0", elsewhere_row_gnuplot, NULL },
     { "mplot3d", "color=1,1,1 azdeg=225 altdeg=19.4712", elsewhere_row_mplot3d, NULL },
+    { "gdal", "azimuth=315 altitude=45", elsewhere_row_gdal, NULL },
     { "surfl", "ambient=.55 diffuse=.6 specular=.4 shine=10", elsewhere_row_surfl, NULL },
     { "opengl",
       "ambient=.2,.2,.2 diffuse=.8,.8,.8 specular=0,0,0 emission=0,0,0 shininess=0 "

@@ -1341,7 +1341,14 @@ CURE(both_sides)
     s->state.raster.cull = SHADE_CULL_NONE;
     s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED;
 }
-CURE(turn_back) { stage_turn(s, s->turned); }
+/* Of the indices, if they were forgotten; or of the faces that were wound the other way. */
+CURE(turn_back)
+{
+    if (s->mesh.indices) stage_turn(s, s->turned);
+    else s->mesh.indices = s->index;
+    for (int i = 0; i < s->mesh.index_count; i++)
+        while (s->index[i] >= (uint32_t)s->mesh.vertex_count) s->mesh.vertex_count++;
+}
 CURE_LAMPS(positive_lamps, for (int i = 0; i < 9; i++) {
     float *c = &l->ambient.x + i;
     *c = fabsf(*c);
@@ -1619,7 +1626,7 @@ static int ex_is_nearer(const judged *j, const claim *c)
     ex_copy(&j->e->right, &s);
     ex_draw(j->e, &s, &right);
     before = ex_wrong(j->drawn, &right);
-    if (c->advice == cure_turn_back) {    /* what helps until then makes nothing worse */
+    if (c->advice == cure_turn_back && j->e->s.mesh.indices) {    /* what helps until then */
         ex_copy(&j->e->s, &s);
         cure_both_sides(&s);
         ex_draw(j->e, &s, &after);

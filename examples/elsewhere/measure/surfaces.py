@@ -1,5 +1,5 @@
-"""Programs that colour surfaces: matplotlib, Octave, gnuplot (Debian: python3-matplotlib, octave,
-gnuplot-nox, python3-numpy): python3 surfaces.py [NAME ...]
+"""Programs that colour surfaces: matplotlib, Octave, gnuplot, GDAL (Debian: python3-matplotlib, octave, fonts-freefont-otf,
+gnuplot-nox, gdal-bin, python3-numpy): python3 surfaces.py [NAME ...]
 
 Those that shade planes get one plane for each pixel, tangent to the ball there.
 """
@@ -57,6 +57,8 @@ printf('%.6f\\n', out);'''
     with tempfile.TemporaryDirectory() as folder:
         open(os.path.join(folder, 'a.m'), 'w').write(text)
         done = subprocess.run(['octave-cli', '--quiet', 'a.m'], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=200)
+        # without a font its axes fail
+        if done.returncode: raise SystemExit('octave-cli failed; it wants a font, as of fonts-freefont-otf')
         return [float(v) for v in done.stdout.split()[-len(normals):]]
 
 def surfl_draw(case, size):
@@ -99,7 +101,22 @@ def gnuplot():
     main('gnuplot', 'gnuplot 5.4.4 pm3d (Debian gnuplot-nox 5.4.4+dfsg1-2+b2)', once(m, [[]]), gnuplot_draw, head='within 4.6\n',
          ball=Case('parallel', dict(color=WHITE, primary=.6, specular=.8), []))
 
+def gdal_draw(case, size):
+    m, at = case.material, tangents()
+    rows = [' '.join(f'{-(n[0] * x + n[1] * y) / n[2]:.9g}' for n in at.values() for x in (-1, 0, 1)) for y in (1, 0, -1)]
+    with tempfile.TemporaryDirectory() as folder:
+        open(os.path.join(folder, 'a.asc'), 'w').write(f'ncols {3 * len(at)}\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n' + '\n'.join(rows) + '\n')
+        run_tool(['gdaldem', 'hillshade', 'a.asc', 'a.tif', '-az', str(m['azimuth']), '-alt', str(m['altitude']), '-q'], folder)
+        run_tool(['gdal_translate', '-q', '-of', 'AAIGrid', 'a.tif', 'b.asc'], folder)
+        lines = [l.split() for l in open(os.path.join(folder, 'b.asc'))]
+    middle = [l for l in lines if len(l) == 3 * len(at)][1]
+    return spread({p: int(middle[3 * i + 1]) / 255 for i, p in enumerate(at)}, size)
+
+def gdal():
+    m = [dict(azimuth=a, altitude=e) for a in (315, 45, 90, 200) for e in (45, 10, 80)]
+    main('gdal', 'GDAL 3.6.2, gdaldem hillshade (Debian gdal-bin 3.6.2+dfsg-1+b2)', once(m, [[]]), gdal_draw)
+
 if __name__ == '__main__':
     names = [a for a in sys.argv[1:] if not a.startswith('-')]
-    for program in (mplot3d, surfl, gnuplot):
+    for program in (mplot3d, surfl, gnuplot, gdal):
         if not names or program.__name__ in names: program()

@@ -5,6 +5,9 @@
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc} room=examples/elsewhere
+PYTHON=python3
+[ -x /usr/bin/python3 ] && PYTHON=/usr/bin/python3    # Debian's modules are for Debian's Python
+export PYTHON
 
 $CC -O1 -w -I. $room/test/tables.c -lm -o "$T/tables" || exit 1
 "$T/tables" $room/tables/*.txt >"$T/measured"
@@ -28,21 +31,29 @@ again() {
     needs=$1 script=$2; shift 2
     if [ -z "${LONG:-}" ]; then return; fi
     for name; do
-        if sh -c "$needs" >/dev/null 2>&1; then check "$name draws as it did" python3 "$room/measure/$script" "$name"
+        if sh -c "$needs" >/dev/null 2>&1; then check "$name draws as it did" "$PYTHON" "$room/measure/$script" "$name"
         else left_out "$name, whose program is not installed"; fi
     done
 }
 [ "${LONG:-}" ] || left_out "the programs themselves, which draw again with LONG=1"
+if [ "${LONG:-}" ] && [ ! "${DISPLAY:-}" ] && there Xvfb; then    # VTK and view3dscene want a display
+    Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>"$T/display" >/dev/null 2>&1 & x=$!
+    trap 'kill $x; rm -rf "$T"' EXIT
+    for _ in 1 2 3 4 5 6 7 8 9 10; do [ -s "$T/display" ] || sleep 1; done
+    if [ -s "$T/display" ]; then DISPLAY=":$(cat "$T/display")" && export DISPLAY; fi
+fi
 header() { echo "echo '#include <$1>' | c++ $2 -w -E -x c++ -"; }
 again 'command -v povray' povray.py povray
-again 'python3 -c "import vtkmodules"' vtk.py vtk
+again '$PYTHON -c "import vtkmodules" && test "$DISPLAY"' vtk.py vtk
+again 'command -v view3dscene && command -v pngtopnm && test "$DISPLAY"' view3dscene.py view3dscene
 again "$(header GL/osmesa.h)" opengl.py opengl
 again 'command -v tachyon' raytracers.py tachyon
 again 'test -x /usr/bin/render && command -v pngtopnm' raytracers.py raster3d
-again 'python3 -c "import pymol" && command -v pngtopnm' raytracers.py pymol
-again 'python3 -c "import mpl_toolkits.mplot3d"' surfaces.py mplot3d
+again '$PYTHON -c "import pymol" && command -v pngtopnm' raytracers.py pymol
+again '$PYTHON -c "import mpl_toolkits.mplot3d"' surfaces.py mplot3d
 again 'command -v octave-cli && command -v gnuplot' surfaces.py surfl
 again 'command -v gnuplot && command -v pngtopnm' surfaces.py gnuplot
+again 'command -v gdaldem && command -v gdal_translate' surfaces.py gdal
 again "$(header Inventor/SoDB.h) && $(header GL/osmesa.h)" toolkits.py inventor
 again "$(header osg/Version) && $(header GL/osmesa.h)" toolkits.py osg
 again "$(header mgl2/mgl_cf.h)" toolkits.py mathgl

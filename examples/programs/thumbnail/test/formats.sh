@@ -25,6 +25,31 @@ if compile examples/programs/thumbnail/test/convert.c -lassimp -o "$T/convert" 2
     done
 fi
 
+# 3DS has its shininess in percent: 40 of them are an exponent of 2^4 = 16, as MTL has it
+if there python3; then
+    (cd "$T" && python3 -c "
+from struct import pack
+def chunk(kind, *inside):
+    return pack('<HI', kind, 6 + sum(map(len, inside))) + b''.join(inside)
+def color(kind, *rgb): return chunk(kind, chunk(0x11, bytes(rgb)))
+def percent(kind, p): return chunk(kind, chunk(0x30, pack('<h', p)))
+points = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
+faces = (0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)
+surface = chunk(0xafff, chunk(0xa000, b's\0'), color(0xa020, 128, 26, 26), color(0xa030, 204, 204, 204),
+                percent(0xa040, 40), percent(0xa041, 100), chunk(0xa100, pack('<H', 3)))
+mesh = chunk(0x4100, chunk(0x4110, pack('<H', 4), *(pack('<3f', *p) for p in points)),
+             chunk(0x4120, pack('<H', 4), *(pack('<4H', *f, 7) for f in faces),
+                   chunk(0x4130, b's\0', pack('<5H', 4, 0, 1, 2, 3)), chunk(0x4150, pack('<4I', 1, 2, 4, 8))))
+open('gloss.3ds', 'wb').write(chunk(0x4d4d, chunk(0x3d3d, surface, chunk(0x4000, b'o\0', mesh))))
+shape = 'usemtl s\nv 0 0 0\nv 2 0 0\nv 0 0 -2\nv 0 2 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n'
+for n in 16, 40:
+    open(f'gloss{n}.obj', 'w').write(f'mtllib gloss{n}.mtl\n' + shape)
+    open(f'gloss{n}.mtl', 'w').write(f'newmtl s\nKd .50196 .10196 .10196\nKs .8 .8 .8\nNs {n}\n')")
+    same "40 percent of 3DS" gloss.3ds gloss16.obj 0 "--up y --view=-40,30"
+    check "Ns 40" draw gloss40.obj b.ppm --up y --view=-40,30
+    check "is another highlight" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+fi
+
 { echo '<?xml version="1.0"?><amf unit="inch"><object id="1"><mesh><vertices>'
     printf "$wedge" | sed 's|v \(.*\) \(.*\) \(.*\)|<vertex><coordinates><x>\1</x><y>\2</y><z>\3</z></coordinates></vertex>|'
     echo '</vertices><volume>'
