@@ -2,8 +2,10 @@
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
 #   run.sh [compare] [levels] [maths] [kernel] [scaling] [normals] [size] [copies] [read] [thumbnails]
-#                            all where none is named
+#          [lamps] [batch]   all where none is named
 #   BASE=revision run.sh     this shade.h against that of another revision, frames in turns
+#   BASE=revision run.sh thumbnails lamps batch
+#                            these programs beside those of another revision
 #
 # CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an
 # OBJ file instead of the knot) may be set.  Figures for plot.sh are left in BUILD as bench_*.tsv.
@@ -132,31 +134,112 @@ read_files() {
     echo
 }
 
-# Thumbnails at 256 pixels, as programs from start to end, beside f3d, which needs a display.
-thumbnails() {
-    ${MAKE:-make} -s build/thumbnail
+# A program of $BASE as build/base_NAME, without libraries; this one's as build/own_NAME
+programs_of() {                 # name, more flags for our own
+    name=$1; shift
+    line="-std=c99 $flags -ffp-contract=off -pthread -I. examples/programs/$name/$name.c -lm"
+    $cc "$@" $line -o "$build/own_$name"
+    [ "${BASE:-}" ] || return 0
+    rm -rf "$build/base_tree" && mkdir -p "$build/base_tree"
+    git archive "$BASE" shade.h examples | tar x -C "$build/base_tree"
+    (cd "$build/base_tree" && $cc $line -o "../base_$name")
+}
+# The least seconds of commands in turns become the rest of a row: $1 names it.
+row() {
+    awk -v name="$1" '{
+        line = "| " name
+        for (k = 1; k <= NF; k++) { split($k, v, ":"); line = line " | " v[1] " | " v[2]; t[k] = v[1] }
+        for (k = 3; k <= NF; k++) line = line sprintf(" | %.2f, %.2f", t[1] / t[k], t[2] / t[k])
+        print line " |" }'
+}
+torus() {                       # triangles: build/a.stl
+    "$build/bench_read" --only "STL, binary" --triangles "$1" --write "$build" >/dev/null
+}
+tools() {
     $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/read.c -o "$build/bench_read" -lm
     $cc $standard $flags bench/turns.c -o "$build/turns"
-    picture=$build/bench_read.ppm f3d= screen=
-    if can_build c '#include <stb/stb_image_write.h>' $cc "$build/probe.c"; then
-        picture=$build/bench_read.png
-    fi
+    $cc $standard $flags examples/programs/thumbnail/test/look.c -o "$build/look" -lm
+}
+
+# Thumbnails at 256 pixels, as programs from start to end, beside f3d, which needs a display, and
+# beside those of $BASE.
+thumbnails() {
+    tools
+    programs_of thumbnail
+    f3d= screen= heads= rules=
     if command -v f3d >/dev/null; then
         f3d="-- f3d --dry-run --resolution 256,256 --output $build/bench_f3d.png"
+        heads=" | f3d | MB" rules="---|---|"
         if [ -z "${DISPLAY:-}" ]; then screen="xvfb-run -a"; fi
     fi
-    echo "## Thumbnails of binary STL at 256 pixels, seconds of processor time"
+    [ -z "${BASE:-}" ] || heads="$heads | $BASE | MB" rules="$rules---|---|"
+    echo "## Thumbnails of binary STL at 256 pixels: least seconds of processor time, most memory"
     echo
-    echo "| triangles | shade-thumbnail | with --quick | f3d | parts of it |"
-    echo "|---|---|---|---|---|"
+    echo "Behind them the parts of each other program's time that the two take."
+    echo
+    echo "| triangles | thumbnail | MB | --quick | MB$heads |${f3d:+ of f3d |}${BASE:+ of $BASE |}"
+    echo "|---|---|---|---|---|$rules${f3d:+---|}${BASE:+---|}"
     for triangles in 1000 100000 2000000; do
-        "$build/bench_read" --only "STL, binary" --triangles "$triangles" --write "$build" >/dev/null
-        model=$build/a.stl
-        $screen "$build/turns" "${ROUNDS:-5}" build/thumbnail --size 256x256 "$model" "$picture" -- \
-            build/thumbnail --quick --size 256x256 "$model" "$picture" ${f3d:+$f3d "$model"} |
+        torus $triangles
+        set -- --size 256x256 "$build/a.stl" "$build/bench_read.ppm"
+        $screen "$build/turns" "${ROUNDS:-5}" "$build/own_thumbnail" "$@" -- \
+            "$build/own_thumbnail" --quick "$@" ${f3d:+$f3d "$build/a.stl"} \
+            ${BASE:+-- "$build/base_thumbnail" "$@"} | row $triangles
+    done
+    rm -f "$build/a.stl"
+    echo
+}
+
+# How far thumbnails are from pictures of which each sample asks 64 lamps of the sky and 16 points of
+# the large one, by fine maps of the whole model, and how far those of $BASE are.  MODELS: the files.
+lamps() {
+    tools
+    programs_of thumbnail -DSTUDIO_WHOLE=1
+    mv "$build/own_thumbnail" "$build/whole_thumbnail"
+    programs_of thumbnail
+    torus 100000
+    from=/usr/share/assimp/models       # of assimp-testmodels
+    all="$build/a.stl $from/OBJ/spider.obj $from/OBJ/WusonOBJ.obj $from/STL/Spider_binary.stl
+        $from/PLY/Wuson.ply $from/OFF/Wuson.off
+        $from/glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb"
+    echo "## Mean difference to a picture by all lamps, of 255, at 256 pixels"
+    echo
+    echo "| model | thumbnail${BASE:+ | $BASE} |"
+    echo "|---|---|${BASE:+---|}"
+    for model in ${MODELS:-$all}; do
+        [ -f "$model" ] || continue
+        line="| ${model##*/} |"
+        "$build/whole_thumbnail" --quiet --size 256x256 "$model" "$build/whole.ppm"
+        for program in own ${BASE:+base}; do
+            "$build/${program}_thumbnail" --quiet --size 256x256 "$model" "$build/$program.ppm"
+            line="$line $("$build/look" near "$build/whole.ppm" "$build/$program.ppm" 255 |
+                sed 's/.*, \([0-9.]*\) in.*/\1/') |"
+        done
+        echo "$line"
+    done
+    rm -f "$build/a.stl"
+    echo
+}
+
+# A frame of a turning torus, 640 x 360: a tenth of what eleven frames take more than one
+batch() {
+    tools
+    programs_of batch
+    echo "## Frames of batch at 640 x 360, seconds of processor time"
+    echo
+    echo "| triangles | a frame${BASE:+ | $BASE | parts of it} |"
+    echo "|---|---|${BASE:+---|---|}"
+    for triangles in 1000 100000; do
+        torus $triangles
+        set -- "$build/a.stl" --size 640x360 --pipe --frames
+        "$build/turns" "${ROUNDS:-5}" "$build/own_batch" "$@" 1 -- "$build/own_batch" "$@" 11 \
+            ${BASE:+-- "$build/base_batch" "$@" 1 -- "$build/base_batch" "$@" 11} |
             awk -v triangles="$triangles" '{
-                parts = NF > 2 ? sprintf("%.2f, %.2f", $1 / $3, $2 / $3) : "-"
-                print "| " triangles " | " $1 " | " $2 " | " (NF > 2 ? $3 : "-") " | " parts " |" }'
+                for (k = 1; k <= NF; k++) t[k] = $k + 0
+                line = sprintf("| %s | %.4f |", triangles, (t[2] - t[1]) / 10)
+                if (NF > 2) line = line sprintf(" %.4f | %.2f |", (t[4] - t[3]) / 10,
+                    (t[2] - t[1]) / (t[4] - t[3]))
+                print line }'
     done
     rm -f "$build/a.stl"
     echo
@@ -235,14 +318,14 @@ against() {
         echo
     done
 }
-if [ -n "${BASE:-}" ]; then
+if [ -n "${BASE:-}" ] && [ $# -eq 0 ]; then
     against
     exit
 fi
 
-for part in ${*:-compare levels maths kernel scaling normals size copies read thumbnails}; do
+for part in ${*:-compare levels maths kernel scaling normals size copies read thumbnails lamps batch}; do
     case $part in
-    compare | levels | maths | kernel | scaling | normals | copies | thumbnails) $part ;;
+    compare | levels | maths | kernel | scaling | normals | copies | thumbnails | lamps | batch) $part ;;
     size) size_of ;;
     read) read_files ;;
     *)

@@ -142,7 +142,7 @@ static void look_studio(const look *k, const float *P, const float *N, const flo
 static void look_send(const look *k, const float *P, const float *N, const float *albedo, int count,
                       const shade_fragments *in, look_sent *out)
 {
-    const int shares = in && k->samples > 1 ? STUDIO_SHARES : 1;
+    const int shares = in && k->samples > 1 && !STUDIO_WHOLE ? STUDIO_SHARES : 1;
     for (int first = 0; first < shares; first++) {
         look_share s = { .first = first, .shares = shares };
         for (int i = 0; i < count; i++) {

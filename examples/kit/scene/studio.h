@@ -25,6 +25,9 @@ enum { STUDIO_SHARES = 4 };   /* the numbers of lamps are multiples of it */
 enum { STUDIO_SLOPES = 32 };  /* steps of the table, from a floor's underside to level ground */
 enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow on the ground, at most */
 #define STUDIO_REACH 1.02f    /* half the edge of the square that a map sees */
+#ifndef STUDIO_WHOLE
+#define STUDIO_WHOLE 0 /* 1: each sample asks all lamps, of fine maps of the whole model */
+#endif
 
 typedef struct studio_map {
     shade_vec3 toward, right, up; /* unit vectors; toward points to the lamp */
@@ -429,7 +432,7 @@ static int studio_may_thin(const model *m)
 {
     for (int i = 0; i < m->surface_count; i++)
         if (m->surface[i].alpha_cutoff > 0) return 0; /* its map would be needed */
-    return m->mesh.view.index_count / 3 > STUDIO_THIN;
+    return !STUDIO_WHOLE && m->mesh.view.index_count / 3 > STUDIO_THIN;
 }
 
 /* The cell of a coordinate, of so many */
@@ -519,9 +522,12 @@ static int studio_thin(model *thin, const model *m, int pixels)
 static shade_result studio_open_for(studio *s, const model *m, int pixels, float turn, int threads,
                                     mesh_progress *progress, void *user)
 {
-    const int sky = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
-    const int key = pixels <= 256 ? 8 : STUDIO_KEY;
-    const int sky_size = pixels <= 128 ? 128 : 256, key_size = 2 * sky_size;
+    const int sky = STUDIO_WHOLE    ? STUDIO_SKY
+                    : pixels <= 128 ? 24
+                    : pixels <= 256 ? 40
+                                    : STUDIO_SKY;
+    const int key = pixels <= 256 && !STUDIO_WHOLE ? 8 : STUDIO_KEY;
+    const int sky_size = pixels <= 128 && !STUDIO_WHOLE ? 128 : 256, key_size = 2 * sky_size;
     size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
     s->ground = pixels <= 128 ? STUDIO_GROUND / 2 : STUDIO_GROUND;
     studio_place(s, sky, key);
