@@ -1327,14 +1327,7 @@ CURE(middle)
     for (int i = 0; i < STAGE_VERTICES + STAGE_LAMPS + 2; i++)
         for (int k = 0; k < 3; k++)
             (&place[i].x)[k] = (float)(s->file[i][k] - (i < STAGE_VERTICES ? middle[k] : by[k]));
-    memcpy(s->position, place, sizeof s->position);
-    for (int k = 0; k < STAGE_LAMPS; k++)
-        if (s->lamps[k].position.w != 0)
-            memcpy(&s->lamps[k].position, place + STAGE_VERTICES + k, sizeof *place);
-    s->state.view = shade_mat4_look_at(place[STAGE_VERTICES + STAGE_LAMPS],
-                                       place[STAGE_VERTICES + STAGE_LAMPS + 1],
-                                       shade_v3(0, 1, 0));
-    if (s->mesh.chunks) stage_chunks(s);
+    stage_put(s, place);
 }
 CURE(both_sides)
 {

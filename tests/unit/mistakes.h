@@ -267,6 +267,18 @@ static inline void stage_interleave(stage *s)
     m->texcoords = s->vertex + 6;
     m->position_stride = m->normal_stride = m->texcoord_stride = 32;
 }
+/* Puts the vertices, the point lamps, the eye and what it looks at to places in this order. */
+static inline void stage_put(stage *s, const shade_vec3 *place)
+{
+    memcpy(s->position, place, sizeof s->position);
+    for (int k = 0; k < STAGE_LAMPS; k++)
+        if (s->lamps[k].position.w != 0)
+            memcpy(&s->lamps[k].position, place + STAGE_VERTICES + k, sizeof *place);
+    s->state.view = shade_mat4_look_at(place[STAGE_VERTICES + STAGE_LAMPS],
+                                       place[STAGE_VERTICES + STAGE_LAMPS + 1],
+                                       shade_v3(0, 1, 0));
+    if (s->mesh.chunks) stage_chunks(s);
+}
 /* Moves the mesh, its point lamps and the camera far away; the doubles keep where they are. */
 static inline void stage_move_far(stage *s)
 {
@@ -285,14 +297,7 @@ static inline void stage_move_far(stage *s)
             s->file[i][k] = (double)(&place[i].x)[k] + (i < STAGE_VERTICES ? far[k] : by);
             (&place[i].x)[k] = (float)s->file[i][k];
         }
-    memcpy(s->position, place, sizeof s->position);
-    for (int k = 0; k < STAGE_LAMPS; k++)
-        if (s->lamps[k].position.w != 0)
-            memcpy(&s->lamps[k].position, place + STAGE_VERTICES + k, sizeof *place);
-    s->state.view = shade_mat4_look_at(place[STAGE_VERTICES + STAGE_LAMPS],
-                                       place[STAGE_VERTICES + STAGE_LAMPS + 1],
-                                       shade_v3(0, 1, 0));
-    if (s->mesh.chunks) stage_chunks(s);
+    stage_put(s, place);
 }
 /* Winds the triangles the other way from an index on. */
 static inline void stage_turn(stage *s, int first)
