@@ -54,39 +54,39 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     135  options               >>types      269  materials, targets, states
-       >>light      455  the equation, colour  >>draw       564  shaders, meshes, pixels
-       >>tools      724  explain, lines, rays  >>plumbing   940  compilers, flags and bits
-       >>math      1108  vectors and matrices
+       >>light      456  the equation, colour  >>draw       565  shaders, meshes, pixels
+       >>tools      725  explain, lines, rays  >>plumbing   941  compilers, flags and bits
+       >>math      1109  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1476  processors            >>base      1723  bits, masks, rows of vectors
-       >>matrix    1921  cameras, inverses     >>power     2209  x^n
-       >>pixels    2275  formats, sRGB
+       >>machine   1477  processors            >>base      1724  bits, masks, rows of vectors
+       >>matrix    1922  cameras, inverses     >>power     2210  x^n
+       >>pixels    2276  formats, sRGB
      Inside: light
-       >>lamps     2586  attenuation, cones    >>terms     2838  one term at one point
-       >>surface   2913  material and lights   >>lit       3030  the whole sum, at many points
+       >>lamps     2587  attenuation, cones    >>terms     2839  one term at one point
+       >>surface   2914  material and lights   >>lit       3031  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3420  fields by owner       >>vertices  3633  shading, projection
-       >>triangles 3836  culling, edge setup   >>clip      4190  near, far, guard band
-       >>tiles     4377  edges and depth test  >>cover     4741  triangles, tile by tile
-       >>fragments 5009  interpolation, lod    >>texture   5284  texels, filters
-       >>store     5759  blending, packing
+       >>state     3421  fields by owner       >>vertices  3634  shading, projection
+       >>triangles 3837  culling, edge setup   >>clip      4191  near, far, guard band
+       >>tiles     4378  edges and depth test  >>cover     4742  triangles, tile by tile
+       >>fragments 5010  interpolation, lod    >>texture   5286  texels, filters
+       >>store     5761  blending, packing
      Inside: calls of the renderer
-       >>check     6042  refusals              >>seen      6302  view volume, chunks
-       >>drive     6422  shade_draw            >>mesh      6612  shade_draw_mesh
+       >>check     6044  refusals              >>seen      6304  view volume, chunks
+       >>drive     6424  shade_draw            >>mesh      6614  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7016  shade_draw_lines      >>camera    7208  eye and line of sight
-       >>shape     7302  normals, edges        >>chunks    7849  sorting and boxes
-       >>rays      8012  shade_pick            >>image     8203  smaller pictures, mipmaps
-       >>files     8516  PPM and PNG           >>presets   8834  classic materials
+       >>lines     7018  shade_draw_lines      >>camera    7210  eye and line of sight
+       >>shape     7304  normals, edges        >>chunks    7854  sorting and boxes
+       >>rays      8017  shade_pick            >>image     8208  smaller pictures, mipmaps
+       >>files     8536  PPM and PNG           >>presets   8854  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8917  shaders, run again    >>survey    9189  experiments on a draw
-       >>numbers   9641  what makes no sense   >>doubts    9975  what is seldom right
-       >>unseen   10124  why nothing is in view
-       >>hidden   10403  why nothing is stored >>black    10568  why all is black
-       >>wrong    10952  what else is wrong    >>verdict  11340  the calls
+       >>replay    8937  shaders, run again    >>survey    9209  experiments on a draw
+       >>numbers   9662  what makes no sense   >>doubts    9996  what is seldom right
+       >>unseen   10145  why nothing is in view
+       >>hidden   10424  why nothing is stored >>black    10590  why all is black
+       >>wrong    10974  what else is wrong    >>verdict  11365  the calls
      Sources
-       >>refs     11630                        >>history  11663
-       >>license  11669
+       >>refs     11654                        >>history  11687
+       >>license  11693
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -274,6 +274,7 @@ typedef struct shade_vec3 { float x, y, z; } shade_vec3;
 typedef struct shade_vec4 { float x, y, z, w; } shade_vec4;
 typedef struct shade_mat3 { shade_vec3 col[3]; } shade_mat3;    /* columns */
 typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
+typedef char shade__no_padding[sizeof(shade_mat4) == 64 && sizeof(shade_vec3) == 12 ? 1 : -1];
 
 typedef enum shade_result {
     SHADE_OK = 0,
@@ -1565,7 +1566,7 @@ typedef uint32_t __attribute__((may_alias)) shade__word;    /* reads memory of a
 #define SHADE__HOT SHADE__NOINLINE
 #define SHADE__LOWEST_BIT shade__lowest_bit
 #define SHADE__UNLIKELY(x) (x)
-typedef uint32_t shade__word;
+typedef uint32_t shade__word;    /* compilers that do not optimise by type */
 #endif
 
 /* k = 0 .. 3, unrolled: gcc would keep the four sums of a loop in memory, which slows mipmaps. */
@@ -1983,8 +1984,8 @@ SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
     return c;
 }
 
-/* m times the power of 2 that takes its greatest column entry to 1 .. 2, so that its normal matrix
-   neither vanishes nor overflows. */
+/* m times the power of 2 that takes the greatest entry of its first three columns to 1 .. 2, so
+   that its normal matrix neither vanishes nor overflows.   pre: entries below 2^127 */
 static shade_mat4 shade__sized(shade_mat4 m)
 {
     float *entry = (float *)&m;
@@ -2586,8 +2587,8 @@ SHADE__INLINE const float *shade__map_light_of(int full)
 /*------------------------------------------------------------------------------------------ >>lamps
    One light: constructors, and how much of it arrives at a point.
      in      a shade_light, rows of P     out  shade__arrival: rows of L and of the amount of light
-     way     shade__prepare_lamp once a lamp; shade__arrive: come_from_infinity or come_from_point,
-             meet_cone, attenuate, apply_cone
+     way     prepare_lamp once a lamp; arrive: come_from_infinity or come_from_point, meet_cone,
+             attenuate, apply_cone
      holds   Loops run over the SHADE_LANES points of a packet, or over SHADE__POINT copies of a
              single point, through the same code: both get the same bits.  shade_attenuation and
              shade_spot, which only you call, compute one factor each by the plain formula.  The
@@ -3030,7 +3031,7 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
 /*-------------------------------------------------------------------------------------------- >>lit
    The whole equation of >>model, for a packet or for one point.
      in      shade_rows, a shade__surface         out  rows of rgb
-     way     shade__lit_rows: begin_light; then for each lamp add_lamp: arrive, horizon, shine
+     way     lit_rows: begin_light; then for each lamp add_lamp: arrive_at, horizon, shine
              (half or mirrored, raise), combine
      holds   The light of one lamp is cut into short loops over rows.  One loop for all of it takes
              1.5 times as long, because its live values outgrow the registers.  A lamp that reaches
@@ -3839,7 +3840,7 @@ static void shade__take_batch(shade__draw *d)
    The planes of the other values are made when a pixel is drawn.                       [Pineda88]
      in      positions in 24.8 fixed point, |x|, |y| <= 2^24; depths and 1/w
      out     triangles set up in the order of submission, to >>cover
-     way     triangles: sort_out, draw_fan, add_triangles; draw_setup: set_up: fetch_corners, areas,
+     way     triangles: sort_out: draw_fan, add_triangles; draw_setup: set_up: fetch_corners, areas,
              choose_turns, turn, box, edge, sides, depth_plane, cull
      holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
                256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
@@ -4191,7 +4192,7 @@ static void shade__triangles(shade__draw *d)
    Cuts triangles that cross near, far, w = 2^-60 (behind the eye) or the guard band, |x| and |y| at
    most 3 w, plane by plane, and leaves a fan.                                     [Sutherland74]
      in      three vertices of the batch     out  a polygon
-     way     clip: polygon_of, clip_plane: new_vertex, polygon_to_window, apex
+     way     clip: polygon_of; clip_plane: new_vertex; polygon_to_window; apex
      method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds at most one, 2
              while a plane cuts, and vertex 0, kept for CONSTANT.  A polygon that rounding made
              concave may need more vertices, and is dropped.  >>triangles drops other triangles:
@@ -4873,7 +4874,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d, const shade__triangle *t
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
 
-/* Is the box narrower than `columns`, and do its edge functions fit 32 bits, with a margin of 31
+/* Is the box at most `columns` wide, and do its edge functions fit 32 bits, with a margin of 31
    pixels?  They do if two sides span at most 2^17 / 256 = 512 pixels across and down: |step| <=
    2^18 for all three, and |e| <= 2^29 in the box, as corners and pixels are within 2^18. */
 SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
@@ -5012,7 +5013,8 @@ static void shade__cover(shade__draw *d, int count)
    as a packet for each run.
      in      runs of pixels; the first run of a triangle makes its planes
      out     packets of fragments for the shader, its colours for >>store
-     way     push: make_planes, append; flush: undivide, repeat, the user's shader, store
+     way     push: make_planes, push_run: append; flush: replicate, undivide, the user's shader,
+             store
      holds   With perspective, varyings in the queue are divided by w; the flush multiplies them by
              w for the shader.  Lanes from count on repeat the last one.                >>texture */
 
@@ -5285,8 +5287,8 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
    Filters texels for blocks of lanes, one mipmap after the other: places and weights along both
    axes, a pair of texels above and a pair below, and their blend.
      in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
-     way     shade_sample_lanes: sample_levels; level: open_level: address; filter: fetch,
-             blend_packed, blend_encoded or blend_floats, add_level
+     way     shade_sample_lanes: sample_levels: open_level: address; filter: filter_packed or
+             filter_floats: fetch, blend_packed, blend_encoded or blend_floats; add_level
      holds   Every index lies in the texture, for any u and v.  Each mipmap has the weight max(0,
              1 - |lod - level|), which is trilinear filtering.                      [Williams83]
                                                                                           >>store */
@@ -6044,9 +6046,9 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
    only a shade_result inline the check, and the compiler drops the sentences.
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result
-     way     draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
+     holds   draw_refusal in >>drive, mesh_refusal in >>mesh and lines_refusal in >>lines are the
              ladders of the calls.  shade__mesh_varyings is counted here, because a draw that needs
-             more than SHADE_MAX_VARYINGS is refused                                       >>seen */
+             more than SHADE_MAX_VARYINGS is refused.                                      >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
@@ -6480,8 +6482,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t, const shade_
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a checked target, and changes the pipeline; it cannot fail.  library_shader: the
-   fragment shader is one of this file, not the caller's. */
+/* Draws to a checked target, and changes the pipeline; it cannot fail, and returns SHADE_OK.
+   library_shader: the fragment shader is one of this file, not the caller's. */
 static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe,
                                     int library_shader, shade_vec3 eye, shade__supply *supply,
                                     shade_stats *stats)
@@ -7321,17 +7323,30 @@ SHADE__INLINE double shade__arc(double s)
     return a * s;
 }
 
-/* atan2(y, x) for y >= 0, within 1e-9.  atan q = pi/4 + atan((q - 1) / (q + 1)) keeps the argument
-   of the series below tan(pi/8). */
+/* b where x has its sign set, else a.  SSE2 compares no integers of 64 bits. */
+SHADE__INLINE double shade__by_sign(double a, double b, double x)
+{
+    const uint64_t mask = 0u - (shade__double_bits(x) >> 63), bits = shade__double_bits(a);
+    return shade__bits_double(bits ^ ((bits ^ shade__double_bits(b)) & mask));
+}
+
+/* atan2(y, x), within 1e-9.  atan q = pi/4 + atan((q - 1) / (q + 1)) keeps the argument of the
+   series below tan(pi/8).   pre: y >= 0, both finite, not both 0 */
+SHADE__INLINE double shade__lane_angle(double y, double x)
+{
+    const double quarter = 0.78539816339744830962, ax = shade__abs(x), t = (y - ax) / (y + ax);
+    const double low = t + SHADE__TAN, high = SHADE__TAN - t;    /* < 0: t is low, high */
+    const double over = shade__by_sign(shade__by_sign(y - ax, y, low), -ax, high);
+    const double under = shade__by_sign(shade__by_sign(y + ax, ax, low), y, high);
+    const double from = shade__by_sign(shade__by_sign(quarter, 0, low), 2 * quarter, high);
+    const double a = shade__arc(over / under) + from;
+    return shade__by_sign(a, 4 * quarter - a, x);
+}
+
+/* The same, or 0 for two zeros and for NaN. */
 static double shade__angle(double y, double x)
 {
-    const double quarter = 0.78539816339744830962;
-    double ax = x < 0 ? -x : x, t, s, a;
-    if (!(ax + y > 0)) return 0;
-    t = (y - ax) / (y + ax);
-    s = t < -SHADE__TAN ? y / ax : t > SHADE__TAN ? -ax / y : t;
-    a = shade__arc(s) + (t < -SHADE__TAN ? 0 : t > SHADE__TAN ? 2 * quarter : quarter);
-    return x < 0 ? 4 * quarter - a : a;
+    return shade__abs(x) + y > 0 ? shade__lane_angle(y, x) : 0;
 }
 
 /* Returns 1 if six doubles sum to 0 exactly.  x[0] .. x[i - 1] are kept as a sum of parts that do
@@ -7492,26 +7507,10 @@ SHADE__INLINE void shade__find_wedge(float (*SHADE_RESTRICT to)[SHADE__BLOCK],
     }
 }
 
-/* b where x has its sign set, else a.  SSE2 compares no integers of 64 bits. */
-SHADE__INLINE double shade__by_sign(double a, double b, double x)
-{
-    const uint64_t mask = 0u - (shade__double_bits(x) >> 63), bits = shade__double_bits(a);
-    return shade__bits_double(bits ^ ((bits ^ shade__double_bits(b)) & mask));
-}
-
-/* shade__angle, by the same roundings. */
 SHADE__INLINE void shade__find_angle(shade__wedge *SHADE_RESTRICT w)
 {
-    const double quarter = 0.78539816339744830962;
     SHADE__FOR(i, SHADE__BLOCK) {
-        const double x = (double)w->cosine[i], y = (double)w->sine[i], ax = shade__abs(x);
-        const double t = (y - ax) / (y + ax);
-        const double low = t + SHADE__TAN, high = SHADE__TAN - t;    /* < 0: t is low, high */
-        const double over = shade__by_sign(shade__by_sign(y - ax, y, low), -ax, high);
-        const double under = shade__by_sign(shade__by_sign(y + ax, ax, low), y, high);
-        const double from = shade__by_sign(shade__by_sign(quarter, 0, low), 2 * quarter, high);
-        const double a = shade__arc(over / under) + from;
-        w->angle[i] = (float)shade__by_sign(a, 4 * quarter - a, x);
+        w->angle[i] = (float)shade__lane_angle((double)w->sine[i], (double)w->cosine[i]);
     }
 }
 
@@ -7640,10 +7639,16 @@ static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, 
     }
 }
 
+/* The memory that the normals of corners need; 0 if there are more than size_t can count. */
+static size_t shade__corner_bytes(size_t corners)
+{
+    return corners <= SIZE_MAX / 16 ? 16 * corners : 0;
+}
+
 SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 {
-    if (shade__check_shape(mesh, &mesh) || shade__check_corners(mesh)) return 0;
-    return 16 * (size_t)shade__corner_count(mesh);
+    if (!mesh || shade__check_mesh(mesh) || shade__check_corners(mesh)) return 0;
+    return shade__corner_bytes((size_t)shade__corner_count(mesh));
 }
 
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
@@ -7661,8 +7666,8 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     if (cos_crease != cos_crease) return SHADE_ERROR_STATE;
     result = shade__check_corners(mesh);
     if (result) return result;
-    used = 16 * (size_t)count;
-    if (bytes < used) return SHADE_ERROR_CAPACITY;
+    used = shade__corner_bytes(count);
+    if (bytes < used || (count && !used)) return SHADE_ERROR_CAPACITY;
     result = shade__check_outs(mesh, shade__array(out, count * sizeof *out),
                                shade__array(memory, used));
     if (result || !count) return result;
@@ -8177,7 +8182,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     const shade_chunk *chunk = &all;
     int chunks = 1;
     SHADE__ZERO(all);
-    if (shade__check_shape(mesh, &ray)) return -1;
+    if (!mesh || shade__check_mesh(mesh)) return -1;
     all.low.x = 1;    /* low > high: it is never skipped */
     all.count = shade__corner_count(mesh) / 3;
     if (mesh->chunks) {
@@ -8463,6 +8468,33 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
     return bytes;
 }
 
+/* The full size of a texture, as a target that is read. */
+static shade_target shade__picture_of(const shade_texture *t)
+{
+    shade_target p;
+    SHADE__ZERO(p);
+    p.width = t->width;
+    p.height = t->height;
+    p.stride = t->stride;
+    p.format = t->format;
+    p.srgb = t->srgb;
+    p.color = (void *)(uintptr_t)t->pixels;
+    return p;
+}
+
+/* A level of a texture, which has no levels itself. */
+static shade_texture shade__level_of(const shade_texture *t, const shade_target *picture)
+{
+    shade_texture level = *t;
+    level.pixels = picture->color;
+    level.width = picture->width;
+    level.height = picture->height;
+    level.stride = 0;
+    level.mipmaps = NULL;
+    level.mipmap_count = 0;
+    return level;
+}
+
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes)
 {
@@ -8477,13 +8509,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     if (!shade__texture_good(texture)) return SHADE_ERROR_TEXTURE;
     used = shade_mipmap_bytes(texture->width, texture->height, texture->format);
     if (bytes < used) return SHADE_ERROR_CAPACITY;
-    SHADE__ZERO(from);
-    from.width = texture->width;
-    from.height = texture->height;
-    from.stride = texture->stride;
-    from.format = texture->format;
-    from.srgb = texture->srgb;
-    from.color = (void *)(uintptr_t)texture->pixels;
+    from = shade__picture_of(texture);
     array[0] = shade__array(memory, used);
     array[1] = shade__array(levels, (size_t)count * sizeof *levels);
     array[2] = shade__array(texture, sizeof *texture);
@@ -8500,13 +8526,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         to.color = memory;
         shade__convert(&decoder, &to);
         memory = shade__pixel_at(&to, 0, to.height);
-        levels[n] = *texture;
-        levels[n].pixels = to.color;
-        levels[n].width = to.width;
-        levels[n].height = to.height;
-        levels[n].stride = 0;
-        levels[n].mipmaps = NULL;
-        levels[n].mipmap_count = 0;
+        levels[n] = shade__level_of(texture, &to);
     }
     texture->mipmaps = levels;
     texture->mipmap_count = count;
@@ -9340,6 +9360,7 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     }
     trial->survey = s;
     t.color = NULL;
+    /* may_discard is 1: so >>fragments sets x, y and z, which judge reads */
     shade__draw_scene(&t, &trial->scene, trial->tally ? shade__tally_mesh : shade__judge, 1,
                       &stats);
     return stats;
@@ -9852,6 +9873,7 @@ static const char *shade__bad_matrix(const shade__survey *s)
 
 static const char *shade__bad_lamp(const shade_light *l)
 {
+    const shade_vec3 least = shade_min(l->ambient, shade_min(l->diffuse, l->specular));
     const float *number = (const float *)l;
     for (size_t k = 0; k < sizeof *l / sizeof *number; k++)
         if (number[k] != number[k]) return "A light of lighting.lights holds a NaN.";
@@ -9861,10 +9883,9 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (shade_dot4(l->position, l->position) == 0 && !shade__is_zero(l->diffuse))
         return "A light's position is 0, 0, 0 with w = 0, a direction without length, so that it "
                "lights nothing; fill it with shade_directional_light or shade_point_light.";
-    for (int k = 4; k < 13; k++)    /* ambient, diffuse, specular */
-        if (number[k] < 0)
-            return "A light of lighting.lights has a negative colour: it takes light away from "
-                   "what it shines on.";
+    if (least.x < 0 || least.y < 0 || least.z < 0)
+        return "A light of lighting.lights has a negative colour: it takes light away from what it "
+               "shines on.";
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
@@ -10138,7 +10159,7 @@ typedef struct shade__rung {
 } shade__rung;
 
 enum {
-    SHADE__RUNGS = 24,
+    SHADE__RUNGS = 24,                   /* more than any ladder has: the rest is zero */
     SHADE__EACH_ALONE = 0,               /* each rung changes a copy of its own */
     SHADE__KEEPS_CHANGES = 1             /* a rung sees the changes of all rungs above it, so that
                                             two faults at once are found */
@@ -10150,7 +10171,7 @@ typedef struct shade__ladder {
     shade__rung rung[SHADE__RUNGS];      /* ends with zeros */
 } shade__ladder;
 
-/* Returns the first rung that holds, or NULL. */
+/* Returns the first rung that holds, or NULL; never NULL if the ladder ends with shade__always. */
 static const shade__rung *shade__climb_to(const shade__survey *s, const shade__ladder *ladder)
 {
     shade__survey q = *s;
@@ -10406,6 +10427,10 @@ static const shade__ladder shade__nothing = {
      holds   A mesh outside one band or strip is not reported, because another band may show it.
      way     climb the ladders test and unseen                                            >>black */
 
+static const char shade__all_discarded[] =
+    "state.fragment discards all pixels of the mesh, or gives them an alpha below "
+    "state.alpha_cutoff.";
+
 /* Would the reverse test show another depth in some pixel? */
 static int shade__test_is_turned(shade__survey *q)
 {
@@ -10507,9 +10532,8 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    return (q->replay || q->camera.perspective) &&
-           shade__is_far(q) &&    /* with the given bias, and without */
-           shade__all_hidden(q) && shade__is_far(q);
+    if ((!q->replay && !q->camera.perspective) || !shade__is_far(q)) return 0;    /* as biased */
+    return shade__all_hidden(q) && shade__is_far(q);    /* it has set the bias to 0 */
 }
 
 /* Do more than half of the pixels of lines pass if depth is off by 2e-6?  Planes that coincide
@@ -10540,9 +10564,7 @@ static const shade__ladder shade__unseen = {
         { shade__beside_clip,
           "All of it lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
           "clip_height; all four zero mean everywhere.", NULL },
-        { shade__shader_discards,
-          "state.fragment discards all pixels of the mesh, or gives them an alpha below "
-          "state.alpha_cutoff.", NULL },
+        { shade__shader_discards, shade__all_discarded, NULL },
         { shade__nothing_is_equal,
           "raster.depth_test is SHADE_COMPARE_EQUAL, but target.depth does not hold the depth of "
           "what is drawn: draw it with SHADE_COMPARE_LESS, first or instead.", NULL },
@@ -11052,10 +11074,9 @@ static shade__seams shade__seams_of(const shade_mesh *m)
 }
 
 /* Are the triangles no surface, but crowd around edges? */
-static int shade__is_crowded(const shade__survey *s)
+static int shade__are_crowded(const shade__seams *seams)
 {
-    const shade__seams seams = shade__seams_of(s->given_mesh);
-    return seams.crowded * 10 > seams.pairs;
+    return seams->crowded * 10 > seams->pairs;
 }
 
 /* Is at least one pair of so many turned?  Below one of a hundred it may be the knot of a mesh.  A
@@ -11064,7 +11085,7 @@ static int shade__is_turned(const shade__survey *s, int of)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
     return seams.turned > 1 && seams.turned * of >= seams.pairs &&
-           seams.open <= 2 * seams.pairs && !shade__is_crowded(s);
+           seams.open <= 2 * seams.pairs && !shade__are_crowded(&seams);
 }
 
 /* Is a face left out whose neighbour is not? */
@@ -11141,6 +11162,7 @@ static int shade__normals_turned(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
     const long long all = shade__covered(q);
+    shade__seams seams;
     long long toward;
     if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE ||
         q->state.raster.cull == SHADE_CULL_FRONT || !shade__sides_matter(q))
@@ -11151,8 +11173,11 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 3 >= all && all > 11 &&    /* fewer prove little */
-           !shade__is_crowded(q);
+    if (all <= 11) return 0;    /* fewer prove little */
+
+    if ((shade__count(q, FLT_MIN) - toward) * 3 < all) return 0;
+    seams = shade__seams_of(q->given_mesh);
+    return !shade__are_crowded(&seams);
 }
 
 /* Do all normals lack negative components, though at least an eighth of the faces need one? */
@@ -11363,8 +11388,7 @@ static const char *shade__why_faint(const shade__survey *s)
     const shade__tally t = shade__tally_of(s);
     const shade__shades *v = shade__visible(s, &t);
     if (!s->replay && t.fragments && t.discarded == t.fragments)
-        return "state.fragment discards all pixels of the mesh, or gives them an alpha below "
-               "state.alpha_cutoff.";
+        return shade__all_discarded;
     if (!v->count) return SHADE__GO_ON;
     if (t.fragment_lanes_left)
         return "The fragment shader (state.fragment, pipeline.fragment) writes lane 0 of a packet "
