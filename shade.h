@@ -62,31 +62,31 @@
        >>matrix    1922  cameras, inverses     >>power     2210  x^n
        >>pixels    2276  formats, sRGB
      Inside: light
-       >>lamps     2587  attenuation, cones    >>terms     2839  one term at one point
-       >>surface   2914  material and lights   >>lit       3031  the whole sum, at many points
+       >>lamps     2588  attenuation, cones    >>terms     2840  one term at one point
+       >>surface   2915  material and lights   >>lit       3032  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3421  fields by owner       >>vertices  3634  shading, projection
-       >>triangles 3837  culling, edge setup   >>clip      4191  near, far, guard band
-       >>tiles     4378  edges and depth test  >>cover     4742  triangles, tile by tile
+       >>state     3422  fields by owner       >>vertices  3636  shading, projection
+       >>triangles 3838  culling, edge setup   >>clip      4192  near, far, guard band
+       >>tiles     4379  edges and depth test  >>cover     4742  triangles, tile by tile
        >>fragments 5010  interpolation, lod    >>texture   5286  texels, filters
-       >>store     5761  blending, packing
+       >>store     5762  blending, packing
      Inside: calls of the renderer
-       >>check     6044  refusals              >>seen      6304  view volume, chunks
-       >>drive     6424  shade_draw            >>mesh      6614  shade_draw_mesh
+       >>check     6045  refusals              >>seen      6305  view volume, chunks
+       >>drive     6425  shade_draw            >>mesh      6615  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7018  shade_draw_lines      >>camera    7210  eye and line of sight
-       >>shape     7304  normals, edges        >>chunks    7854  sorting and boxes
-       >>rays      8017  shade_pick            >>image     8208  smaller pictures, mipmaps
-       >>files     8536  PPM and PNG           >>presets   8854  classic materials
+       >>lines     7019  shade_draw_lines      >>camera    7211  eye and line of sight
+       >>shape     7305  normals, edges        >>chunks    7855  sorting and boxes
+       >>rays      8018  shade_pick            >>image     8209  smaller pictures, mipmaps
+       >>files     8537  PPM and PNG           >>presets   8857  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8937  shaders, run again    >>survey    9209  experiments on a draw
-       >>numbers   9662  what makes no sense   >>doubts    9996  what is seldom right
-       >>unseen   10145  why nothing is in view
-       >>hidden   10424  why nothing is stored >>black    10590  why all is black
-       >>wrong    10974  what else is wrong    >>verdict  11365  the calls
+       >>replay    8940  shaders, run again    >>survey    9213  experiments on a draw
+       >>numbers   9669  what makes no sense   >>doubts   10003  what is seldom right
+       >>unseen   10152  why nothing is in view
+       >>hidden   10431  why nothing is stored >>black    10598  why all is black
+       >>wrong    10982  what else is wrong    >>verdict  11374  the calls
      Sources
-       >>refs     11654                        >>history  11687
-       >>license  11693
+       >>refs     11663                        >>history  11696
+       >>license  11702
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -2092,8 +2092,8 @@ static shade_mat4 shade__finite_or(int good, const double e[16], float w)
 }
 
 /* Cramer's rule.  Columns come in pairs, 0 with 1 and 2 with 3: row i of the inverse is made of
-   column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.
-   Not inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
+   column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.  Not
+   inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
    double -> float -> double, as they would after inlining. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
@@ -2217,9 +2217,9 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
              lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2]: relative error 1.1e-7, in floats 2e-7.
              All figures were measured over all floats in [0, 1].                        >>pixels */
 
-/* -log2 x for 0 <= x <= 1, not subnormal; 127 for x = 0.  The addend carries into the exponent for
-   a mantissa of sqrt(2) and above: near x = 1 the exponent part is 0, and no digit is lost.
-   post: >= 0 for these x, finite for any bits */
+/* -log2 x for x >= 0 that is not subnormal; 127 for x = 0, -128 for infinity.  The addend carries
+   into the exponent for a mantissa of sqrt(2) and above: near x = 1 the exponent part is 0, and no
+   digit is lost.   post: >= 0 for x <= 1, finite for any bits */
 SHADE__INLINE float shade__neg_log2(float x)
 {
     uint32_t t = shade__float_bits(x) + (0x3F800000u - 0x3F3504F3u);
@@ -2333,8 +2333,9 @@ SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
 
 /* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits.  Its channel k (R,
    G, B, A) is pixel >> shade__shift(l, k) & full[k]; on little-endian processors colours lie below
-   bit 31.  A channel that the format lacks is 1: one bit above the stored ones, set by
-   shade__load_packed.  RGBA32F uses only the field bytes. */
+   bit 31, because shade__texel reads them in place as a signed number.  A channel that the format
+   lacks is 1: one bit above the stored ones, set by shade__load_packed.  RGBA32F uses only the
+   field bytes. */
 typedef struct shade__layout {
     uint8_t bytes;       /* of a pixel in memory */
     uint8_t swapped;     /* non-zero: its two bytes are not in the processor's order */
@@ -2392,8 +2393,8 @@ SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 /* The low two bytes of u, exchanged. */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
 
-/* Loads a packed pixel.  In 1 or 2 bytes, the bit above them is set.  4 bytes may also be the
-   bits of a float. */
+/* Loads a packed pixel.  In 1 or 2 bytes, the bit above them is set.  4 bytes may also be the bits
+   of a float. */
 SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes, const int swapped)
 {
     uint32_t word;
@@ -2445,7 +2446,7 @@ SHADE__INLINE size_t shade__offset_of(const shade_target *t, int x, int y)
     return (size_t)(y - t->row_offset) * (size_t)shade__stride_of(t) + (size_t)x;
 }
 
-/* The pixel with an index. */
+/* The first byte of pixel `index`. */
 SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 {
     return color + index * bytes;
@@ -2455,13 +2456,13 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 
 /* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.
    Halving the bit pattern of c gives a rough square root; that root times 372, rounded down, is the
-   number of the cell.  The first entry is for cell 4, the last for cell 372.  Within a cell
-   the byte changes at most once, and the entry says where: in its low 24 bits are those of the
-   first float after the change, and in its high 8 bits the byte of that float.  For example, in
-   the last cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c
-   minus the entry is set, c lies before that float, and its byte is one less.  A cell without a
-   change has the entry of another one, whose change is fewer than 2^23 floats away.  An sRGB
-   picture of a teapot takes .95 of the time with AVX-512, and .81 with AVX2 and SSE2. */
+   number of the cell.  The first entry is for cell 4, the last for cell 372.  Within a cell the
+   byte changes at most once, and the entry says where: in its low 24 bits are those of the first
+   float after the change, and in its high 8 bits the byte of that float.  For example, in the last
+   cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c minus the
+   entry is set, c lies before that float, and its byte is one less.  A cell without a change has
+   the entry of another one, whose change is fewer than 2^23 floats away.  An sRGB picture of a
+   teapot takes .95 of the time with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2785,9 +2786,9 @@ SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp, const shade__v3 *
 /* A single point is computed as one vector of equal lanes, by the build for any processor. */
 enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES };
 
-/* The number of points that a loop runs over.  The AVX builds always run over a whole packet.  The
-   build for any processor rounds n down to whole vectors, so that the compiler emits no remainder
-   loop. */
+/* The number of points that a loop runs over.  Builds with wider vectors than the one for any
+   processor always run over a whole packet.  The build for any processor rounds n down to whole
+   vectors, so that the compiler emits no remainder loop. */
 SHADE__INLINE int shade__points(int n, int width)
 {
     if (width != SHADE__ANY_WIDTH) return SHADE_LANES;
@@ -2839,7 +2840,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_
 /*------------------------------------------------------------------------------------------ >>terms
    The terms of >>model one by one, for a single point.
      in      unit vectors                  out  cosines, powers, colours
-     holds   Square roots come from sqrtf, not from shade__rsqrt.
+     holds   Square roots are shade__sqrt's, rounded correctly: the last bits may differ from >>lit.
      source  [Phong75], [Blinn77], [Gooch98]                                            >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
@@ -3031,8 +3032,8 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
 /*-------------------------------------------------------------------------------------------- >>lit
    The whole equation of >>model, for a packet or for one point.
      in      shade_rows, a shade__surface         out  rows of rgb
-     way     lit_rows: begin_light; then for each lamp add_lamp: arrive_at, horizon, shine
-             (half or mirrored, raise), combine
+     way     lit_rows: begin_light; then for each lamp add_lamp: arrive_at, horizon, shine (half or
+             mirrored, raise), combine
      holds   The light of one lamp is cut into short loops over rows.  One loop for all of it takes
              1.5 times as long, because its live values outgrow the registers.  A lamp that reaches
              no lane (horizon, cone) ends after its first loops.                         >>state */
@@ -3464,6 +3465,7 @@ enum {
     SHADE__FIRST = 2,                 /* z and 1/w stand before the varyings */
     SHADE__SIDE_MAX = 16384,          /* pixels or texels of a side of a picture */
     SHADE__VALUES_MAX = (SHADE_MAX_VARYINGS + SHADE__FIRST + 2 + 7) / 8 * 8,
+    /* at least 4 vertices of the most values; take_batch needs 3 */
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
     SHADE__PARTS = SHADE_LANES < 64 ? 2 : 8,
@@ -3636,10 +3638,9 @@ static void shade__store(shade__draw *d, shade_colors *c);
      in      indices                      out  vertices and their values; corners of triangles
      way     take_batch: take_triangles; shade_vertices: the user's shader, to_window: classify,
              project, gather
-     holds   A vertex is shaded once a batch, or again if an index that shares its cache slot
-             (equal modulo 2 SHADE_LANES) was taken in between.  A vertex without a window
-             position gets a harmless one and a bit in its outcode; >>triangles then drops or
-             clips its triangles.
+     holds   A vertex is shaded once a batch, or again if an index that shares its cache slot (equal
+             modulo 2 SHADE_LANES) was taken in between.  A vertex without a window position gets a
+             harmless one and a bit in its outcode; >>triangles then drops or clips its triangles.
                                                                                       >>triangles */
 
 enum {
@@ -3785,9 +3786,9 @@ static void shade__shade_vertices(shade__draw *d)
 }
 
 /* Takes up to `most` triangles from `first` on, as long as there are at most `room` vertices;
-   returns the number taken.  A cache hit takes no branch: slot and index are
-   written anyway, and only the count differs.  A branch would be mispredicted every other time,
-   which costs 2 % of a dense mesh. */
+   returns the number taken.  A cache hit takes no branch: slot and index are written anyway, and
+   only the count differs.  A branch would be mispredicted every other time, which costs 2 % of a
+   dense mesh. */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in, shade__indices indices, uint32_t first,
                                         int most, int room, uint8_t (*corner)[4])
 {
@@ -3848,9 +3849,9 @@ static void shade__take_batch(shade__draw *d)
              of 256, so rest is the same for all pixels, and steps of e are exact.  Neighbours get
              exactly opposite edges.  All values are integers below 2^53, exact in double.
 
-             Corners are reordered so that they turn clockwise on the screen and corner 0 is the
-             far corner, the farthest from the eye.  Planes start there: its 1/w is the smallest,
-             and rounding hurts it most.  The bias of the edges 0 1, 1 2, 2 0 is the top-left rule:
+             Corners are reordered so that they turn clockwise on the screen and corner 0 is the far
+             corner, the farthest from the eye.  Planes start there: its 1/w is the smallest, and
+             rounding hurts it most.  The bias of the edges 0 1, 1 2, 2 0 is the top-left rule:
 
                  0 -----> 1        top edge, bias 0
                   ^      /         A centre exactly on a shared edge is inside the triangle
@@ -3898,7 +3899,7 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s, int stri
     SHADE_ALIGNED float zw[3][2 * SHADE__TRIANGLES];
     for (int i = s->count; i < SHADE__TRIANGLES; i++) SHADE_MEMCPY(s->corner[i], s->corner[0], 4);
     for (int i = 0; i < SHADE__TRIANGLES; i++) {
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {    /* x, y begin a vertex, and z, 1/w its values */
             const int v = s->corner[i][k];
             SHADE_MEMCPY(&xy[k][2 * i], &s->vertex[v], 8);
             SHADE_MEMCPY(&zw[k][2 * i], s->value + v * stride, 8);
@@ -3985,8 +3986,8 @@ SHADE__INLINE int64_t shade__round(double x)
 }
 
 /* The edge from corner k to the next, at the first pixel of the box, and its steps.  With the
-   integer v = 256 e + rest, e = floor(v / 256) is v / 256 - 127.5/256 rounded to the nearest.
-   Left edges have dy < 0, top edges dy = 0 and dx > 0: their bias is 0, the others' -1.
+   integer v = 256 e + rest, e = floor(v / 256) is v / 256 - 127.5/256 rounded to the nearest.  Left
+   edges have dy < 0, top edges dy = 0 and dx > 0: their bias is 0, the others' -1.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k,
                                shade__setup *SHADE_RESTRICT s)
@@ -4432,7 +4433,7 @@ typedef struct shade__tile {
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
-    int next;                         /* the next triangle of the setup that is drawn */
+    int next;                         /* not of the runs: the triangle of the setup to draw next */
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
@@ -4481,7 +4482,8 @@ SHADE__INLINE int64_t shade__edge_fall(const shade__triangle *t, int k, int64_t 
 }
 
 /* Moves *first and *last inward, to the columns in which each edge has a pixel inside, in at least
-   one of the rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
+   one of the rows.  The crossing is off by less than 0.016 pixel; a column within that error of the
+   crossing is kept.
    pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
    SHADE__SIDE_MAX pixels of t->x0 */
 static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
@@ -4499,8 +4501,7 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y, 
 }
 
 /* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns 1 if
-   all three do.   pre: each edge has an inside pixel in the tile or in the column
-   next to it
+   all three do.   pre: each edge has an inside pixel in the tile or in the column next to it
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
 SHADE__INLINE int shade__tile_edges(const shade__triangle *t, const shade__tile *tile,
                                     shade__edges *edges)
@@ -4613,9 +4614,8 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only, floa
 
 /* Tests columns at .. at + width - 1 of a tile by depth and, unless copy has SHADE__FULL, by its
    three edges.  SHADE__LESS: the test is LESS, and depth is written.  Depth that is not written may
-   lie in read-only memory, or be shared with other threads: the loop stores nothing there, not
-   even the old value.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in
-   memory.
+   lie in read-only memory, or be shared with other threads: the loop stores nothing there, not even
+   the old value.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
@@ -5581,7 +5581,8 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
     }
 }
 
-/* Blends the block of sRGB texels at above into four rows; weights of 0 take the nearest. */
+/* Blends a block of sRGB texels, whose upper pairs begin at `above`, into four rows.  With both
+   weights 0 the result is the left texel above. */
 SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *above, shade__in x,
                                         shade__in y, shade__out out)
 {
@@ -5796,8 +5797,8 @@ SHADE__INLINE void shade__pack_channels(const shade__layout *layout, shade__in r
     }
 }
 
-/* Packs linear colours into bytes.  For BGRA8 red and blue change places instead of their shifts,
-   which so are constants: a flat fill in cache gains 3 to 6 %. */
+/* Packs linear colours into bytes.  For BGRA8 red and blue change places, so that all shifts are
+   constants: a flat fill in cache gains 3 to 6 %. */
 SHADE__INLINE void shade__pack_linear(const shade__layout *layout, shade__in rgba,
                                       shade__out_bits packed, int blocks)
 {
@@ -5811,8 +5812,8 @@ SHADE__INLINE void shade__pack_linear(const shade__layout *layout, shade__in rgb
     }
 }
 
-/* The byte of a colour in sRGB, in three steps: its bits, clamped to 2^-13, with byte 0, and 1; its
-   cell of shade__byte_steps; the byte, from the entry of the cell. */
+/* The byte of a colour in sRGB, in three steps: its bits, clamped to 2^-13 (byte 0) .. 1 (byte
+   255); its cell of shade__byte_steps; the byte, from the entry of the cell. */
 SHADE__INLINE int32_t shade__srgb_bits(float c)
 {
     const float kept = shade__keep(c, shade__mask(c > 0));
@@ -5995,8 +5996,8 @@ SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba, shade__out st
     }
 }
 
-/* Blends and stores in drawing order, in pieces of up to a block.  A piece ends where the
-   offsets stop rising, so it holds no pixel twice.  The other lanes of its block are not stored. */
+/* Blends and stores in drawing order, in pieces of up to a block.  A piece ends where the offsets
+   stop rising, so it holds no pixel twice.  The other lanes of its block are not stored. */
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const uint32_t *alive,
                                                  const float *rgba, uint32_t *packed)
 {
@@ -6283,7 +6284,7 @@ static int shade__any_overlap(const shade__pieces *array, int outs, int n)
 }
 
 /* Two arrays to be filled from a mesh, the second maybe empty: SHADE_ERROR_ARGUMENT if they overlap
-   each other, the positions, indices or chunks of the mesh, or itself. */
+   each other, the positions, indices or chunks of the mesh, or the struct of the mesh. */
 static shade_result shade__check_outs(const shade_mesh *m, shade__pieces out, shade__pieces other)
 {
     const size_t corners = (size_t)shade__corner_count(m);
@@ -7801,8 +7802,8 @@ static shade_mat4 shade__frame_of(const shade__camera *c)
                      shade__xyzw(shade__single3(at), 1));
 }
 
-/* Returns how far an eye in the middle of a box must step back along z: until all eight
-   corners lie inside the four side planes; for each plane only its worst corner is tested. */
+/* Returns how far an eye in the middle of a box must step back along z: until all eight corners lie
+   inside the four side planes; for each plane only its worst corner is tested. */
 static double shade__step_back(const shade_mat4 *projection, const double *view, shade_vec3 low,
                                shade_vec3 high)
 {
@@ -8079,13 +8080,13 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 }
 
 /* A ray in object space, for tests of boxes.  Its coordinates are multiplied by the determinant of
-   the model matrix, which saves a division: coordinate i is the dot product with the cross
-   product of the two other columns.  World positions are rounded sums of products: slack times the
-   sum of the products' sizes bounds their error. */
+   the model matrix, which saves a division: coordinate i is the dot product with the cross product
+   of the two other columns.  World positions are rounded sums of products: slack times the sum of
+   the products' sizes bounds their error. */
 typedef struct shade__object_ray {
     double origin[3], direction[3];
     double scale;                     /* the determinant */
-    double slack[3];                  /* the product of the other columns' sizes, 2^-20 */
+    double slack[3];                  /* the product of the other columns' sizes times 2^-20 */
     double size[3];                   /* of the columns: the sum of |x|, |y| and |z| */
     double reach;                     /* the size of the translation and of the ray's origin */
     int affine;                       /* 0: the matrix divides by w, and no box is tested */
@@ -8239,7 +8240,7 @@ typedef struct shade__halving {
 /* The linear light of packed pixels: table[k] is indexed by the value of channel k. */
 typedef struct shade__decoder {
     const shade_target *from;
-    int factor;                 /* each side becomes shorter by this factor, or about */
+    int factor;                 /* of each side; for mipmaps 2, about */
     shade__halving *halving;    /* NULL: no mipmaps are made */
     shade__layout layout;
     const float *table[4];
@@ -8608,8 +8609,9 @@ typedef struct shade__png {
     void *user;
     int failed;              /* non-zero: the sink has failed, and is not called again */
     int before[3];           /* the bytes taken last, the last one first; -1: none yet */
-    int repeats;             /* how many of them are not packed yet, because they repeat others */
-    int apart;               /* which ones: 1 one byte before them, 2 three, 3 both */
+    int repeats;             /* of the last ones, those held back because they repeat others */
+    int distances;           /* a mask of what they all repeat: 1 the byte before each, 2 that
+                                three before */
     uint32_t sum[2];         /* Adler-32 of the bytes taken */
     uint32_t bits;           /* packed bits that are no whole byte yet, from the lowest on */
     int bit_count;
@@ -8692,7 +8694,7 @@ static void shade__end_run(shade__png *f)
         while (n >> more > 7) more++;
         shade__put_symbol(f, 257 + 4 * (uint32_t)more + (n >> more));
         shade__put_bits(f, n & ((1u << more) - 1), more);
-        shade__put_bits(f, f->apart & 1 ? 0 : 8, 5);    /* distance 1, or 3 */
+        shade__put_bits(f, f->distances & 1 ? 0 : 8, 5);    /* distance 1, or 3 */
     }
     f->repeats = 0;
 }
@@ -8702,9 +8704,10 @@ static void shade__take_byte(shade__png *f, int byte)
     const int same = (byte == f->before[0]) | (byte == f->before[2]) << 1;
     f->sum[0] = (f->sum[0] + (uint32_t)byte) % 65521;
     f->sum[1] = (f->sum[1] + f->sum[0]) % 65521;
-    if (f->repeats && (!(f->apart & same) || f->repeats == SHADE__PNG_REPEAT)) shade__end_run(f);
-    f->apart = f->repeats ? f->apart & same : same;
-    if (f->apart) f->repeats++;
+    if (f->repeats && (!(f->distances & same) || f->repeats == SHADE__PNG_REPEAT))
+        shade__end_run(f);
+    f->distances = f->repeats ? f->distances & same : same;
+    if (f->distances) f->repeats++;
     else shade__put_symbol(f, (uint32_t)byte);
     f->before[2] = f->before[1];
     f->before[1] = f->before[0];
@@ -8774,7 +8777,7 @@ static void shade__png_head(shade__png *f)
     f->size = 13;
     shade__put_chunk(f, "IHDR");
     if (!f->target->srgb) return;
-    shade__put_byte(f, 0);    /* for perception, as photographs are */
+    shade__put_byte(f, 0);    /* rendering intent: perceptual */
     shade__put_chunk(f, "sRGB");
 }
 
@@ -8935,12 +8938,11 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
 #ifndef SHADE_NO_EXPLAIN
 
 /*----------------------------------------------------------------------------------------- >>replay
-   A pipeline, or lines, are drawn again without a picture, and what their shaders return is
-   counted.
+   A pipeline or lines are drawn again without a picture, and what their shaders return is counted.
      in      arguments of shade_draw or shade_draw_lines       out  a shade__tally
+     way     run_again: replay_vertex, replay_fragment: count_colors: count_color
      method  Shaders of this section call the given ones and look at what these wrote.
-     holds   The caller's memory is only read, unless the caller's own shaders write.
-     way     run_again: replay_vertex, replay_fragment: count_colors: count_color       >>survey */
+     holds   The caller's memory is only read, unless the caller's own shaders write.    >>survey */
 
 /* What a fragment shader returned for some fragments, without those that it discards. */
 typedef struct shade__shades {
@@ -8990,7 +8992,8 @@ typedef struct shade__rerun {
     shade__tally        *tally;
 } shade__rerun;
 
-/* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
+/* Channels below this are stored as 8 of 255 at most (8.3 in 5-6-5 bits); in floats they are below
+   FLT_MIN. */
 static float shade__dim_of(const shade_target *t)
 {
     const shade__layout *l = &shade__layouts[t->format];
@@ -9068,7 +9071,7 @@ static void shade__mark(float *row, int count)
 
 static int shade__is_unwritten(float x) { return shade__float_bits(x) == SHADE__UNWRITTEN; }
 
-/* Is lane 0 of the rows written, and all other lanes of the packet are not? */
+/* Is lane 0 of the rows written, but no other lane of the packet? */
 static int shade__lanes_are_left(const float *rows, int row_count, int count)
 {
     int written = 0;
@@ -9093,7 +9096,8 @@ static SHADE__NOINLINE void shade__check_vertices(const shade_pipeline *p,
 }
 
 /* Looks at what a fragment shader reads and writes of a packet.  Its colours must change with the
-   rows past varyings, and be the same again with the first ones: it may be a random shader. */
+   rows past varyings, and be the same again with the first ones: else the shader is random, and
+   proves nothing. */
 static SHADE__NOINLINE void shade__check_fragments(shade_fragment_shader *shader,
                                                    const void *uniforms, int varyings,
                                                    const shade_fragments *in, shade__tally *t)
@@ -9209,10 +9213,11 @@ static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SH
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments: a draw is made again with something changed, and pixels are counted.
      in      arguments of a draw           out  numbers of pixels, stats; depths of some pixels
+     way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
+             draw_scene of >>mesh, with judge as its fragment shader; or run_again
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read.  The mesh's fragment shader is called by tally_of alone.
-     way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
-             draw_scene of >>mesh, with judge as its fragment shader; or run_again      >>numbers */
+                                                                                        >>numbers */
 
 enum {
     SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
@@ -9249,7 +9254,7 @@ typedef struct shade__survey {
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* 1: the experiment draws exactly the fragments that
                                             are visible in the caller's picture */
-    float dim;                           /* channels below it are stored as 8 of 255 at most */
+    float dim;                           /* of shade__dim_of: channels below it are dark */
     shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
     int   eye_replaced;                  /* light takes eye, not the eye of state.view */
@@ -9288,7 +9293,8 @@ static void shade__take_probe(const shade__trial *trial, const shade_fragments *
     at->any_front |= in->front[i];
 }
 
-/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0? */
+/* Is the pixel in the caller's picture brighter than 8 of 255, or, in floats, above 0?  In 5-6-5
+   bits 1/31 of red or blue and 2/63 of green are brighter too. */
 static int shade__is_lit_there(const shade_target *t, int x, int y)
 {
     const shade__layout *l = &shade__layouts[t->format];
@@ -9414,7 +9420,8 @@ static long long shade__count(const shade__survey *s, float least)
 /* Returns how many pixels are covered. */
 static long long shade__covered(const shade__survey *s) { return shade__count(s, 0); }
 
-/* Is a pixel of the mesh brighter than 8 of 255?  Highlights may lie between pixels. */
+/* Is a pixel of the mesh brighter than 8 of 255?  Highlights are widened, because narrow ones may
+   lie between pixels. */
 static int shade__shows(shade__survey *s)
 {
     shade__survey wide = *s;
@@ -9498,7 +9505,7 @@ static int shade__coincides(const shade__survey *s)
     return s->given_stats && shade__covered(s) > s->given_stats->fragments;
 }
 
-/* Does each fragment replace what is behind it? */
+/* Does each fragment replace the colour behind it? */
 static int shade__is_opaque(const shade__survey *s)
 {
     const shade_draw_state *d = s->given_state;
@@ -9543,8 +9550,8 @@ static int shade__few(const shade__survey *s, long long n, long long all)
     return n * 10 <= (s->exact ? all : 0);
 }
 
-/* Does the picture show a pixel with a brightness from least to most?  If it is unknown
-   which fragments are hidden, every fragment must be in that range. */
+/* Does the picture show a pixel with a brightness from least to most?  If it is unknown which
+   fragments are hidden, every fragment must be in that range. */
 static int shade__has_pixels(const shade__survey *s, float least, float most)
 {
     const shade_raster *r = &s->given_state->raster;
@@ -9945,7 +9952,7 @@ static const char *shade__bad_attribute(const shade__survey *s)
 }
 
 /* Are neighbouring floats at the mesh's farthest coordinate more than a pixel apart?  The mesh is
-   at most as wide as its pixels are many along a side, which are 16 if nothing is drawn. */
+   taken to be sqrt(covered pixels) wide, or 16 if nothing is drawn. */
 static int shade__floats_are_coarse(const shade__survey *s)
 {
     shade_vec3 low, high, size, most;
@@ -10145,9 +10152,9 @@ static const char *shade__doubt(const shade__survey *s)
 /*----------------------------------------------------------------------------------------- >>unseen
    Why no pixel of the whole picture shows the draw: of a mesh, of lines or of a pipeline.
      in      a survey                        out  a sentence, or another answer
+     way     climb the ladder nothing: climb_to
      method  Ladders: tables of changes and answers, tried from top to bottom.  For example: with
-             culling off, are there pixels?  Then raster.cull is at fault.
-     way     climb the ladder nothing: climb_to                                          >>hidden */
+             culling off, are there pixels?  Then raster.cull is at fault.               >>hidden */
 
 /* ---- ladders */
 
@@ -10424,8 +10431,9 @@ static const shade__ladder shade__nothing = {
 /*----------------------------------------------------------------------------------------- >>hidden
    Why a draw that covers pixels stored none of them, or perhaps none.
      in      a survey                        out  a sentence, or another answer
+     way     climb the ladders test and unseen
      holds   A mesh outside one band or strip is not reported, because another band may show it.
-     way     climb the ladders test and unseen                                            >>black */
+                                                                                          >>black */
 
 static const char shade__all_discarded[] =
     "state.fragment discards all pixels of the mesh, or gives them an alpha below "
@@ -10491,8 +10499,8 @@ static int shade__shader_discards(shade__survey *q)
     return q->given_stats && q->given_state->fragment && !q->replay && shade__passed(q);
 }
 
-/* Do all pixels have the depth of the far plane, with this bias or none, so that they never pass a
-   test without equality? */
+/* Do all pixels have the depth of the far plane, with the bias of s, so that they never pass a test
+   without equality? */
 static int shade__is_far(const shade__survey *s)
 {
     const shade_compare test = s->given_state->raster.depth_test;
@@ -10590,9 +10598,9 @@ static const shade__ladder shade__unseen = {
 /*------------------------------------------------------------------------------------------ >>black
    Why a mesh is drawn, but black: the surface, then the lamps.
      in      a survey                        out  the rung that holds, and whether its advice helps
+     way     climb_to: the ladder black; helps: the mend of its rung
      holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
-             Black: none is brighter than 8 of 255.
-     way     climb_to: the ladder black; helps: the mend of its rung                      >>wrong */
+             Black: none is brighter than 8 of 255.                                       >>wrong */
 
 /* ---- other surfaces and lamps */
 
@@ -10974,8 +10982,9 @@ static const shade__ladder shade__black = {
 /*------------------------------------------------------------------------------------------ >>wrong
    Why a mesh shows in a wrong picture: depth, winding, and then light.
      in      a survey                        out  a sentence, or another answer
+     way     climb the ladders picture and wrong_light; climb_to flat
      holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
-     way     climb the ladders picture and wrong_light; climb_to flat                   >>verdict */
+                                                                                        >>verdict */
 
 /* ---- the mesh is drawn, but wrongly */
 
@@ -11079,8 +11088,8 @@ static int shade__are_crowded(const shade__seams *seams)
     return seams->crowded * 10 > seams->pairs;
 }
 
-/* Is at least one pair of so many turned?  Below one of a hundred it may be the knot of a mesh.  A
-   quad has two open edges a triangle; loose triangles, as without indices, have more. */
+/* Is at least one pair in `of` turned?  Fewer than one in a hundred may belong to a knot in the
+   mesh.  A quad has two open edges a triangle; loose triangles, as without indices, have more. */
 static int shade__is_turned(const shade__survey *s, int of)
 {
     const shade__seams seams = shade__seams_of(s->given_mesh);
@@ -11494,8 +11503,8 @@ static const char *shade__bad_run(const shade__survey *s)
     return SHADE__GO_ON;
 }
 
-/* Looks at a picture in which lines or a pipeline have pixels.  Depth alone is drawn before other
-   passes, and counted if it is not written. */
+/* Looks at a picture in which lines or a pipeline have pixels.  A draw of depth alone is a pass
+   before others, or counts pixels: no colour is missed. */
 static const char *shade__why_plain(const shade__survey *s)
 {
     shade__survey q = *s;
