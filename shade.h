@@ -69,24 +69,24 @@
        >>triangles 3838  culling, edge setup   >>clip      4192  near, far, guard band
        >>tiles     4379  edges and depth test  >>cover     4742  triangles, tile by tile
        >>fragments 5010  interpolation, lod    >>texture   5286  texels, filters
-       >>store     5762  blending, packing
+       >>store     5763  blending, packing
      Inside: calls of the renderer
-       >>check     6045  refusals              >>seen      6305  view volume, chunks
-       >>drive     6425  shade_draw            >>mesh      6615  shade_draw_mesh
+       >>check     6046  refusals              >>seen      6306  view volume, chunks
+       >>drive     6426  shade_draw            >>mesh      6616  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7019  shade_draw_lines      >>camera    7211  eye and line of sight
-       >>shape     7305  normals, edges        >>chunks    7855  sorting and boxes
-       >>rays      8018  shade_pick            >>image     8209  smaller pictures, mipmaps
-       >>files     8537  PPM and PNG           >>presets   8857  classic materials
+       >>lines     7020  shade_draw_lines      >>camera    7212  eye and line of sight
+       >>shape     7306  normals, edges        >>chunks    7856  sorting and boxes
+       >>rays      8019  shade_pick            >>image     8210  smaller pictures, mipmaps
+       >>files     8538  PPM and PNG           >>presets   8858  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8940  shaders, run again    >>survey    9213  experiments on a draw
-       >>numbers   9669  what makes no sense   >>doubts   10003  what is seldom right
-       >>unseen   10152  why nothing is in view
-       >>hidden   10431  why nothing is stored >>black    10598  why all is black
-       >>wrong    10982  what else is wrong    >>verdict  11374  the calls
+       >>replay    8941  shaders, run again    >>survey    9214  experiments on a draw
+       >>numbers   9670  what makes no sense   >>doubts   10004  what is seldom right
+       >>unseen   10153  why nothing is in view
+       >>hidden   10432  why nothing is stored >>black    10599  why all is black
+       >>wrong    10983  what else is wrong    >>verdict  11375  the calls
      Sources
-       >>refs     11663                        >>history  11696
-       >>license  11702
+       >>refs     11665                        >>history  11698
+       >>license  11704
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1863,12 +1863,12 @@ SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
 }
 
 /* Three rows of floats as vectors, to read or to write.  NULL stays NULL. */
-SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
+SHADE__INLINE const shade__v3 *shade__rows_in(const float *rows)
 {
     return (const shade__v3 *)(const void *)rows;
 }
 
-SHADE__INLINE shade__v3 *shade__three_rows(float *rows) { return (shade__v3 *)(void *)rows; }
+SHADE__INLINE shade__v3 *shade__rows_out(float *rows) { return (shade__v3 *)(void *)rows; }
 
 /* Vectors of doubles. */
 SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
@@ -2807,7 +2807,7 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
     shade__lamp lamp;
     if (light && point) {
         shade__prepare_lamp(light, &lamp);
-        shade__arrive(&lamp, shade__rows_of(point), SHADE_LANES, &a);
+        shade__arrive(&lamp, shade__rows_in(point), SHADE_LANES, &a);
         if (!a.any) SHADE__ZERO(a.amount);
     } else SHADE__ZERO(a);
     if (to_light) SHADE_MEMCPY(to_light, &a.to_light, sizeof a.to_light);
@@ -3216,7 +3216,7 @@ SHADE_ALIGNED static const shade__v3 shade__ones = SHADE__THREE_ROWS(SHADE_LANES
 /* The albedo or the specular factors of a packet; 1 where there are no rows. */
 SHADE__INLINE const shade__v3 *shade__factors(const float *rows)
 {
-    return rows ? shade__rows_of(rows) : &shade__ones;
+    return rows ? shade__rows_in(rows) : &shade__ones;
 }
 
 /* Adds light to rgb of lane i, or 0 where the mask is not set. */
@@ -3319,8 +3319,8 @@ SHADE__INLINE void shade__arrive_at(const shade__v3 *point, const int n, shade__
 SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 *rgb)
 {
     const shade__surface *s = r->surface;
-    const shade__v3 *point = shade__rows_of(r->rows->position);
-    const shade__v3 *normal = shade__rows_of(r->rows->normal);
+    const shade__v3 *point = shade__rows_in(r->rows->position);
+    const shade__v3 *normal = shade__rows_in(r->rows->normal);
     const shade__v3 *albedo = shade__factors(r->rows->albedo);
     const float *visibility = r->rows->visibility;
     shade__lamp fresh;
@@ -3349,8 +3349,8 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
 SHADE__INLINE void shade__lit_rows_body(const shade__surface *s, const shade_rows *rows,
                                         const int n, shade__v3 *rgb)
 {
-    const shade__v3 *point = shade__rows_of(rows->position);
-    const shade__v3 *normal = shade__rows_of(rows->normal);
+    const shade__v3 *point = shade__rows_in(rows->position);
+    const shade__v3 *normal = shade__rows_in(rows->normal);
     const float *albedo = shade__is_zero(s->ambient) ? NULL : rows->albedo;
     shade__lit r;
     r.surface = s;
@@ -3370,7 +3370,7 @@ SHADE__DISPATCH_AVX(shade__lit_rows,
 
 static void shade__lit_packet(const shade__surface *s, const shade_rows *rows, float *rgb)
 {
-    shade__lit_rows(s, rows, SHADE_LANES, shade__three_rows(rgb));
+    shade__lit_rows(s, rows, SHADE_LANES, shade__rows_out(rgb));
 }
 
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
@@ -3556,7 +3556,7 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
-    /* the triangles set up, with their corners in the order of turn: 0 is the far corner */
+    /* the triangles set up, with their corners in `order`: corner 0 is the far corner */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  x0[SHADE__TRIANGLES], y0[SHADE__TRIANGLES];    /* the box of pixels, ends included; */
@@ -3566,7 +3566,7 @@ typedef struct shade__setup {
     float    z0[SHADE__TRIANGLES];           /* the plane of depth: at the far corner */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
     float    z_low[SHADE__TRIANGLES], z_high[SHADE__TRIANGLES];   /* of the corners, in [0, 1] */
-    uint32_t turn[SHADE__TRIANGLES];  /* an order of shade__make_planes; 3 .. 5: front-facing */
+    uint32_t order[SHADE__TRIANGLES]; /* an order of shade__make_planes; 3 .. 5: front-facing */
 } shade__setup;
 
 typedef struct shade__bounds {
@@ -3842,7 +3842,7 @@ static void shade__take_batch(shade__draw *d)
      in      positions in 24.8 fixed point, |x|, |y| <= 2^24; depths and 1/w
      out     triangles set up in the order of submission, to >>cover
      way     triangles: sort_out: draw_fan, add_triangles; draw_setup: set_up: fetch_corners, areas,
-             choose_turns, turn, box, edge, sides, depth_plane, cull
+             choose_turns, turn, box, make_edge, sides, depth_plane, cull
      holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
                256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
              A pixel is inside where all three e >= 0.  The coefficients of i and j are multiples
@@ -3860,7 +3860,7 @@ static void shade__take_batch(shade__draw *d)
                      2             one of them.  Right and bottom edges: bias -1.
                                                                                            >>clip */
 
-/* Corners of the triangles being set up: as submitted, or in the order of the turn, which puts the
+/* Corners of the triangles being set up: as submitted, or in the order of the setup, which puts the
    far corner first and leaves rw out. */
 typedef struct shade__corner_rows {
     SHADE_ALIGNED int32_t x[3][SHADE__TRIANGLES];
@@ -3989,8 +3989,8 @@ SHADE__INLINE int64_t shade__round(double x)
    integer v = 256 e + rest, e = floor(v / 256) is v / 256 - 127.5/256 rounded to the nearest.  Left
    edges have dy < 0, top edges dy = 0 and dx > 0: their bias is 0, the others' -1.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
-SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c, int k,
-                               shade__setup *SHADE_RESTRICT s)
+SHADE__INLINE void shade__make_edge(const shade__corner_rows *SHADE_RESTRICT c, int k,
+                                    shade__setup *SHADE_RESTRICT s)
 {
     const int next = k < 2 ? k + 1 : 0;
     SHADE__FOR(i, SHADE__TRIANGLES) {
@@ -4067,13 +4067,13 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
     shade__turns turns;
     shade__fetch_corners(s, plan->value_stride, &given);
     shade__areas(&given, area, inverse);
-    shade__choose_turns(&given, area, &turns, s->turn);
+    shade__choose_turns(&given, area, &turns, s->order);
     shade__turn(shade__words(&given.x), &turns, shade__words(&c.x));
     shade__turn(shade__words(&given.y), &turns, shade__words(&c.y));
     shade__turn(shade__words(&given.z), &turns, shade__words(&c.z));
     shade__box(c.x, plan->x0, plan->x1 - 1, s->x0, s->x1);
     shade__box(c.y, plan->y0, plan->y1 - 1, s->y0, s->y1);
-    for (int k = 0; k < 3; k++) shade__edge(&c, k, s);
+    for (int k = 0; k < 3; k++) shade__make_edge(&c, k, s);
     shade__sides(&c, inverse, s);
     shade__depth_plane(&c, raster->depth_bias, s);
 
@@ -5052,13 +5052,13 @@ SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2, shade
 SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setup *s, int i,
                                       shade__planes *t)
 {
-    static const uint8_t order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
-                                         { 0, 2, 1 }, { 1, 0, 2 }, { 2, 1, 0 } };
+    static const uint8_t orders[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
+                                          { 0, 2, 1 }, { 1, 0, 2 }, { 2, 1, 0 } };
     const int stride = plan->value_stride;
-    const uint8_t *corner = s->corner[i], *turn = order[s->turn[i]];
-    const float *v0 = s->value + corner[turn[0]] * stride;
-    const float *v1 = s->value + corner[turn[1]] * stride;
-    const float *v2 = s->value + corner[turn[2]] * stride;
+    const uint8_t *corner = s->corner[i], *order = orders[s->order[i]];
+    const float *v0 = s->value + corner[order[0]] * stride;
+    const float *v1 = s->value + corner[order[1]] * stride;
+    const float *v2 = s->value + corner[order[2]] * stride;
     const shade_vec4 side = shade_v4(s->side[0][i], s->side[1][i], s->side[2][i], s->side[3][i]);
     shade__slopes(v0, v1, v2, side, stride, t);
     t->base[0] = s->z0[i];    /* with the bias */
@@ -5069,7 +5069,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__setu
     t->x_ref = s->x_ref[i];
     t->y_ref = s->y_ref[i];
     t->primitive = s->primitive[i];
-    t->front = s->turn[i] > 2;
+    t->front = s->order[i] > 2;
 
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
         const float *value = s->value + corner[3] * stride;
@@ -5287,8 +5287,9 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
    Filters texels for blocks of lanes, one mipmap after the other: places and weights along both
    axes, a pair of texels above and a pair below, and their blend.
      in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
-     way     shade_sample_lanes: sample_levels: open_level: address; filter: filter_packed or
-             filter_floats: fetch, blend_packed, blend_encoded or blend_floats; add_level
+     way     shade_sample_lanes: sample_levels: read_level: open_level: address; filter:
+             filter_packed or filter_floats: fetch, blend_packed, blend_encoded or blend_floats;
+             add_level
      holds   Every index lies in the texture, for any u and v.  Each mipmap has the weight max(0,
              1 - |lod - level|), which is trilinear filtering.                      [Williams83]
                                                                                           >>store */
@@ -5543,12 +5544,12 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
 
 /* The linear light of a block of sRGB texels, by channel and by corner: left and right above, left
    and right below. */
-typedef struct shade__corners { float c[3][4][SHADE__BLOCK]; } shade__corners;
+typedef struct shade__four_lights { float c[3][4][SHADE__BLOCK]; } shade__four_lights;
 
 /* Looks up a texel of 4 bytes.  Floats are copied as integers, because processors store more of
    these at a time. */
 SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const int corner,
-                                        shade__corners *to)
+                                        shade__four_lights *to)
 {
     const float *light = shade__map_light_of(255);
     SHADE_MEMCPY(&to->c[0][corner][i], &light[p[red]], 4);
@@ -5559,7 +5560,7 @@ SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const 
 /* Looks up the sRGB texels of the block of pairs at texel.  Not inlined, because gcc would
    vectorise it, which takes longer. */
 static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_t *texel,
-                                           shade__corners *SHADE_RESTRICT to)
+                                           shade__four_lights *SHADE_RESTRICT to)
 {
     enum { below = 2 * SHADE_LANES };
     const uint8_t *p = (const uint8_t *)texel;
@@ -5588,7 +5589,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
 {
     const shade__layout l = *r->layout;
     const uint32_t *below = above + 2 * SHADE_LANES;
-    SHADE_ALIGNED shade__corners t;
+    SHADE_ALIGNED shade__four_lights t;
     shade__look_up(&l, above, &t);
     /* alpha first, while the stores of shade__look_up finish: saves 2 to 4 % */
     SHADE__FOR(i, SHADE__BLOCK) {
@@ -5677,17 +5678,17 @@ SHADE__INLINE void shade__filter(const shade__reader *r, int encoded, const floa
         shade__add_level(level + k * SHADE_LANES, weight, r->blocks, out + k * SHADE_LANES);
 }
 
-SHADE__INLINE void shade__level_body(const shade_texture *t, const float *u, const float *v,
-                                     const float *weight, int blocks, float *out)
+SHADE__INLINE void shade__read_level_body(const shade_texture *t, const float *u, const float *v,
+                                          const float *weight, int blocks, float *out)
 {
     shade__reader r;
     shade__open_level(t, u, v, blocks, &r);
     shade__filter(&r, shade__is_encoded(t->srgb, r.layout), weight, out);
 }
-SHADE__DISPATCH(shade__level,
+SHADE__DISPATCH(shade__read_level,
                 (const shade_texture *t, const float *u, const float *v, const float *weight,
                  int blocks, float *out), (t, u, v, weight, blocks, out),
-                shade__level_body(t, u, v, weight, blocks, out))
+                shade__read_level_body(t, u, v, weight, blocks, out))
 
 /* Samples a texture with mipmaps: the levels that any lane needs, weighted. */
 static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t, const float *u,
@@ -5722,7 +5723,7 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t, const f
             source.wrap_v = t->wrap_v;
             source.filter = t->filter;
         }
-        if (used) shade__level(&source, u, v, weight, blocks, out);
+        if (used) shade__read_level(&source, u, v, weight, blocks, out);
     }
 }
 
@@ -5732,7 +5733,7 @@ static void shade__sample(const shade_texture *t, const float *u, const float *v
 {
     if (lod && t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps && t->mipmap_count > 0)
         shade__sample_levels(t, u, v, lod, blocks, out);
-    else shade__level(t, u, v, NULL, blocks, out);
+    else shade__read_level(t, u, v, NULL, blocks, out);
 }
 
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
@@ -6250,20 +6251,20 @@ static shade_result shade__check_corners(const shade_mesh *m)
 }
 
 /* Pieces of memory: count pieces of size bytes, each stride bytes behind the one before. */
-typedef struct shade__pieces {
+typedef struct shade__strided {
     const void *first;
     size_t count, size, stride;
-} shade__pieces;
+} shade__strided;
 
-static shade__pieces shade__array(const void *first, size_t bytes)
+static shade__strided shade__array(const void *first, size_t bytes)
 {
-    const shade__pieces one = { first, first && bytes, bytes, 1 };
+    const shade__strided one = { first, first && bytes, bytes, 1 };
     return one;
 }
 
 /* Is a byte in both?  For example, an array that lies between the positions of interleaved vertices
    does not overlap them.  k is the first piece of b that ends behind the start of a piece of a. */
-static int shade__overlap(shade__pieces a, shade__pieces b)
+static int shade__overlap(shade__strided a, shade__strided b)
 {
     const uintptr_t b0 = (uintptr_t)b.first;
     for (size_t i = 0; i < a.count; i++) {
@@ -6275,7 +6276,7 @@ static int shade__overlap(shade__pieces a, shade__pieces b)
 }
 
 /* Does one of the first `outs` of n arrays overlap another of them? */
-static int shade__any_overlap(const shade__pieces *array, int outs, int n)
+static int shade__any_overlap(const shade__strided *array, int outs, int n)
 {
     for (int i = 0; i < outs; i++)
         for (int k = i + 1; k < n; k++)
@@ -6285,10 +6286,10 @@ static int shade__any_overlap(const shade__pieces *array, int outs, int n)
 
 /* Two arrays to be filled from a mesh, the second maybe empty: SHADE_ERROR_ARGUMENT if they overlap
    each other, the positions, indices or chunks of the mesh, or the struct of the mesh. */
-static shade_result shade__check_outs(const shade_mesh *m, shade__pieces out, shade__pieces other)
+static shade_result shade__check_outs(const shade_mesh *m, shade__strided out, shade__strided other)
 {
     const size_t corners = (size_t)shade__corner_count(m);
-    shade__pieces array[7];
+    shade__strided array[7];
     array[0] = out;
     array[1] = other;
     array[2] = shade__array(m, sizeof *m);
@@ -6781,7 +6782,7 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
 /* The rows of a vector that begins at a varying, or spare ones for -1. */
 SHADE__INLINE shade__v3 *shade__varying_rows(shade_vertices *out, int first, shade__v3 *spare)
 {
-    return first < 0 ? spare : shade__three_rows(out->varying[first]);
+    return first < 0 ? spare : shade__rows_out(out->varying[first]);
 }
 
 /* Fetches attributes into the rows of their varyings, or into spare rows if the draw needs them but
@@ -8406,11 +8407,11 @@ static void shade__convert(const shade__decoder *d, const shade_target *to)
 }
 
 /* The pixels of a picture from x, y on, in rows of width pixels. */
-static shade__pieces shade__pixel_rows(const shade_target *t, int x, int y, int width, int rows)
+static shade__strided shade__pixel_rows(const shade_target *t, int x, int y, int width, int rows)
 {
     const size_t bytes = shade__pixel_bytes(t->format);
-    const shade__pieces p = { shade__pixel_at(t, x, y), (size_t)rows, (size_t)width * bytes,
-                              (size_t)shade__stride_of(t) * bytes };
+    const shade__strided p = { shade__pixel_at(t, x, y), (size_t)rows, (size_t)width * bytes,
+                               (size_t)shade__stride_of(t) * bytes };
     return p;
 }
 
@@ -8502,7 +8503,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     shade_target from, to;
     shade__decoder decoder;
     shade__halving halving;
-    shade__pieces array[4];
+    shade__strided array[4];
     size_t used;
     const int count = texture ? shade_mipmap_count(texture->width, texture->height) : 0;
     if (!texture || (count && (!levels || !memory || (uintptr_t)memory % 4)))
@@ -9875,7 +9876,7 @@ static const char *shade__bad_matrix(const shade__survey *s)
         !s->state.raster.depth_zero_to_one)
         return "state.projection comes from shade_mat4_perspective_reversed, which needs "
                "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
-    return NULL;
+    return SHADE__GO_ON;
 }
 
 static const char *shade__bad_lamp(const shade_light *l)
@@ -9896,7 +9897,7 @@ static const char *shade__bad_lamp(const shade_light *l)
     if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
         return "A light's constant, linear or quadratic is negative: attenuation divides by "
                "constant + linear r + quadratic r^2, at the distance r.";
-    return NULL;
+    return SHADE__GO_ON;
 }
 
 /* Are corners beyond 1e12, or does the draw reject triangles, as for NaN and infinity? */
@@ -10059,7 +10060,7 @@ static const char *shade__doubt_of_map(const shade__survey *s)
 {
     const shade_texture *map = shade__map_of(s);
     const char *why;
-    if (!map) return NULL;
+    if (!map) return SHADE__GO_ON;
     why = shade__texture_fault(map);
     if (why) return why;
     if (!s->mesh.texcoords)
@@ -10075,7 +10076,7 @@ static const char *shade__doubt_of_map(const shade__survey *s)
     if (shade__u_reaches(&s->mesh, map->width))
         return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
                "1 over the map, whatever its size.";
-    return NULL;
+    return SHADE__GO_ON;
 }
 
 /* Is the aspect of the projection, computed from its rows x and y across the line of sight, other
@@ -10115,7 +10116,7 @@ static const char *shade__doubt_of_view(const shade__survey *s)
         p->col[3].y == 0 && shade__eye_inside(s))
         return "state.view is unset, so that the eye is at the origin, inside the mesh's box; make "
                "it with shade_mat4_look_at.";
-    return NULL;
+    return SHADE__GO_ON;
 }
 
 static const char *shade__doubt_of_surface(const shade__survey *s)
@@ -10127,7 +10128,7 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
         d->lighting.model < SHADE_MODEL_EMISSIVE && !shade__is_zero(s->material.diffuse))
         return "state.material.emission alone makes everything white, whatever light arrives: it "
                "is the light that a surface emits by itself, 0 for most.";
-    return NULL;
+    return SHADE__GO_ON;
 }
 
 static const char *shade__doubt(const shade__survey *s)
@@ -10431,7 +10432,7 @@ static const shade__ladder shade__nothing = {
 /*----------------------------------------------------------------------------------------- >>hidden
    Why a draw that covers pixels stored none of them, or perhaps none.
      in      a survey                        out  a sentence, or another answer
-     way     climb the ladders test and unseen
+     way     climb the ladders wrong_test and not_stored
      holds   A mesh outside one band or strip is not reported, because another band may show it.
                                                                                           >>black */
 
@@ -10458,7 +10459,7 @@ static int shade__near_is_beyond_far(shade__survey *q)
            d / (c - 1) > d / (c + 1) && d / (c + 1) > 0 && shade__test_is_turned(q);
 }
 
-static const shade__ladder shade__test = {
+static const shade__ladder shade__wrong_test = {
     SHADE__EACH_ALONE, {
         { shade__near_is_beyond_far,
           "near of state.projection is beyond far, which turns depth round, so that nothing passes "
@@ -10567,7 +10568,7 @@ static int shade__depth_hides(shade__survey *q)
     return shade__covered(q) > 0;
 }
 
-static const shade__ladder shade__unseen = {
+static const shade__ladder shade__not_stored = {
     SHADE__EACH_ALONE, {
         { shade__beside_clip,
           "All of it lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
@@ -10982,7 +10983,7 @@ static const shade__ladder shade__black = {
 /*------------------------------------------------------------------------------------------ >>wrong
    Why a mesh shows in a wrong picture: depth, winding, and then light.
      in      a survey                        out  a sentence, or another answer
-     way     climb the ladders picture and wrong_light; climb_to flat
+     way     climb the ladders wrong_picture and wrong_light; climb_to flat
      holds   A sentence is true of the visible pixels: of all, or of the share that its rung tests.
                                                                                         >>verdict */
 
@@ -11130,7 +11131,7 @@ static const char shade__inward[] =
     "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
     "raster.cull.";
 
-static const shade__ladder shade__picture = {
+static const shade__ladder shade__wrong_picture = {
     SHADE__EACH_ALONE, {
         { shade__culled_often_both_ways, shade__often_both_ways, NULL },
         { shade__culled_both_ways, shade__both_ways, NULL },
@@ -11353,20 +11354,20 @@ static int shade__white_shows(shade__survey *q)
 
 static const shade__ladder shade__flat = {
     SHADE__KEEPS_CHANGES, {
-        { shade__lamps_show, NULL, NULL },
+        { shade__lamps_show, SHADE__GO_ON, NULL },
         { shade__count_is_zero,
           "Only ambient light arrives: lighting.light_count is 0 while lighting.lights is set.",
           shade__mend_lamps },
-        { shade__unlit_is_meant, NULL, NULL },
+        { shade__unlit_is_meant, SHADE__GO_ON, NULL },
         { shade__lights_are_none,
           "Only ambient light arrives, which shows no form: lighting.lights is NULL.",
           shade__mend_lamps },
-        { shade__white_shows, NULL, NULL },
+        { shade__white_shows, SHADE__GO_ON, NULL },
         { shade__lacks_normals, shade__no_normals, shade__mend_normals },
         { shade__lamps_fall_off, shade__fall_off, shade__mend_attenuation },
         { shade__cones_miss, shade__no_cone, shade__mend_cones },
-        { shade__lamps_are_many, NULL, NULL },
-        { shade__sides_show, NULL, NULL },
+        { shade__lamps_are_many, SHADE__GO_ON, NULL },
+        { shade__sides_show, SHADE__GO_ON, NULL },
         { shade__always, shade__no_color, shade__mend_color }
     }
 };
@@ -11375,9 +11376,10 @@ static const shade__ladder shade__flat = {
    The calls that explain a draw in one sentence, and their way through the ladders.
      in      arguments of a draw, its stats  out  a constant sentence; "" for nothing
      way     shade_explain: mesh_refusal, no_mesh, clip_fault; open_survey; why: bad_number; the
-             ladder nothing, or test and unseen; why_wrong: the ladders picture, black by
-             why_black, wrong_light, flat; doubt.  shade_explain_draw, shade_explain_lines:
-             explain_replay: why: bad_run; the same ladders; why_plain: why_faint          >>refs */
+             ladder nothing, or wrong_test and not_stored; why_wrong: the ladders wrong_picture,
+             black by why_black, wrong_light, flat; doubt.  shade_explain_draw,
+             shade_explain_lines: explain_replay: why: bad_run; the same ladders; why_plain:
+             why_faint                                                                     >>refs */
 
 /* ---- the colours of a fragment shader of the caller, or of lines */
 
@@ -11461,7 +11463,7 @@ static const char *shade__why_wrong(const shade__survey *s)
 {
     shade__survey seen = *s, q;
     const int opaque = shade__is_opaque(s);
-    const char *why = shade__climb(s, &shade__picture);
+    const char *why = shade__climb(s, &shade__wrong_picture);
     const shade__rung *rung;
     shade__look_at_seen(&seen);
     if (why || !s->target->color || !shade__covered(&seen)) return why;
@@ -11523,8 +11525,8 @@ static const char *shade__why(const shade__survey *s)
     if (why) return why;
     if (!sure && !shade__covered(&all)) return shade__climb(&all, &shade__nothing);
 
-    why = shade__climb(s, &shade__test);
-    if (!why && !sure) why = shade__climb(s, &shade__unseen);
+    why = shade__climb(s, &shade__wrong_test);
+    if (!why && !sure) why = shade__climb(s, &shade__not_stored);
     if (why || !shade__is_drawn(s)) return why;
     if (s->replay) return shade__why_plain(s);
 

@@ -245,7 +245,7 @@ static void prove_push(int varyings, int stride, int lod)
     pipe.interpolation = (shade_interpolation)ANY_OF(0, SHADE_INTERPOLATION_CONSTANT);
     s->value = value;
     for (int i = 0; i < SHADE__TRIANGLES; i++) {
-        s->turn[i] = (uint32_t)ANY_OF(0, 5);
+        s->order[i] = (uint32_t)ANY_OF(0, 5);
         for (int k = 0; k < 4; k++) s->side[k][i] = any_float();
         for (int k = 0; k < 4; k++)
             s->corner[i][k] = Frama_C_unsigned_char_interval(

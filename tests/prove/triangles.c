@@ -309,7 +309,7 @@ static void prove_edges(void)
 {
     any_ints(s.x0, N, 0, 65536);
     any_ints(s.y0, N, 0, 65536);
-    for (int k = 0; k < 3; k++) shade__edge(&c, k, &s);
+    for (int k = 0; k < 3; k++) shade__make_edge(&c, k, &s);
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < N; i++) {
             /*@ assert -2 * FAR <= s.ex[k][i] <= 2 * FAR && -2 * FAR <= s.ey[k][i] <= 2 * FAR; */
