@@ -55,38 +55,38 @@
      Public
        >>config     135  options               >>types      269  materials, targets, states
        >>light      455  the equation, colour  >>draw       564  shaders, meshes, pixels
-       >>tools      723  explain, lines, rays  >>plumbing   936  compilers, flags and bits
-       >>math      1104  vectors and matrices
+       >>tools      724  explain, lines, rays  >>plumbing   940  compilers, flags and bits
+       >>math      1108  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1472  processors            >>base      1719  bits, masks, rows of vectors
-       >>matrix    1917  cameras, inverses     >>power     2205  x^n
-       >>pixels    2271  formats, sRGB
+       >>machine   1476  processors            >>base      1723  bits, masks, rows of vectors
+       >>matrix    1921  cameras, inverses     >>power     2209  x^n
+       >>pixels    2275  formats, sRGB
      Inside: light
-       >>lamps     2582  attenuation, cones    >>terms     2834  one term at one point
-       >>surface   2909  material and lights   >>lit       3026  the whole sum, at many points
+       >>lamps     2586  attenuation, cones    >>terms     2838  one term at one point
+       >>surface   2913  material and lights   >>lit       3030  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3416  fields by owner       >>vertices  3629  shading, projection
-       >>triangles 3832  culling, edge setup   >>clip      4186  near, far, guard band
-       >>tiles     4373  edges and depth test  >>cover     4737  triangles, tile by tile
-       >>fragments 5005  interpolation, lod    >>texture   5280  texels, filters
-       >>store     5755  blending, packing
+       >>state     3420  fields by owner       >>vertices  3633  shading, projection
+       >>triangles 3836  culling, edge setup   >>clip      4190  near, far, guard band
+       >>tiles     4377  edges and depth test  >>cover     4741  triangles, tile by tile
+       >>fragments 5009  interpolation, lod    >>texture   5284  texels, filters
+       >>store     5759  blending, packing
      Inside: calls of the renderer
-       >>check     6038  refusals              >>seen      6298  view volume, chunks
-       >>drive     6418  shade_draw            >>mesh      6608  shade_draw_mesh
+       >>check     6042  refusals              >>seen      6302  view volume, chunks
+       >>drive     6422  shade_draw            >>mesh      6612  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7012  shade_draw_lines      >>camera    7204  eye and line of sight
-       >>shape     7298  normals, edges        >>chunks    7845  sorting and boxes
-       >>rays      8008  shade_pick            >>image     8199  smaller pictures, mipmaps
-       >>files     8512  PPM and PNG           >>presets   8830  classic materials
+       >>lines     7016  shade_draw_lines      >>camera    7208  eye and line of sight
+       >>shape     7302  normals, edges        >>chunks    7849  sorting and boxes
+       >>rays      8012  shade_pick            >>image     8203  smaller pictures, mipmaps
+       >>files     8516  PPM and PNG           >>presets   8834  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8913  shaders, run again    >>survey    9185  experiments on a draw
-       >>numbers   9627  what makes no sense   >>doubts    9961  what is seldom right
-       >>unseen   10110  why nothing is in view
-       >>hidden   10389  why nothing is stored >>black    10553  why all is black
-       >>wrong    10935  what else is wrong    >>verdict  11323  the calls
+       >>replay    8917  shaders, run again    >>survey    9189  experiments on a draw
+       >>numbers   9641  what makes no sense   >>doubts    9975  what is seldom right
+       >>unseen   10124  why nothing is in view
+       >>hidden   10403  why nothing is stored >>black    10568  why all is black
+       >>wrong    10952  what else is wrong    >>verdict  11340  the calls
      Sources
-       >>refs     11613                        >>history  11646
-       >>license  11652
+       >>refs     11630                        >>history  11663
+       >>license  11669
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -426,8 +426,8 @@ typedef struct shade_raster {
     shade_blend   blend;
     int   depth_read_only;       /* non-zero: test, do not write */
     int   depth_zero_to_one;     /* non-zero: clip space has 0 <= z <= w */
-    float depth_bias;            /* added to depth, which is then clamped to [0, 1]; -1e-5, for */
-                                 /* example, lets lines on a mesh pass the test LESS */
+    float depth_bias;            /* added to depth, which is then clamped to [0, 1]; -1e-3, for */
+                                 /* example, for lines on a mesh; on steep faces they need more */
 } shade_raster;
 
 typedef enum shade_shading {
@@ -469,10 +469,10 @@ SHADE__OPEN
    floats.                                                                                 >>draw */
 
 /* Lamps of one colour: I_d = I_s = color, no ambient light, no attenuation.  direction_of_travel is
-   the direction in which the light travels, aim the direction in which the lamp points; both may
-   have any length.  cutoff_radians is the angle from the axis to the edge of the cone, 0 .. pi.
-   Any other value, for example 45 meant as degrees, gives a spot_cos_cutoff of NaN, which draws
-   refuse with SHADE_ERROR_LIGHTS.  exponent is e >= 0. */
+   the direction in which the light travels, aim the direction in which the lamp points, target -
+   position; both may have any length.  cutoff_radians is the angle from the axis to the edge of the
+   cone, 0 .. pi.  Any other value, for example 45 meant as degrees, gives a spot_cos_cutoff of NaN,
+   which draws refuse with SHADE_ERROR_LIGHTS.  exponent is e >= 0. */
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
@@ -708,7 +708,8 @@ enum {
    pixel to pixel.
      Light takes the eye from view alone.  If your projection moves the centre of projection,
    highlights are wrong.  If your camera looks along +z, as left-handed ones do, its backward axis
-   points away from the viewer: negate eye in a shader of your own.  shade_explain reports both.
+   points away from the viewer: negate eye in a shader of your own.  shade_explain reports both
+   where it would change what is seen.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments with an alpha below alpha_cutoff are
    discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -777,14 +778,15 @@ typedef struct shade_line_state {
 } shade_line_state;
 /* Draws point_count / 2 lines between pairs of points.  Each is a rectangle on the screen, drawn as
    two triangles, which stats counts.  For lines over a filled mesh use SHADE_COMPARE_LESS_EQUAL and
-   a small negative depth_bias.  A line whose ends coincide is nothing, or a square with
+   a negative depth_bias, such as -1e-3.  A line whose ends coincide is nothing, or a square with
    SHADE_CAP_SQUARE.  An odd or negative count, or one beyond 715827882, is SHADE_ERROR_MESH; a
    width that is negative, NaN or infinite is SHADE_ERROR_STATE. */
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
 /* Says in one sentence why your lines do not show, as shade_explain_draw does; "" where nothing is
-   suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
+   suspicious, and where only a part of them is hidden.  It also recognises a transposed
+   clip_from_points, and view times projection. */
 SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
                                          int point_count, const shade_line_state *state,
                                          const shade_stats *stats);
@@ -821,10 +823,11 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
 /* Fills one normal for each corner of each triangle, index_count of them or, without indices,
    vertex_count.  It is the mean, as above, over those faces around the corner's position that
    differ from the corner's own face by at most the crease angle: n . n_face >= cos_crease.  For
-   example, cos_crease 0.5 keeps edges of more than 60 degrees hard.  Vertices of equal position
-   count as one.  Time grows with the square of the number of faces around a position.  memory must
-   be aligned to 4, have shade_mesh_corner_normals_bytes bytes (0 for a bad mesh), and must overlap
-   neither the mesh nor normals. */
+   example, cos_crease 0.5 keeps edges of more than 60 degrees hard.  To draw with them, give each
+   corner a vertex of its own: a mesh without indices, with the position of each index.  Vertices of
+   equal position count as one.  Time grows with the square of the number of faces around a
+   position.  memory must be aligned to 4, have shade_mesh_corner_normals_bytes bytes (0 for a bad
+   mesh), and must overlap neither the mesh nor normals. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
@@ -896,7 +899,7 @@ SHADEDEF shade_result shade_write_png(const char *path, const shade_target *targ
    light.  in must be factor times as wide and high, and so must row_offset and row_count of its
    strip; factor is 1 .. 8.  Factor 1 converts formats, and may do so in place where the pixels are
    of equal size: out then has the color and stride of in.  Only the clip rectangle of out changes,
-   and depth never.  If it would otherwise overlap the pixels of in that are read, the result is
+   and depth never.  If out overlaps the pixels of in that are read in any other way, the result is
    SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
@@ -905,7 +908,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
 SHADEDEF int    shade_mipmap_count(int width, int height);
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
 /* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means by
-   area in linear light, and points the texture at them.  levels, memory, the texels and the texture
+   area in linear light, and points the texture at them.  Its filter stays what it is: set it to
+   SHADE_FILTER_TRILINEAR for them to be read.  levels, memory, the texels and the texture
    itself must not overlap: the result is SHADE_ERROR_ARGUMENT, and nothing changes. */
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes);
@@ -9274,6 +9278,15 @@ static int shade__is_lit_there(const shade_target *t, int x, int y)
     return any;
 }
 
+/* Does lane i pass the depth test of the picture of a survey, which follows this shader? */
+static int shade__passes_there(const shade__survey *s, const shade_fragments *in, int i)
+{
+    const shade_target *t = &s->picture;
+    return !t->depth ||
+           shade__passes(shade__compare_of(&s->state.raster), 0, in->z[i],
+                         t->depth[shade__offset_of(t, (int)in->x[i], (int)in->y[i])]) != 0;
+}
+
 /* The fragment shader of experiments: it discards fragments that do not count. */
 static void shade__judge(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
@@ -9290,7 +9303,8 @@ static void shade__judge(const void *uniforms, const shade_fragments *SHADE_REST
         if (s->far_margin > 0) counts &= !shade__within(in->z[i] - s->farthest, s->far_margin);
         if (s->lit_only) counts &= shade__is_lit_there(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
-        if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
+        if (trial->every && !out->discard[i] && shade__passes_there(s, in, i))
+            shade__take_probe(trial, in, i);
     }
 }
 
@@ -10414,13 +10428,13 @@ static int shade__near_is_beyond_far(shade__survey *q)
 static const shade__ladder shade__test = {
     SHADE__EACH_ALONE, {
         { shade__near_is_beyond_far,
-          "near of state.projection is beyond far, which turns depth round, so that far surfaces "
-          "hide near ones: exchange the two; or, if it is meant, use SHADE_COMPARE_GREATER with "
-          "depth cleared to 0.", NULL },
+          "near of state.projection is beyond far, which turns depth round, so that nothing passes "
+          "or far surfaces hide near ones: exchange the two; or, if it is meant, use "
+          "SHADE_COMPARE_GREATER with depth cleared to 0.", NULL },
         { shade__test_is_turned,
-          "raster.depth_test does not fit state.projection, so that far surfaces hide near ones: "
-          "use SHADE_COMPARE_LESS with depth cleared to 1, or with shade_mat4_perspective_reversed "
-          "SHADE_COMPARE_GREATER with depth cleared to 0.", NULL }
+          "raster.depth_test does not fit state.projection, so that nothing passes or far surfaces "
+          "hide near ones: use SHADE_COMPARE_LESS with depth cleared to 1, or with "
+          "shade_mat4_perspective_reversed SHADE_COMPARE_GREATER with depth cleared to 0.", NULL }
     }
 };
 
@@ -10542,7 +10556,8 @@ static const shade__ladder shade__unseen = {
           "near of the projection is too small for floats, compared with far: raise near.", NULL },
         { shade__lines_lie_in_surfaces,
           "The lines lie in surfaces that target.depth already holds, and these hide them: use "
-          "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.", NULL },
+          "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias; or call shade_clear, "
+          "if they are lines of the frame before.", NULL },
         { shade__depth_hides,
           "It is hidden by depth that target.depth already holds: from other draws, from the frame "
           "before if shade_clear was not called, or from a draw of the same triangles, which then "
@@ -10714,7 +10729,8 @@ static const char shade__transparent[] =
 static const char shade__behind[] =
     "Every lamp is behind nine tenths or more of the visible pixels, on the side that the normals "
     "point away from: turn mesh.normals (or the winding, if there are no normals), move "
-    "light.position, set SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside the mesh?";
+    "light.position, which is in world space, or reverse the direction in which light travels, set "
+    "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside the mesh?";
 static const char shade__black_colors[] =
     "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
     "check mesh.texcoords and the picture.";
@@ -10907,8 +10923,9 @@ static const shade__ladder shade__black = {
         { shade__shows, shade__multiply, NULL },
         { shade__faces_are_lit, shade__multiply, NULL },
         { shade__terms_are_few,
-          "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
-          "terms, and the model SHADE_MODEL_BLINN_PHONG.", shade__terms_are_few },
+          "lighting.terms or lighting.model leaves out every term that would be seen (0 means all "
+          "terms, and the model SHADE_MODEL_BLINN_PHONG); for ambient light alone set "
+          "lighting.ambient.", shade__terms_are_few },
         { shade__shows, shade__multiply, NULL },
         { shade__colors_are_black, shade__black_colors, shade__mend_colors },
         { shade__shows, shade__multiply, NULL },
@@ -11263,8 +11280,8 @@ static const shade__ladder shade__wrong_light = {
           NULL },
         { shade__eye_is_astray,
           "Highlights belong to another eye: light takes the eye from state.view, in which +z "
-          "points back to the viewer, but state.projection moves the eye or looks along +z; do "
-          "that in state.view.", NULL },
+          "points back to the viewer, but state.projection moves the eye or looks along +z: leave "
+          "that to state.view alone.", NULL },
         { shade__wound_inward, shade__inward, NULL },
         { shade__normals_disagree,
           "mesh.normals have no negative component, and lie behind some of the faces: are they "

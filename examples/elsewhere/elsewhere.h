@@ -14,10 +14,10 @@
        state.uniforms = &scene;
 
    The colours that come out are display values: draw them to a target without .srgb, or set
-   scene.linear.  Where
-   look.law is ELSEWHERE_LAW_FOUR and lamps have neither rim nor range, elsewhere_lighting gives a
-   shade_lighting that does the same without a shader.  Where look.refused is not NULL, the program
-   does something that nothing here can say, and the sentence tells what.
+   scene.linear.  Where look.law is ELSEWHERE_LAW_FOUR and lamps have neither rim nor range,
+   elsewhere_lighting gives a shade_lighting that does the same without a shader.  Where
+   look.refused is not NULL, the program does something that nothing here can say, and the sentence
+   tells what.
 
    Above each function stand version and source of its law: the specification where there is one,
    else what its pictures showed.  tables/ has pixels that the real programs drew, measure/ the

@@ -696,6 +696,26 @@ TEST(explain, what_is_unusual_is_no_mistake)
     }
 }
 
+/* A pass for depth alone, then one for colours that writes no depth: the mesh covers pixels twice. */
+TEST(explain, a_pass_over_stored_depth_hides_nothing)
+{
+    static const shade_compare compares[2] = { SHADE_COMPARE_EQUAL, SHADE_COMPARE_LESS_EQUAL };
+    for (int k = 0; k < 4; k++) {
+        stage *s = stage_open();
+        shade_target depth = s->target;
+        depth.color = NULL;
+        if (k & 2) stage_of_teapot(s);
+        s->state.raster.cull = SHADE_CULL_NONE;
+        shade_clear(&s->target, shade_v4(0, 0, 0, 1), 1);
+        shade_draw_mesh(&depth, &s->mesh, &s->state, NULL);
+        s->clear = NAN;
+        s->state.raster.depth_test = compares[k & 1];
+        s->state.raster.depth_read_only = 1;
+        stage_is_good(s, "colours behind depth");
+        free(s);
+    }
+}
+
 /* The states of tests/fuzz/explain.c go on where these end. */
 TEST(explain, no_sentence_about_a_random_draw_is_false)
 {

@@ -29,9 +29,9 @@
    option that is a question, has been answered. */
 enum { OPTIONS_READ, OPTIONS_WRONG, OPTIONS_ANSWERED }; /* complain returns the second */
 
-/* What a take function returns: the value is none that this option can have; it is stored; or
-   OPTIONS_ANSWERED. */
-enum { OPTION_BAD, OPTION_TAKEN };
+/* What a take function returns: the value is none that this option can have; it is stored;
+   OPTIONS_ANSWERED; or it is bad, and complain has said why. */
+enum { OPTION_BAD, OPTION_TAKEN, OPTION_TOLD = OPTIONS_ANSWERED + 1 };
 
 /* Stores the value of an option. */
 typedef int option_take(void *to, const char *value);
@@ -261,6 +261,7 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
     if (c->notice) c->notice(to, o->name);
     if (taken == OPTIONS_ANSWERED) return options_answered();
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
+    if (taken == OPTION_TOLD) return OPTIONS_WRONG;
     option_said(c->usage, o->name, said, sizeof said);
     return complain("%s %s: %s%s", o->name, value, o->take ? "" : "a whole number: ", said);
 }

@@ -170,7 +170,11 @@ static inline int model_take_material(void *to, const char *value)
     }
     o->plain = 1;
     if (find_material(value, &o->material)) return OPTION_TAKEN;
-    return !elsewhere_apply_text(value, &o->material, &o->model, &flags, said, sizeof said);
+    if (!elsewhere_row_of(value, strcspn(value, "( "), 0)) return OPTION_BAD;
+    if (!elsewhere_apply_text(value, &o->material, &o->model, &flags, said, sizeof said))
+        return OPTION_TAKEN;
+    complain("--material %s: %s", value, said);
+    return OPTION_TOLD;
 }
 
 static inline int model_take_model(void *to, const char *value)

@@ -404,8 +404,12 @@ bad_options() {
     check "one picture" cmp "$T/vtk.ppm" "$T/blank.ppm"
     check "another exponent" look dull 'vtk(color=1,.5,.2 specular=.8 power=3)'
     check "is another picture" sh -c "! cmp -s '$T/vtk.ppm' '$T/dull.ppm'"
-    check "an unknown number" refused "another program's numbers" "$THUMBNAIL" "$T/torus.obj" \
+    check "an unknown number" refused "vtk has no number x" "$THUMBNAIL" "$T/torus.obj" \
         "$T/none.ppm" --material 'vtk(x=1)'
+    check "an unknown program" refused "another program's numbers" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --material 'vtp(power=1)'
+    check "a law that is no material" refused "is not iteration four" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --material jmol
 }
 
 # what MTL says of highlights: illum 1 has none, illum 0 and Ps are told, Pr is no Phong of Ks
