@@ -54,39 +54,39 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     135  options               >>types      269  materials, targets, states
-       >>light      455  the equation, colour  >>draw       564  shaders, meshes, pixels
-       >>tools      724  explain, lines, rays  >>plumbing   940  compilers, flags and bits
-       >>math      1108  vectors and matrices
+       >>light      457  the equation, colour  >>draw       567  shaders, meshes, pixels
+       >>tools      728  explain, lines, rays  >>plumbing   951  compilers, flags and bits
+       >>math      1119  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1476  processors            >>base      1723  bits, masks, rows of vectors
-       >>matrix    1921  cameras, inverses     >>power     2209  x^n
-       >>pixels    2275  formats, sRGB
+       >>machine   1489  processors            >>base      1736  bits, masks, rows of vectors
+       >>matrix    1934  cameras, inverses     >>power     2222  x^n
+       >>pixels    2288  formats, sRGB
      Inside: light
-       >>lamps     2586  attenuation, cones    >>terms     2838  one term at one point
-       >>surface   2913  material and lights   >>lit       3030  the whole sum, at many points
+       >>lamps     2599  attenuation, cones    >>terms     2851  one term at one point
+       >>surface   2926  material and lights   >>lit       3043  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3420  fields by owner       >>vertices  3633  shading, projection
-       >>triangles 3836  culling, edge setup   >>clip      4190  near, far, guard band
-       >>tiles     4377  edges and depth test  >>cover     4741  triangles, tile by tile
-       >>fragments 5009  interpolation, lod    >>texture   5284  texels, filters
-       >>store     5759  blending, packing
+       >>state     3433  fields by owner       >>vertices  3646  shading, projection
+       >>triangles 3849  culling, edge setup   >>clip      4203  near, far, guard band
+       >>tiles     4390  edges and depth test  >>cover     4754  triangles, tile by tile
+       >>fragments 5022  interpolation, lod    >>texture   5297  texels, filters
+       >>store     5772  blending, packing
      Inside: calls of the renderer
-       >>check     6042  refusals              >>seen      6302  view volume, chunks
-       >>drive     6422  shade_draw            >>mesh      6612  shade_draw_mesh
+       >>check     6055  refusals              >>seen      6315  view volume, chunks
+       >>drive     6435  shade_draw            >>mesh      6627  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7016  shade_draw_lines      >>camera    7208  eye and line of sight
-       >>shape     7302  normals, edges        >>chunks    7849  sorting and boxes
-       >>rays      8012  shade_pick            >>image     8203  smaller pictures, mipmaps
-       >>files     8516  PPM and PNG           >>presets   8834  classic materials
+       >>lines     7031  shade_draw_lines      >>camera    7225  eye and line of sight
+       >>shape     7319  normals, edges        >>chunks    7866  sorting and boxes
+       >>rays      8029  shade_pick            >>image     8220  smaller pictures, mipmaps
+       >>files     8533  PPM and PNG           >>presets   8851  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8917  shaders, run again    >>survey    9189  experiments on a draw
-       >>numbers   9641  what makes no sense   >>doubts    9975  what is seldom right
-       >>unseen   10124  why nothing is in view
-       >>hidden   10403  why nothing is stored >>black    10568  why all is black
-       >>wrong    10952  what else is wrong    >>verdict  11340  the calls
+       >>replay    8934  shaders, run again    >>survey    9206  experiments on a draw
+       >>numbers   9658  what makes no sense   >>doubts    9992  what is seldom right
+       >>unseen   10141  why nothing is in view
+       >>hidden   10420  why nothing is stored >>black    10585  why all is black
+       >>wrong    10969  what else is wrong    >>verdict  11357  the calls
      Sources
-       >>refs     11630                        >>history  11663
-       >>license  11669
+       >>refs     11647                        >>history  11680
+       >>license  11686
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -280,7 +280,7 @@ typedef enum shade_result {
     SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4,
                                 an output that overlaps an input */
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
-    SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
+    SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk, indices of both kinds */
     SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
     SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model, a cutoff of NaN */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
@@ -289,8 +289,9 @@ typedef enum shade_result {
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
 } shade_result;
 
-/* What a surface reflects, in linear RGB.  k_d + k_s <= 1 in each channel conserves energy; it is
-   usual, not required. */
+/* What a surface emits and reflects, in linear RGB.  With SHADE_FLAG_WEIGHTED_SPECULAR and k_d +
+   k_s <= 1 in each channel no direction gets more than arrives, I (N.L); without the flag, grazing
+   highlights do.  Neither is required. */
 typedef struct shade_material {
     shade_vec3 emission;     /* k_e */
     shade_vec3 ambient;      /* k_a */
@@ -305,10 +306,10 @@ typedef struct shade_light {
     shade_vec3 ambient;            /* I_La, attenuated only with SHADE_FLAG_ATTENUATED_AMBIENT */
     shade_vec3 diffuse;            /* I_d */
     shade_vec3 specular;           /* I_s */
-    float      constant, linear, quadratic;    /* a, b, c of 1/(a + b r + c r^2); all zero: 1 */
+    float      constant, linear, quadratic;    /* a, b, c >= 0 of 1/(a + b r + c r^2); all 0: 1 */
     shade_vec3 spot_direction;     /* where the lamp points, any length; zero: not a spotlight */
-    float      spot_exponent;      /* e; 0: even light within the cone */
-    float      spot_cos_cutoff;    /* cos(beta), beta from the axis to the edge of the cone */
+    float      spot_exponent;      /* e; 0 or less: even light within the cone */
+    float      spot_cos_cutoff;    /* cos(beta), beta from the axis to the edge; 0: 90 degrees */
 } shade_light;
 
 typedef enum shade_model {
@@ -376,7 +377,8 @@ typedef enum shade_filter {
    levels use the base level's wrap and filter; the base level replaces a bad one. */
 typedef struct shade_texture {
     const void  *pixels;
-    int          width, height, stride;    /* texels, 1 .. 16384; stride 0 means width */
+    int          width, height;            /* texels, 1 .. 16384 */
+    int          stride;                   /* texels from row to row, >= width; 0: width */
     shade_format format;
     int          srgb;                     /* non-zero: 8 and 5-6-5 bits are sRGB */
     shade_wrap   wrap_u, wrap_v;
@@ -388,14 +390,14 @@ typedef struct shade_texture {
 /* A picture and its depth buffer, in your memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
-    int   stride;                /* pixels from row to row, of color and depth; 0: width */
+    int   stride;                /* pixels from row to row of color and depth, >= width; 0: width */
     shade_format format;
     void  *color;                /* NULL: depth only */
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* draws and clears change only this rectangle, and nothing */
-    int   clip_width, clip_height;    /* if it is empty; four zeros: the whole picture */
+    int   clip_x, clip_y;        /* draws and clears change only this rectangle, cut to the */
+    int   clip_width, clip_height;    /* picture; four zeros: all of it */
     int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
                                  /* row_count rows; count 0: all rows of the picture */
 } shade_target;
@@ -487,7 +489,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: point and to_light are three rows of SHADE_LANES floats, amount is one
-   row.  to_light and amount may be NULL, or lie in the rows of point. */
+   row.  to_light and amount may be NULL, or lie in the rows of point.  Without a light or a point
+   both are zero. */
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount);
 
@@ -514,11 +517,11 @@ typedef struct shade_rows {
 } shade_rows;
 
 /* shade_lit for a packet: call it in your fragment shader.  Lane i of the rows gives lane i of rgb,
-   three rows.  If they overlap the others, these change while they are read, and rgb means nothing.
-     A lane depends on itself alone and has the bits of
-   shade_lit.  Visibility 0 is full shadow; 0.5, for example, halves the lamp, and values are not
-   clamped.  It never hides ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting,
-   rows, position or normal is NULL. */
+   three rows that must not overlap the others.  A lane depends on itself alone and has the bits of
+   shade_lit.
+     Visibility 0 is full shadow; 0.5, for example, halves the lamp, and values are not clamped.  It
+   never hides ambient light, and COOL_TO_WARM ignores it.  rgb is 0 where lighting, rows, position
+   or normal is NULL. */
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const shade_rows *rows, float *rgb);
 
@@ -533,7 +536,7 @@ SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shad
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
                                           float exponent);
 /* 1 / (a + b r + c r^2), at most 1e20, which is also the result for a sum that is negative or NaN.
-   It is 1 where a = b = c = 0; where only a is 0, r counts as max(r, 1e-4). */
+   It is 1 where a = b = c = 0; where only a is 0, r counts as max(r, 1e-4).  r is 0 .. 1e18. */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
 /* (L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It is 1
    where aim is zero. */
@@ -550,8 +553,8 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, s
 /* 4 n: the Blinn-Phong exponent that gives a highlight of about the size of Phong's exponent n when
    the light comes from the viewer's side. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
-/* x^n.  x is clamped to [0, 1], a negative n counts as 0, and x^0 is 1, 0^0 too.  The result is
-   never NaN; its absolute error is below 2e-6 for n up to 1e6. */
+/* x^n.  x is clamped to [0, 1], a negative n counts as 0, and so does NaN as x or n, and x^0 is 1,
+   0^0 too.  The result is never NaN; its absolute error is below 2e-6 for n up to 1e6. */
 SHADEDEF float shade_power(float x, float n);
 
 /* From sRGB to linear light and back, component by component.  Components are clamped to [0, 1],
@@ -581,8 +584,8 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
    log2 of texels per pixel: for example 1 where a pixel is two texels wide.  A negative lod counts
    as 0, and so do NaN and infinity in u, v and lod. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
-/* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0.  rgba is 4 rows: if they
-   overlap the others, these change while they are read, and rgba means nothing. */
+/* The same for a packet, in rows of SHADE_LANES floats.  lod NULL means 0.  rgba is four rows that
+   must not overlap the others.  Where u, v or rgba is NULL, nothing is written. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
 
@@ -681,7 +684,8 @@ typedef struct shade_chunk {
 } shade_chunk;
 
 typedef struct shade_draw_state {                 /* how one mesh is drawn */
-    shade_mat4 model, view, projection;           /* zero: identity; view must not scale */
+    shade_mat4 model, view, projection;           /* zero: identity.  model is affine, and view */
+                                                  /* does not scale */
     const shade_material *material;               /* NULL: white Lambert */
     shade_lighting lighting;                      /* light positions in world space */
     shade_shading shading;
@@ -709,7 +713,7 @@ enum {
      Light takes the eye from view alone.  If your projection moves the centre of projection,
    highlights are wrong.  If your camera looks along +z, as left-handed ones do, its backward axis
    points away from the viewer: negate eye in a shader of your own.  shade_explain reports both
-   where it would change what is seen.
+   where it would change the picture.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments with an alpha below alpha_cutoff are
    discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -736,21 +740,24 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
      It writes nothing: it draws the mesh again and again, changing one thing at a time, and counts
    pixels.  If it says that something is missing, no pixel shows it.  It takes the time of many
    frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
-   picture is wrong, not in every frame. */
+   picture is wrong, not in every frame.  state.fragment is called many times more than by the draw,
+   at times with NaN in what the draw presets, so it must have no side effects.  The sentence is
+   a constant: do not free it. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
 /* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
    or NULL.  It runs the draw again without a picture, several times, and counts what your shaders
    return: positions that are NaN or out of view, discarded, black or transparent pixels, and what
-   raster.cull, the depth test and the clip rectangle leave out.  It does not change the target. */
+   raster.cull, the depth test and the clip rectangle leave out.  Your shaders must have no side
+   effects, as state.fragment for shade_explain.  It does not change the target. */
 SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
                                         const uint32_t *indices, int index_count, int vertex_count,
                                         const shade_stats *stats);
 
 /* ---- chunks */
 
-/* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
-   numbers, and where index_count is no multiple of 3. */
+/* The number of chunks that shade_mesh_chunks makes of index_count indices; triangles 0 means 128.
+   0 for negative numbers, and where index_count is no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
 /* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
    Chunks that the mesh already has are ignored; corners that are NaN or infinite are ignored in the
@@ -773,7 +780,7 @@ typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
     float         width;                          /* in pixels; 0 means 1; at most 2^25 counts */
     shade_cap     cap;                            /* SQUARE adds half the width, to close joints */
-    shade_vec4    color;
+    shade_vec4    color;                          /* linear RGBA; alpha is straight, for OVER */
     shade_raster  raster;                         /* cull is ignored */
 } shade_line_state;
 /* Draws point_count / 2 lines between pairs of points.  Each is a rectangle on the screen, drawn as
@@ -805,17 +812,17 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye, which
    shade_mat4_eye gives, is as near as -w <= x, y <= w allows at all eight corners; near and far do
-   not count.  Sides of an
-   off-centre frustum that exclude the view axis are ignored.  If your projection turns or moves the
-   eye, the view undoes it: for example a left-handed one, which looks along +z.  Without
-   perspective the eye is one diagonal of the box away.  Returns the identity for NaN, infinity and
-   low > high. */
+   not count.  Sides of an off-centre frustum that exclude the view axis are ignored.  If your
+   projection turns or moves the eye, the view undoes it: for example a left-handed one, which looks
+   along +z.  Without perspective the eye is one diagonal of the box away.  Returns the identity for
+   NaN, infinity and low > high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
 /* Fills normals[vertex_count].  The normal of a vertex is the mean of the normals of its faces,
    weighted by the angle of each face there, and made unit.  Faces with all corners exactly on a
-   line do not count.  The normal of a vertex without faces is zero.                  [Thurmer98]
+   line do not count, nor do those with a corner that is NaN or infinite.  The normal of a vertex
+   without faces is zero.                                                                [Thurmer98]
      What a function of this part fills must not overlap the mesh's positions, indices and chunks:
    the result is SHADE_ERROR_ARGUMENT, and nothing changes.  Its normals are not read: normals may
    be mesh->normals.  Between the vertices of an interleaved array is room for other data. */
@@ -827,23 +834,25 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
    corner a vertex of its own: a mesh without indices, with the position of each index.  Vertices of
    equal position count as one.  Time grows with the square of the number of faces around a
    position.  memory must be aligned to 4, have shade_mesh_corner_normals_bytes bytes (0 for a bad
-   mesh), and must overlap neither the mesh nor normals. */
+   mesh), and must overlap neither the mesh nor normals.  Fewer bytes are SHADE_ERROR_CAPACITY, a
+   cos_crease of NaN is SHADE_ERROR_STATE. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
 
 /* Lists each edge of a mesh once, with a < b and its one or two triangles (-1: no second one); a
    third triangle makes a further entry.  Entries are sorted by a, then b.  Give edges room for
-   index_count entries; with less you get SHADE_ERROR_CAPACITY, and the number needed in *count. */
+   index_count entries; with less you get SHADE_ERROR_CAPACITY, and the number needed in *count.  An
+   edge from a vertex to itself is left out. */
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
 /* 1 if (e.n0)(e.n1) <= 0, where e, to_eye, goes from the edge to the eye: of the two faces, with
    normals n0 and n1, one is seen from the front, the other from behind. */
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
-/* 1 if n0.n1 <= threshold, for unit normals: for example, 0.5 finds edges whose faces turn by 60
-   degrees or more. */
-SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
+/* 1 if n0.n1 <= cos_crease, for unit normals: for example, 0.5 finds edges whose faces turn by 60
+   degrees or more.  0 for NaN. */
+SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float cos_crease);
 
 /* ---- rays */
 
@@ -886,8 +895,9 @@ typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
 /* The same pixels as a PNG, which browsers and desktops open: 8 bits of R, G and B, and an sRGB
-   chunk if srgb is set.  It is a fifth as long as the PPM on average (tests/scripts/png.sh), and
-   never longer by more than 13 %, a byte a row, and 90 bytes.  It takes less than 4 kB of stack. */
+   chunk if srgb is set.  On the gallery it is a fifth as long as the PPM on average
+   (tests/scripts/png.sh), and never longer by more than 13 %, a byte a row, and 90 bytes.  It takes
+   less than 4 kB of stack. */
 SHADEDEF shade_result shade_encode_png(shade_write_fn *sink, void *user,
                                        const shade_target *target);
 #ifndef SHADE_NO_STDIO
@@ -909,8 +919,9 @@ SHADEDEF int    shade_mipmap_count(int width, int height);
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
 /* Fills shade_mipmap_count levels, and memory of shade_mipmap_bytes (aligned to 4), with means by
    area in linear light, and points the texture at them.  Its filter stays what it is: set it to
-   SHADE_FILTER_TRILINEAR for them to be read.  levels, memory, the texels and the texture
-   itself must not overlap: the result is SHADE_ERROR_ARGUMENT, and nothing changes. */
+   SHADE_FILTER_TRILINEAR for them to be read.  levels, memory, the texels and the texture itself
+   must not overlap: the result is SHADE_ERROR_ARGUMENT, and nothing changes.  Fewer bytes are
+   SHADE_ERROR_CAPACITY, a bad texture SHADE_ERROR_TEXTURE. */
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes);
 
@@ -1227,7 +1238,8 @@ SHADE__EXPORT float shade_distance(shade_vec3 a, shade_vec3 b)
     return shade_length(shade_sub(a, b));
 }
 
-/* v / |v|, or zero where |v| < 1e-18. */
+/* v / |v|; zero where |v| < 1e-18, and where |v|^2 overflows, from 1.8e19 on; NaN where a component
+   is NaN or infinite. */
 SHADE__EXPORT shade_vec3 shade_normalize(shade_vec3 v)
 {
     float d = shade_dot(v, v);
@@ -1240,6 +1252,7 @@ SHADE__EXPORT shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t)
     return shade_madd(a, t, shade_sub(b, a));
 }
 
+/* The lesser, or the greater, of each component; b's where one of the two is NaN. */
 SHADE__EXPORT float shade__minf(float a, float b) { return a < b ? a : b; }
 SHADE__EXPORT float shade__maxf(float a, float b) { return a > b ? a : b; }
 SHADE__EXPORT shade_vec3 shade_min(shade_vec3 a, shade_vec3 b)
@@ -1437,8 +1450,8 @@ SHADEDEF float      shade_radians(float degrees);
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 
 /* World to eye space: eye goes to the origin, center to the -z axis, up to the upper half of the
-   y-z plane.  If up is parallel to the line of sight, another up is chosen.  If eye = center, the
-   camera looks down -z. */
+   y-z plane.  If up is zero or parallel to the line of sight, another up is chosen.  If eye =
+   center, the camera looks down -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
 /* Where a view looks from: the point that it takes to the origin, computed in double.  0, 0, 0 if
@@ -1894,14 +1907,14 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT:
-        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not match, "
-               "an output that overlaps an input";
+        return "bad argument: a pointer that is NULL or not aligned to 4, NaN, a factor, sizes "
+               "that do not match, an output that overlaps an input";
     case SHADE_ERROR_TARGET:
         return "bad target: width, height, stride, format, color and depth both NULL, "
                "clip_width, clip_height, row_offset, row_count";
     case SHADE_ERROR_MESH:
         return "bad mesh: positions NULL, a negative count, a stride that is negative or not a "
-               "multiple of 4, chunks beyond the triangles";
+               "multiple of 4, chunks beyond the triangles, or indices and indices16 both set";
     case SHADE_ERROR_STATE:
         return "bad state: an unknown enumerator, transparency, alpha_cutoff, depth_bias, width, "
                "varyings, cos_crease, or a fragment shader without per-fragment shading";
@@ -6530,7 +6543,9 @@ SHADE__INLINE shade_result shade__draw_refusal(const shade_target *t, const shad
 {
     *why = NULL;
     if (!t || !p || !p->vertex)
-        *why = "target, pipeline or pipeline.vertex is NULL, and must not be.";
+        *why = !t   ? "target is NULL, and must not be."
+               : !p ? "pipeline is NULL, and must not be."
+                    : "pipeline.vertex is NULL, and must not be.";
     if (*why) return SHADE_ERROR_ARGUMENT;
     *why = shade__target_fault(t);
     if (*why) return SHADE_ERROR_TARGET;
@@ -7176,7 +7191,9 @@ SHADE__INLINE shade_result shade__lines_refusal(const shade_target *t, const sha
 {
     *why = NULL;
     if (!t || !state || (!points && point_count > 0))
-        *why = "target, state or points is NULL, and must not be.";
+        *why = !t       ? "target is NULL, and must not be."
+               : !state ? "state is NULL, and must not be."
+                        : "points is NULL while point_count is not 0.";
     if (*why) return SHADE_ERROR_ARGUMENT;
     *why = shade__target_fault(t);
     if (*why) return SHADE_ERROR_TARGET;
@@ -11661,7 +11678,7 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.4 of 2026-11-29, 1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21;
+   1.4 unreleased, 1.3 of 2026-11-27, 1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21;
    CHANGELOG.md says what each brought.
    From 1.1 on pixels are part of the interface: each 1.x draws the pixels of 1.1, to the bit.
 */

@@ -696,7 +696,7 @@ TEST(explain, what_is_unusual_is_no_mistake)
     }
 }
 
-/* A pass for depth alone, then one for colours that writes no depth: the mesh covers pixels twice. */
+/* A pass for depth alone, then one for colours that writes no depth, over pixels of two faces. */
 TEST(explain, a_pass_over_stored_depth_hides_nothing)
 {
     static const shade_compare compares[2] = { SHADE_COMPARE_EQUAL, SHADE_COMPARE_LESS_EQUAL };
