@@ -15,17 +15,18 @@ int main(int argc, char **argv)
                                           SHADE_MODEL_LAMBERT, SHADE_MODEL_BLINN_PHONG,
                                           SHADE_MODEL_BLINN_PHONG };
     static const char *const name[5] = { "zero", "one", "two", "three", "four" };
-    static const char *const adds[5] = { "k_e", "+ k_a I_a", "+ k_d I B (N·L)",
-                                         "+ k_s I B (N·H)^n", "Σ_j, over four lamps" };
+    static const char *const adds[5] = { "k_e", "+ k_a I_{La}", "+ k_d I_L B (N·L)",
+                                         "+ k_s I_L B (N·H)^n", "Σ_j, over four lamps" };
     shade_material clay = { { 0.035f, 0.006f, 0.004f }, { 0.75f, 0.16f, 0.09f },
                             { 0.75f, 0.16f, 0.09f }, { 0.35f, 0.35f, 0.35f }, 40 };
-    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
+    const shade_vec3 grey = { 0.8f, 0.8f, 0.8f };
     shade_light lamps[4];
     shade_draw_state state = { 0 };
     owned_mesh sphere = mesh_sphere(96, 48);
-    canvas c = canvas_new(1000, 305, 3);
+    canvas c = canvas_new(1000, 316, 3);
 
     lamps[0] = shade_point_light(shade_v3(-2.6f, 3, 3.4f), shade_v3(1, 0.96f, 0.9f));
+    lamps[0].ambient = shade_v3(0.11f, 0.12f, 0.15f);
     lamps[1] = shade_point_light(shade_v3(1.5f, -0.9f, 0.9f), shade_v3(0.15f, 0.5f, 1.4f));
     lamps[1].constant = 0.2f;
     lamps[1].quadratic = 0.8f;
@@ -37,7 +38,6 @@ int main(int argc, char **argv)
     state.projection = shade_mat4_perspective(0.40f, 1, 1, 10);
     state.material = &clay;
     state.lighting.lights = lamps;
-    state.lighting.ambient = shade_v3(0.11f, 0.12f, 0.15f);
 
     canvas_dark(&c.target);
     for (int i = 0; i < 5; i++) {
@@ -45,9 +45,10 @@ int main(int argc, char **argv)
         state.lighting.model = model[i];
         state.lighting.light_count = i < 4 ? 1 : 4;
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
-        label_caption(&c, 200 * i + 100, 226, grey, name[i], adds[i]);
+        label_center(&c, 200 * i + 100, 226, 24, grey, name[i]);
+        label_center(&c, 200 * i + 100, 257, 22, grey, adds[i]);
     }
-    label_center(&c, 500, 290, 20, grey, "four: I = k_e + Σ_j { k_a I_{La,j} + "
+    label_center(&c, 500, 300, 24, grey, "four: I = k_e + Σ_j { k_a I_{La,j} + "
                  "(L·S)^e β_j / (a + b r_j + c r_j^2) I_{L,j} B_j [k_d (N·L) + k_s (N·H)^n] }");
     mesh_free(&sphere);
     return canvas_save(&c, argc, argv, "iterations.ppm");

@@ -16,6 +16,7 @@ int main(int argc, char **argv)
     static const char *const name[3] = { "all edges", "hidden ones removed", "the drawing" };
     static const char *const kind[3] = { "silhouette: (e·n_0) (e·n_1) ≤ 0",
                                          "crease: n_0·n_1 ≤ %g", "boundary: one face" };
+    static const int at[3][2] = { { 650, 32 }, { 646, 304 }, { 780, 332 } };    /* pixels */
     static const float crease = 0.5f;
     static const shade_vec4 ink[EDGE_KINDS] = {
         { 0.01f, 0.01f, 0.02f, 1 }, { 0.01f, 0.10f, 0.6f, 1 }, { 0.7f, 0.03f, 0.01f, 1 },
@@ -27,10 +28,10 @@ int main(int argc, char **argv)
     shade_draw_state state = { 0 };
     shade_line_state pen = { .cap = SHADE_CAP_SQUARE };
     edge_lines lines[2];
-    canvas c = canvas_new(960, 420, 3);
+    canvas c = canvas_new(960, 388, 3);
 
     for (int i = 0; i < 2; i++) part[i].view.vertex_count = part[i].view.index_count = 0;
-    edges_add(&part[0], shape_teapot(12), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
+    edges_add(&part[0], shape_teapot(8), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
     edges_add(&part[1], mesh_cube(), shape_at(-1.6f, 0.65f, 2.6f, 0.65f, 0.9f));
     edges_add(&part[1], shape_turned(tube, 2, 16), shape_at(1.5f, 0, 3, 0.7f, 0));
     for (int i = 0; i < 2; i++) lines[i] = edges_sort(&part[i], eye, crease);
@@ -39,27 +40,21 @@ int main(int argc, char **argv)
     state.projection = shade_mat4_perspective(0.5f, 320 / 300.0f, 5, 25);
     canvas_gradient(&c.target, shade_v3(0.92f, 0.90f, 0.84f), shade_v3(0.80f, 0.76f, 0.68f));
     for (int i = 0; i < 3; i++) {
-        shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 300), fill = panel;
+        shade_target panel = canvas_panel(&c, 320 * i, 30, 320, 300), fill = panel;
         fill.color = NULL;
         for (int j = 0; i > 0 && j < 2; j++) shade_draw_mesh(&fill, &part[j].view, &state, NULL);
         pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
         pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
-        pen.raster.depth_bias = i > 0 ? -0.004f : 0;
+        pen.raster.depth_bias = i > 0 ? -0.002f : 0;
         for (int k = 0; k < (i < 2 ? EDGE_KINDS : EDGE_OTHER); k++) {
             pen.color = ink[i < 2 ? EDGE_OTHER : k];
             pen.width = i < 2 ? 2 : 9;
             for (int j = 0; j < 2; j++)
                 shade_draw_lines(&panel, lines[j].points[k], lines[j].count[k], &pen, NULL);
         }
-        label_center(&c, 320 * i + 160, 330, 22, black, name[i]);
-        pen.clip_from_points = canvas_from_pixels(&c);
-        pen.raster.depth_test = SHADE_COMPARE_ALWAYS;
-        pen.color = ink[i];
-        pen.width = 9;
-        float y = 352 + 24 * (float)i;
-        const shade_vec3 sample[2] = { { 668, y, 0 }, { 698, y, 0 } };
-        shade_draw_lines(&c.target, sample, 2, &pen, NULL);
-        label_print(&c, 710, 359 + 24 * i, 20, black, kind[i], (double)crease);
+        label_center(&c, 320 * i + 160, 374, 26, black, name[i]);
+        label_print(&c, at[i][0], at[i][1], 21, shade_v3(ink[i].x, ink[i].y, ink[i].z), kind[i],
+                    (double)crease);
     }
     for (int i = 0; i < 2; i++) {
         edges_free(&lines[i]);

@@ -12,14 +12,14 @@
 #include "../shared/label.h"
 #include <math.h>
 
-enum { BOARDS = 6, SIZE = 108 };    /* pixels of a board's panel */
+enum { BOARDS = 7, SIZE = 112, LARGE = 234 };    /* pixels of a panel; the last one's */
 
 int main(int argc, char **argv)
 {
-    static const float km[BOARDS] = { 1, 3, 10, 30, 100, 300 };
+    static const float km[BOARDS] = { 1, 3, 10, 30, 100, 300, 30 };
     static const char *const name[2] = {
-        "standard: z = (1 − n/d) / (1 − n/f); a step of z / the gap of the boards",
-        "reversed: z = n/d; a step of z / the gap of the boards" };
+        "standard: z = (1 − n/d) / (1 − n/f)",
+        "reversed: z = n/d" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     const shade_material pale = { .emission = { 0.6f, 0.58f, 0.52f } };
     const shade_material orange = { .emission = { 0.75f, 0.18f, 0.02f } };
@@ -27,12 +27,12 @@ int main(int argc, char **argv)
     owned_mesh square = mesh_plane(0.2f, 1);
     const shade_mat4 lean = shade_mat4_mul(shade_mat4_rotation(1, shade_v3(1, 0, 0)),
                                            shade_mat4_rotation(0.5f, shade_v3(0, 1, 0)));
-    canvas c = canvas_new(960, 452, 1);
+    canvas c = canvas_new(960, 560, 3);
     char text[60];
 
     canvas_dark(&c.target);
     for (int row = 0; row < 2; row++) {
-        int y = 220 * row + 32;
+        int y = 264 * row + 4;
         shade_draw_state state = { .projection = shade_mat4_perspective(0.56f, 1, near_z, far_z) };
         if (row) {
             state.projection = shade_mat4_perspective_reversed(0.56f, 1, near_z);
@@ -40,7 +40,8 @@ int main(int argc, char **argv)
             state.raster.depth_test = SHADE_COMPARE_GREATER;
         }
         for (int i = 0; i < BOARDS; i++) {
-            shade_target panel = canvas_panel(&c, SIZE * i + 6, y, SIZE, SIZE), depth = panel;
+            const int last = i == BOARDS - 1, size = last ? LARGE : SIZE, x = SIZE * i + 12;
+            shade_target panel = canvas_panel(&c, x, last ? y : y + 46, size, size), depth = panel;
             float d = 1000 * km[i], small = 0.7f * d;
             float z = row ? near_z / d : (1 - near_z / d) / (1 - near_z / far_z);
             float step = (z - nextafterf(z, 0)) * d * d / near_z;    /* in metres: dz/dd = n/d^2 */
@@ -58,17 +59,17 @@ int main(int argc, char **argv)
             state.material = &orange;
             state.model = front;
             shade_draw_mesh(&panel, &square.view, &state, NULL);
-            sprintf(text, "%d km", (int)km[i]);
-            label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 16, 19, grey, text);
-            sprintf(text, "%.2g", (double)(step / (0.005f * d)));
-            label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 40, 19, grey, text);
+            sprintf(text, last ? "%g km, larger" : "%g km", (double)km[i]);
+            label_center(&c, x + size / 2, y + LARGE - (last ? -14 : 50), 22, grey, text);
+            step = row ? 2e7f * step / d : 200 * step / d;
+            sprintf(text, row ? "%.1f·10^{−5}" : "%.1f", (double)step);
+            if (!last) label_center(&c, x + size / 2, y + LARGE - 22, 22, grey, text);
         }
-        label_draw(&c, 12, y - 6, 22, grey, name[row]);
-        canvas_zoom(&c, 3 * SIZE + 6 + 26, y + 38, 55, 34, 674, y - 16, 5);
-        label_center(&c, 811, y + 176, 19, grey, row ? "30 km, reversed" : "30 km, standard");
+        label_draw(&c, 12, y + 32, 26, grey, name[row]);
     }
-    label_draw(&c, 12, 438, 19, grey,
-               "n = 0.1 m, f = 1000 km; the pale board is half a percent farther away");
+    label_print(&c, 12, 548, 22, grey,
+               "d, and a step of z over the gap between the boards, d/200; n = %g m",
+                (double)near_z);
     mesh_free(&square);
     return canvas_save(&c, argc, argv, "reversed_z.ppm");
 }

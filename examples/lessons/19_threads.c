@@ -1,8 +1,8 @@
 /* 19_threads.c - one picture by as many threads as there are cores.  Threads share nothing but the
    number of the next band of rows (bands.h), because the library has no state.  mesh_chunks sorts
    the triangles and finds the boxes around runs of them, so that each band skips those it does not
-   see.  Before the bands are tinted, they are compared with the picture drawn at once: they have
-   the same bits.
+   see.  Before lines and colours mark the bands, they are compared with the picture drawn at
+   once: they have the same bits.
    Try it without mesh_chunks: each band looks at every triangle and takes three times as long.
 
    cc -O2 -pthread -I. examples/lessons/19_threads.c -lm -o threads && ./threads */
@@ -56,14 +56,15 @@ int main(int argc, char **argv)
     for (int i = 0; i < c.target.width * c.target.height; i++) {
         shade_vec4 *p = (shade_vec4 *)c.target.color + i;
         int band = i / c.target.width * BANDS / c.target.height;
-        shade_vec2 hue = mesh_turn(3 * (float)band / BANDS);
+        int x = i % c.target.width, y = i / c.target.width * BANDS % c.target.height / BANDS;
+        shade_vec2 hue = shade_scale2(mesh_turn((float)band / BANDS), 0.4f);
         differ += memcmp(p, (shade_vec4 *)one.target.color + i, sizeof *p) != 0;
-        hue = shade_scale2(hue, 0.3f);
-        *p = shade_scale4(*p, band % 2 ? 1 : 0.85f);
-        *p = shade_v4(p->x * (1 + hue.x), p->y * (1 + hue.y), p->z * (1 - hue.x), 1);
+        if (x < 60 || x >= c.target.width - 60)
+            *p = shade_v4(0.5f + hue.x, 0.5f + hue.y, 0.5f - hue.x, 1);
+        if (y < 2) *p = shade_scale4(*p, 0.25f);
     }
     sprintf(text, "32 bands by all cores: %d pixels differ from one draw's", differ);
-    label_center(&c, 480, 466, 22, shade_v3(0.7f, 0.7f, 0.7f), text);
+    label_center(&c, 480, 466, 26, shade_v3(0.7f, 0.7f, 0.7f), text);
     mesh_free(&knot);
     free(one.target.color);
     free(one.target.depth);

@@ -47,18 +47,18 @@ static void scatter(const void *uniforms, const shade_fragments *SHADE_RESTRICT 
 int main(int argc, char **argv)
 {
     static const char *const name[4] = { "moon, Lambert", "moon, Lommel-Seeliger, τ = 100",
-                                         "pot, Lambert", "pot, velvet, τ = 0.03" };
+                                         "pot, Lambert", "pot, velvet, τ = 0.05" };
     static const char *const formula[4] = { "N·L", "2 N·L / (N·L + N·V)", "k_d N·L",
                                             "k_d N·L T + k N·L / (N·L + N·V) (1 − T)" };
-    static const float tau[4] = { 0, 100, 0, 0.03f };
+    static const float tau[4] = { 0, 100, 0, 0.05f };
     const shade_vec3 moon = { 0.8f, 0.78f, 0.72f }, red = { 0.35f, 0.008f, 0.02f };
-    const shade_vec3 fibre = { 1.2f, 0.5f, 0.55f }, grey = { 0.7f, 0.7f, 0.7f };
-    owned_mesh of[2] = { mesh_sphere(128, 64), shape_teapot(16) };
-    const shade_mat4 place[2] = { shape_at(0, 0, 0, 1, 0),
-                                  shape_at(-0.05f, -0.8f, 0, 0.5f, 0.3f) };
-    canvas c = canvas_new(960, 745, 4);
+    const shade_vec3 fibre = { 1.5f, 0.6f, 0.7f }, grey = { 0.7f, 0.7f, 0.7f };
+    owned_mesh of[2] = { mesh_sphere(128, 64), shape_teapot(24) };
+    const shade_mat4 tilt = shade_mat4_rotation(0.45f, shade_v3(1, 0, 0));
+    const shade_mat4 place[2] = {
+        shape_at(0, 0, 0, 1, 0), shade_mat4_mul(tilt, shape_at(-0.05f, -0.8f, 0, 0.55f, 0.3f)) };
+    canvas c = canvas_new(960, 750, 4);
     shade_mat4 view = shade_mat4_look_at(eye, shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-
     view = shade_mat4_mul(shade_mat4_perspective(0.0228f, 480 / 300.0f, 90, 110), view);
     canvas_dark(&c.target);
     for (int i = 0; i < 4; i++) {
@@ -67,11 +67,11 @@ int main(int argc, char **argv)
         scene s = { .place = { &of[pot], place[pot], view }, .tau = tau[i], .seas = pot ? 0 : 1 };
         s.k_d = pot ? red : moon;
         s.k = pot ? fibre : shade_scale(moon, 2);
-        s.sun = shade_directional_light(pot ? shade_v3(0.5f, -0.6f, -1) : shade_v3(0, 0, -1), moon);
+        s.sun = shade_directional_light(pot ? shade_v3(0.2f, -0.4f, -1) : shade_v3(0, 0, -1), moon);
         shade_pipeline pipeline = { mesh_vertex, scatter, &s, .varyings = 8 };
         mesh_draw(&panel, &pipeline, &of[pot]);
-        label_caption(&c, x + 240, y + 320, grey, name[i], formula[i]);
-        if (i == 3) label_center(&c, 720, 730, 19, grey, "T = e^{−τ/(N·L) − τ/(N·V)}");
+        label_caption(&c, x + 240, y + 322, grey, name[i], formula[i]);
+        if (i == 3) label_center(&c, 720, 735, 19, grey, "T = e^{−τ/(N·L) − τ/(N·V)}");
     }
     mesh_free(&of[0]);
     mesh_free(&of[1]);

@@ -12,7 +12,7 @@
 
 enum { RAYS = 20000, DRAWN = 5, UNIT = 120 };
 static const shade_vec3 black = { 0.02f, 0.02f, 0.02f }, amber = { 0.85f, 0.4f, 0.01f };
-static const shade_vec3 teal = { 0, 0.3f, 0.3f }, body = { 0.5f, 0.68f, 0.68f };
+static const shade_vec3 teal = { 0, 0.3f, 0.3f }, brown = { 0.35f, 0.08f, 0 };
 
 /* A number of -1 .. 1; those of successive k fill it evenly */
 static float evenly(int k, float step) { return 2 * fmodf((float)(k + 1) * step, 1) - 1; }
@@ -43,8 +43,8 @@ static void draw_ray(sketch *s, int k, shade_vec3 L, float roughness)
     shade_vec3 d = leaving(k, L, roughness, &F), side = shade_v3(0.18f * F.y, -0.18f * F.x, 0);
     sketch_ink(s, amber, 2.5f);
     sketch_arrow(s, shade_madd(P, 1.1f, L), P);
+    sketch_ink(s, roughness < 0 ? teal : brown, 2.5f);
     if (roughness < 0) {
-        sketch_ink(s, teal, 2);
         for (int i = 0; i < 3; i++) {    /* from grain to grain, until it leaves */
             float depth = i == 2 ? 0 : 0.4f + 0.3f * evenly(3 * k + i, 0.33f);
             grain = shade_v3(P.x + 0.2f * evenly(3 * k + i, 0.57f), -depth, 0);
@@ -64,16 +64,16 @@ int main(int argc, char **argv)
     static const char *const format[2] = { "k_s, ±%.1f° about R", "k_d, ±%.1f° about N" };
     static const float roughness[3] = { 0, 0.22f, -1 };
     const shade_vec3 L = sketch_direction(-30), N = { 0, 1, 0 };
-    canvas c = canvas_new(960, 400, 3);
+    canvas c = canvas_new(960, 372, 3);
     sketch_paper(&c);
     for (int i = 0; i < 3; i++) {
-        sketch s = sketch_new(&c, 172 + 308 * i, 205, UNIT);
+        sketch s = sketch_new(&c, 172 + 308 * i, 160, UNIT);
         char caption[64];
-        canvas_fill(&c.target, 3 * (s.x - 140), 3 * 205, 3 * 280, 3 * 100, body);
+        canvas_fill(&c.target, 3 * s.x - 420, 3 * s.y, 840, 330, shade_v3(0.5f, 0.68f, 0.68f));
         for (int k = 0; k < DRAWN; k++) draw_ray(&s, k, L, roughness[i]);
-        label_center(&c, s.x, 342, 22, black, name[i]);
+        label_center(&c, s.x, 312, 26, black, name[i]);
         sprintf(caption, format[i / 2], spread(L, roughness[i], i < 2 ? shade_mirror(L, N) : N));
-        label_center(&c, s.x, 376, 21, i < 2 ? shade_scale(amber, 0.5f) : teal, caption);
+        label_center(&c, s.x, 350, 24, i < 2 ? brown : teal, caption);
     }
     return canvas_save(&c, argc, argv, "microfacets.ppm");
 }

@@ -2,7 +2,7 @@
    direction from each pixel to the eye, and every ball carries its highlight elsewhere.  Middle: an
    orthographic camera, but V still aims at a point: highlights wander where views are parallel.
    Right: SHADE_FLAG_INFINITE_VIEWER, V the same everywhere, and all nine balls are alike.  Below:
-   the framed two, and how many of their pixels differ by more than 2 of 255 codes.
+   the framed two, larger, and how many of their pixels differ by more than 2 of 255 codes.
    Try SHADE_MODEL_LAMBERT: the two orthographic pictures are the same, k_d does not know V.
 
    cc -O2 -I. examples/lessons/45_viewers.c -lm -o viewers && ./viewers        writes viewers.ppm */
@@ -11,7 +11,7 @@
 #include "../shared/shapes.h"
 #include "../shared/label.h"
 
-enum { SIZE = 312, CELL = 100, SAMPLES = 3, EDGE = 6 };    /* pixels; 3 cells and the edge: SIZE */
+enum { SIZE = 312, CELL = 100, EDGE = 6, LARGE = 153 };    /* pixels; 3 cells and edges: SIZE */
 
 /* Pixels of the balls in two opposite corners of a panel that differ by more than 2 codes */
 static int differing(const canvas *c, int x, int y)
@@ -27,16 +27,20 @@ static int differing(const canvas *c, int x, int y)
     return count;
 }
 
-/* A square about a cell */
-static void frame(const canvas *c, int x, int y)
+/* Nine balls, seen through size units of the plane z = 0 from x, y on */
+static void draw(shade_target panel, shade_draw_state state, int perspective, float x, float y,
+                 float size)
 {
-    const shade_vec3 white = { 0.6f, 0.6f, 0.6f };
-    for (int k = 0; k < 2; k++) {
-        shade_target row = canvas_panel(c, x, y + k * (CELL - 1), CELL, 1);
-        shade_target column = canvas_panel(c, x + k * (CELL - 1), y, 1, CELL);
-        canvas_fill(&row, 0, 0, row.width, row.height, white);
-        canvas_fill(&column, 0, 0, column.width, column.height, white);
+    owned_mesh ball = mesh_sphere(96, 48);
+    const float s = perspective ? 0.25f : 1;
+    const float left = s * x, right = s * (x + size), low = s * y, high = s * (y + size);
+    state.projection = perspective ? shade_mat4_frustum(left, right, low, high, 1, 6)
+                                   : shade_mat4_ortho(left, right, low, high, 1, 6);
+    for (int k = 0; k < 9; k++) {
+        state.model = shape_at((float)(k % 3) - 1, (float)(k / 3) - 1, 0, 0.44f, 0);
+        shade_draw_mesh(&panel, &ball.view, &state, NULL);
     }
+    mesh_free(&ball);
 }
 
 int main(int argc, char **argv)
@@ -46,11 +50,10 @@ int main(int argc, char **argv)
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, clay = { 0.35f, 0.12f, 0.06f };
     const shade_vec3 none = { 0, 0, 0 }, white = { 1, 1, 1 };
     const shade_material glaze = { none, clay, clay, { 0.6f, 0.6f, 0.6f }, 30 };
-    const float half = 1.5f * SIZE / (SIZE - 2 * EDGE);
+    const float size = 3.0f * SIZE / (SIZE - 2 * EDGE);
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.7f, -1), white);
     shade_draw_state state = { .material = &glaze, .lighting = { &lamp, .light_count = 1 } };
-    owned_mesh ball = mesh_sphere(96, 48);
-    canvas c = canvas_new(960, 550, SAMPLES);
+    canvas c = canvas_new(960, 550, 3);
 
     state.lighting.ambient = shade_v3(0.15f, 0.15f, 0.17f);
     state.view = shade_mat4_look_at(shade_v3(0, 0, 4), none, shade_v3(0, 1, 0));
@@ -60,20 +63,17 @@ int main(int argc, char **argv)
         char text[60];
         shade_target panel = canvas_panel(&c, x, 8, SIZE, SIZE);
         state.lighting.flags = i == 2 ? SHADE_FLAG_INFINITE_VIEWER : 0;
-        state.projection = i ? shade_mat4_ortho(-half, half, -half, half, 1, 6)
-                             : shade_mat4_frustum(-half / 4, half / 4, -half / 4, half / 4, 1, 6);
-        for (int k = 0; k < 9; k++) {
-            state.model = shape_at((float)(k % 3) - 1, (float)(k / 3) - 1, 0, 0.44f, 0);
-            shade_draw_mesh(&panel, &ball.view, &state, NULL);
+        draw(panel, state, i == 0, -size / 2, -size / 2, size);
+        int differ = differing(&c, x, 8);
+        for (int k = 0; k < 2; k++) {    /* two of them, framed and larger */
+            panel = canvas_inset(&c, x + EDGE + 2 * CELL * k, 14 + 2 * CELL * k, CELL, CELL);
+            draw(panel, state, i == 0, 2 * (float)k - 1.5f, 0.5f - 2 * (float)k, 1);
+            panel = canvas_inset(&c, x + (SIZE - LARGE) * k, 328, LARGE, LARGE);
+            draw(panel, state, i == 0, 2 * (float)k - 1.5f, 0.5f - 2 * (float)k, 1);
         }
-        frame(&c, x + EDGE, 8 + EDGE);
-        frame(&c, x + EDGE + 2 * CELL, 8 + EDGE + 2 * CELL);
-        canvas_zoom(&c, x + 18, 20, 76, 76, x + 2, 328, 2);    /* the framed two, larger */
-        canvas_zoom(&c, x + 18 + 2 * CELL, 20 + 2 * CELL, 76, 76, x + 158, 328, 2);
         sprintf(text, i ? "the two: %d of %d pixels differ" : "V = (eye − P) / |eye − P|",
-                differing(&c, x, 8), CELL * CELL);
+                differ, CELL * CELL);
         label_caption(&c, x + SIZE / 2, 508, grey, name[i], text);
     }
-    mesh_free(&ball);
     return canvas_save(&c, argc, argv, "viewers.ppm");
 }

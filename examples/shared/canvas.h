@@ -147,7 +147,7 @@ static inline int canvas_difference(const shade_target *a, const shade_target *b
             shade_vec4 q = ((const shade_vec4 *)b->color)[at];
             shade_vec3 s = shade_srgb_from_linear(shade_v3(p.x, p.y, p.z));
             shade_vec3 t = shade_srgb_from_linear(shade_v3(q.x, q.y, q.z));
-            const float grey = 0.02f + 0.06f * (s.x + s.y + s.z);
+            const float grey = 0.2f * (p.x + p.y + p.z);
             const int differ = (int)(255 * s.x + 0.5f) != (int)(255 * t.x + 0.5f) ||
                                (int)(255 * s.y + 0.5f) != (int)(255 * t.y + 0.5f) ||
                                (int)(255 * s.z + 0.5f) != (int)(255 * t.z + 0.5f);

@@ -345,7 +345,12 @@ function buildControls() {
     const places = row(place('aside', 3, 2.5, 3.5), place('above', 0, 5, 1), place('behind', -3, 1, -3),
         place('at the eye', 0, 0, 6));
     places.dataset.name = 'place';
-    const flags = row(...FLAGS.map((label, i) => toggle('flags', ...label, 1 << i)));
+    const named = text => text.replace(/\b[NLV]\b/g, name => bare(`\\mathbf{${name}}`));
+    const flags = row(...FLAGS.map((texts, i) => {
+        const flag = toggle('flags', ...texts, 1 << i);
+        shown.push(() => { [flag.lastChild.textContent, flag.title] = texts.map(named); });
+        return flag;
+    }));
     flags.dataset.name = 'flags';
     controls.append(
         group('Model', row(shapes, make('label', { class: 'open' }, file,
