@@ -47,9 +47,9 @@
    >>contents
      The number is the line of a section's banner.  In a banner, in and out are the input and the
      output, holds is an invariant, and the tag at the end names the next section.  way is the order
-     of calls, in names without shade__.  For example, "a: b, c; d" means that a calls b, then c,
-     and that d follows a.  Callees stand above their callers: read a section from its end upward,
-     along its way.
+     of calls, in names without shade__; steps between are left out.  For example, "a: b, c; d"
+     means that a leads to b, then to c, and that d follows a.  Callees stand above their callers:
+     read a section from its end upward, along its way.
      About
        >>about  >>contents  >>conventions  >>model
      Public
