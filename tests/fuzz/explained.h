@@ -1314,7 +1314,7 @@ CURE(middle)
 {
     const shade_mat4 model = ex_or_identity(s->state.model);
     double middle[4] = { 0, 0, 0, 0 }, by[4];
-    shade_vec3 place[STAGE_VERTICES + STAGE_LAMPS + 2];
+    shade_vec3 place[STAGE_VERTICES + STAGE_LAMPS + 2] = { { 0, 0, 0 } };
     for (int k = 0; k < 3; k++) {
         double low = 1e30, high = -1e30;
         for (int i = 0; i < s->mesh.vertex_count; i++) {
