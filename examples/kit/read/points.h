@@ -151,7 +151,7 @@ static inline void points_corner(size_t corner, double radius, const float *axes
                                  float *N)
 {
     const float sign = corner % 2 ? -1.0f : 1.0f;
-    const float *a = axes + (axes ? 3 * (corner / 2) : 0);
+    const float *a = axes ? axes + 3 * (corner / 2) : NULL;
     const double length = axes ? sqrt((double)a[0] * (double)a[0] + (double)a[1] * (double)a[1] +
                                       (double)a[2] * (double)a[2])
                                : radius;
