@@ -398,7 +398,7 @@ typedef struct shade_target {
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
     int   clip_x, clip_y;        /* draws and clears change only this rectangle, cut to the */
-    int   clip_width, clip_height;    /* picture; four zeros: all of it */
+    int   clip_width, clip_height;    /* picture, so nothing if it is empty; four zeros: all */
     int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
                                  /* row_count rows; count 0: all rows of the picture */
 } shade_target;
