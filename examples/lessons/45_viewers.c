@@ -27,7 +27,7 @@ static int differing(const canvas *c, int x, int y)
     return count;
 }
 
-/* Nine balls, seen through size units of the plane z = 0 from x, y on */
+/* Those of nine balls that lie in the square of size units from x, y on, in the plane z = 0 */
 static void draw(shade_target panel, shade_draw_state state, int perspective, float x, float y,
                  float size)
 {
@@ -37,7 +37,9 @@ static void draw(shade_target panel, shade_draw_state state, int perspective, fl
     state.projection = perspective ? shade_mat4_frustum(left, right, low, high, 1, 6)
                                    : shade_mat4_ortho(left, right, low, high, 1, 6);
     for (int k = 0; k < 9; k++) {
-        state.model = shape_at((float)(k % 3) - 1, (float)(k / 3) - 1, 0, 0.44f, 0);
+        float ball_x = (float)(k % 3) - 1, ball_y = (float)(k / 3) - 1;
+        if (ball_x < x || ball_x > x + size || ball_y < y || ball_y > y + size) continue;
+        state.model = shape_at(ball_x, ball_y, 0, 0.44f, 0);
         shade_draw_mesh(&panel, &ball.view, &state, NULL);
     }
     mesh_free(&ball);
