@@ -37,9 +37,9 @@ static void draw(shade_target panel, shade_draw_state state, int perspective, fl
     state.projection = perspective ? shade_mat4_frustum(left, right, low, high, 1, 6)
                                    : shade_mat4_ortho(left, right, low, high, 1, 6);
     for (int k = 0; k < 9; k++) {
-        float ball_x = (float)(k % 3) - 1, ball_y = (float)(k / 3) - 1;
-        if (ball_x < x || ball_x > x + size || ball_y < y || ball_y > y + size) continue;
-        state.model = shape_at(ball_x, ball_y, 0, 0.44f, 0);
+        const float from_x = (float)(k % 3) - 1 - x, from_y = (float)(k / 3) - 1 - y;
+        if (fminf(from_x, from_y) < 0 || fmaxf(from_x, from_y) > size) continue;
+        state.model = shape_at(x + from_x, y + from_y, 0, 0.44f, 0);
         shade_draw_mesh(&panel, &ball.view, &state, NULL);
     }
     mesh_free(&ball);
@@ -63,18 +63,16 @@ int main(int argc, char **argv)
     for (int i = 0; i < 3; i++) {
         int x = 6 + 318 * i;
         char text[60];
-        shade_target panel = canvas_panel(&c, x, 8, SIZE, SIZE);
         state.lighting.flags = i == 2 ? SHADE_FLAG_INFINITE_VIEWER : 0;
-        draw(panel, state, i == 0, -size / 2, -size / 2, size);
+        draw(canvas_panel(&c, x, 8, SIZE, SIZE), state, !i, -size / 2, -size / 2, size);
         int differ = differing(&c, x, 8);
         for (int k = 0; k < 2; k++) {    /* two of them, framed and larger */
-            panel = canvas_inset(&c, x + EDGE + 2 * CELL * k, 14 + 2 * CELL * k, CELL, CELL);
-            draw(panel, state, i == 0, 2 * (float)k - 1.5f, 0.5f - 2 * (float)k, 1);
-            panel = canvas_inset(&c, x + (SIZE - LARGE) * k, 328, LARGE, LARGE);
-            draw(panel, state, i == 0, 2 * (float)k - 1.5f, 0.5f - 2 * (float)k, 1);
+            int at = x + EDGE + 2 * CELL * k, below = x + (SIZE - LARGE) * k;
+            float left = 2 * (float)k - 1.5f, low = 0.5f - 2 * (float)k;
+            draw(canvas_inset(&c, at, at - x + 8, CELL, CELL), state, !i, left, low, 1);
+            draw(canvas_inset(&c, below, 328, LARGE, LARGE), state, !i, left, low, 1);
         }
-        sprintf(text, i ? "the two: %d of %d pixels differ" : "V = (eye − P) / |eye − P|",
-                differ, CELL * CELL);
+        sprintf(text, i ? "the two: %d of 10000 pixels differ" : "V = (eye − P) / |eye − P|", differ);
         label_caption(&c, x + SIZE / 2, 508, grey, name[i], text);
     }
     return canvas_save(&c, argc, argv, "viewers.ppm");
