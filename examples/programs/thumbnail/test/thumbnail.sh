@@ -30,12 +30,12 @@ compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/programs/thumbnail/thumbnail
 compile examples/programs/thumbnail/test/models.c -lm -o "$T/models"
 compile $STB examples/programs/thumbnail/test/look.c -lm -o "$T/look"
 compile examples/kit/test/ears.c -lm -o "$T/ears"
-compile -pthread -Wno-unused-function examples/kit/test/hidden.c -lm -o "$T/hidden"
-compile -Wno-unused-function examples/kit/test/meshopt.c -lm -o "$T/meshopt"
-compile -Wno-unused-function examples/kit/test/pieces.c "$T/shade.o" -lm -o "$T/pieces"
+for build in hidden closed meshopt pieces; do
+    compile -DSHADE__IMPLEMENTED -Wno-unused-function examples/kit/test/$build.c "$T/shade.o" -lm -o "$T/$build"
+done
 check "models" "$T/models" "$T"
 
-for line in ears hidden "meshopt examples/kit/test/meshopt.txt" "pieces $T"; do
+for line in ears hidden closed "meshopt examples/kit/test/meshopt.txt" "pieces $T"; do
     build=${line%% *}
     "$T"/$line >"$T/$build.log" || grep FAIL "$T/$build.log"
     passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/$build.log")))
