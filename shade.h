@@ -54,39 +54,39 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     135  options               >>types      269  materials, targets, states
-       >>light      458  the equation, colour  >>draw       568  shaders, meshes, pixels
-       >>tools      729  explain, lines, rays  >>plumbing   952  compilers, flags and bits
-       >>math      1120  vectors and matrices
+       >>light      458  the equation, colour  >>draw       567  shaders, meshes, pixels
+       >>tools      728  explain, lines, rays  >>plumbing   958  compilers, flags and bits
+       >>math      1126  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1490  processors            >>base      1737  bits, masks, rows of vectors
-       >>matrix    1935  cameras, inverses     >>power     2223  x^n
-       >>pixels    2289  formats, sRGB
+       >>machine   1496  processors            >>base      1743  bits, masks, rows of vectors
+       >>matrix    1941  cameras, inverses     >>power     2229  x^n
+       >>pixels    2295  formats, sRGB
      Inside: light
-       >>lamps     2601  attenuation, cones    >>terms     2853  one term at one point
-       >>surface   2928  material and lights   >>lit       3045  the whole sum, at many points
+       >>lamps     2607  attenuation, cones    >>terms     2859  one term at one point
+       >>surface   2934  material and lights   >>lit       3051  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3435  fields by owner       >>vertices  3649  shading, projection
-       >>triangles 3851  culling, edge setup   >>clip      4205  near, far, guard band
-       >>tiles     4392  edges and depth test  >>cover     4755  triangles, tile by tile
-       >>fragments 5023  interpolation, lod    >>texture   5299  texels, filters
-       >>store     5776  blending, packing
+       >>state     3441  fields by owner       >>vertices  3655  shading, projection
+       >>triangles 3857  culling, edge setup   >>clip      4211  near, far, guard band
+       >>tiles     4398  edges and depth test  >>cover     4761  triangles, tile by tile
+       >>fragments 5029  interpolation, lod    >>texture   5305  texels, filters
+       >>store     5782  blending, packing
      Inside: calls of the renderer
-       >>check     6059  refusals              >>seen      6319  view volume, chunks
-       >>drive     6439  shade_draw            >>mesh      6631  shade_draw_mesh
+       >>check     6065  refusals              >>seen      6325  view volume, chunks
+       >>drive     6445  shade_draw            >>mesh      6637  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7035  shade_draw_lines      >>camera    7229  eye and line of sight
-       >>shape     7323  normals, edges        >>chunks    7873  sorting and boxes
-       >>rays      8036  shade_pick            >>image     8227  smaller pictures, mipmaps
-       >>files     8555  PPM and PNG           >>presets   8875  classic materials
+       >>lines     7041  shade_draw_lines      >>camera    7235  eye and line of sight
+       >>shape     7329  normals, edges        >>chunks    7879  sorting and boxes
+       >>rays      8042  shade_pick            >>image     8233  smaller pictures, mipmaps
+       >>files     8561  PPM and PNG           >>presets   8881  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8958  shaders, run again    >>survey    9231  experiments on a draw
-       >>numbers   9687  what makes no sense   >>doubts   10021  what is seldom right
-       >>unseen   10170  why nothing is in view
-       >>hidden   10449  why nothing is stored >>black    10616  why all is black
-       >>wrong    11000  what else is wrong    >>verdict  11392  the calls
+       >>replay    8964  shaders, run again    >>survey    9237  experiments on a draw
+       >>numbers   9693  what makes no sense   >>doubts   10027  what is seldom right
+       >>unseen   10176  why nothing is in view
+       >>hidden   10455  why nothing is stored >>black    10622  why all is black
+       >>wrong    11006  what else is wrong    >>verdict  11398  the calls
      Sources
-       >>refs     11682                        >>history  11715
-       >>license  11721
+       >>refs     11688                        >>history  11721
+       >>license  11727
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -118,7 +118,7 @@
      I_a                 ambient light of the scene
      I_La I_d I_s        ambient, diffuse and specular light of one lamp
      a b c, r            attenuation coefficients, distance to the lamp (at infinity: factor 1)
-     spot                (L.S)^e where L.S >= cos(beta), else 0; -S is where the lamp points
+     spot                max(0, L.S)^e where L.S >= cos(beta), else 0; the lamp points along -S
      B                   1 where N.L > 0, else 0
      H                   (L + V) / |L + V|; SHADE_MODEL_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
 */
@@ -151,7 +151,7 @@
                               shade_explain_lines and shade_explain_draw return ""
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
-                              and turns assertions off
+                              and turns the default SHADE_ASSERT off
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        compiles each hot loop once, for the target of -march
      SHADE_ALLOW_FAST_MATH    lets clang compile the implementation with -ffast-math; the bits
@@ -334,10 +334,10 @@ enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The lights of a scene and the lighting equation.  Positions, normals and eye
-   must be in one space with orthogonal axes of equal scale: world or eye space, never clip space.
-   On the outline of a coarse mesh some interpolated normals point away from the viewer.
-   SHADE_FLAG_TWO_SIDED flips these, which shows as specks; a finer mesh has fewer.
+/* The lights of a scene and the lighting equation.  Positions, normals and eye must be in one space
+   with orthogonal axes of equal scale: world or eye space, never clip space.  On the outline of a
+   coarse mesh some interpolated normals point away from the viewer.  SHADE_FLAG_TWO_SIDED flips
+   these, which shows as specks; a finer mesh has fewer.
      To draw a mesh unlit, set terms to SHADE_TERM_AMBIENT and ambient to 1, 1, 1: you see k_a times
    vertex colour and map. */
 typedef struct shade_lighting {
@@ -420,9 +420,9 @@ typedef enum shade_blend {       /* s: the fragment, a: its alpha, d: the pixel,
     SHADE_BLEND_ADD              /* s + d, all four channels */
 } shade_blend;
 
-/* The rasterizer state that all draws share.  The depth of a pixel depends on the
-   positions of its triangle alone: all passes over one mesh give the same depth, to the bit,
-   whatever they shade and interpolate. */
+/* The rasterizer state that all draws share.  The depth of a pixel depends on the positions of its
+   triangle alone: all passes over one mesh give the same depth, to the bit, however they shade and
+   interpolate. */
 typedef struct shade_raster {
     shade_cull    cull;
     shade_compare depth_test;
@@ -484,9 +484,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 /* How much of a lamp arrives at P if nothing is in the way: spot / (a + b r + c r^2), a factor of
    I_d and I_s; 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P toward
    the lamp.  Where P is the lamp, or a lamp at infinity has no direction, L is zero, and a cone
-   with cos(beta) > 0 gives no light.
-   *distance becomes r, or FLT_MAX at infinity.  Either may be NULL.  For light NULL all three are
-   zero. */
+   with cos(beta) > 0 gives no light.  *distance becomes r, or FLT_MAX at infinity.  Either may be
+   NULL.  For light NULL all three are zero. */
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: point and to_light are three rows of SHADE_LANES floats, amount is one
@@ -539,8 +538,8 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light
 /* 1 / (a + b r + c r^2), at most 1e20, which is also the result for a sum that is negative or NaN.
    It is 1 where a = b = c = 0; where only a is 0, r counts as max(r, 1e-4).  r is 0 .. 1e18. */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
-/* (L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It is 1
-   where aim is zero. */
+/* max(0, L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It
+   is 1 where aim is zero.  exponent is e; negative counts as 0. */
 SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff, float exponent);
 
 /* The reflectance f_r: reflected light is f_r I (N.L).  It is k_d + k_s (N.H)^n for BLINN_PHONG,
@@ -554,8 +553,8 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, s
 /* 4 n: the Blinn-Phong exponent that gives a highlight of about the size of Phong's exponent n when
    the light comes from the viewer's side. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
-/* x^n.  x is clamped to [0, 1], a negative n counts as 0, and so does NaN as x or n, and x^0 is 1,
-   0^0 too.  The result is never NaN; its absolute error is below 2e-6 for n up to 1e6. */
+/* x^n.  x is clamped to [0, 1].  NaN and negative numbers count as 0, both as x and as n.  x^0 is 1
+   for every x.  The result is never NaN; its absolute error is below 2e-6 for n up to 1e6. */
 SHADEDEF float shade_power(float x, float n);
 
 /* From sRGB to linear light and back, component by component.  Components are clamped to [0, 1],
@@ -669,9 +668,9 @@ typedef struct shade_mesh {
     const float *texcoords;  int texcoord_stride;    /* u, v */
     const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
     int vertex_count;
-    const uint32_t *indices; int index_count;        /* NULL: vertices 0, 1, 2, ... */
+    const uint32_t *indices; int index_count;        /* NULL: indices16, or 0, 1, 2, ... */
     const struct shade_chunk *chunks; int chunk_count;    /* NULL and 0: no triangle is skipped */
-    const uint16_t *indices16;                       /* in place of indices: one of them is NULL */
+    const uint16_t *indices16;                       /* in place of indices, which are then NULL */
 } shade_mesh;
 
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
@@ -727,7 +726,10 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
                                       const shade_draw_state *state, shade_stats *stats);
 
 /*------------------------------------------------------------------------------------------ >>tools
-   Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
+   Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.  Each
+   that returns a shade_result checks its arguments before it changes anything but stats and count.
+   A NULL that is not allowed is SHADE_ERROR_ARGUMENT; a bad target or mesh gives the result that a
+   draw of it gives.  A picture to read or write must have color, else it is SHADE_ERROR_TARGET.
                                                                                        >>plumbing */
 
 /* ---- explanations */
@@ -758,19 +760,22 @@ SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_
 /* ---- chunks */
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices; triangles 0 means 128.
-   0 for negative numbers, and where index_count is no multiple of 3. */
+   For a mesh without indices pass vertex_count.  0 for negative numbers, and where index_count is
+   no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
 /* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
    Chunks that the mesh already has are ignored; corners that are NaN or infinite are ignored in the
    box.
      With indices NULL the triangles stay in their order, which is good if neighbours in the list
    are neighbours in space.  Otherwise give indices room for index_count entries, or vertex_count if
-   the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it, and
-   mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and the
-   halves again, in n log n steps, without further memory.  The order is the same on every machine.
-     chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
-   nothing changes.  chunks and indices must overlap neither each other nor the mesh's positions and
-   indices: the result is SHADE_ERROR_ARGUMENT, and nothing changes. */
+   the mesh has no indices: it receives the triangles sorted in space.  Sorting splits the list at
+   the median of its longest axis, and the halves again, in n log n steps, without further memory.
+   The order is the same on every machine.
+     Then set mesh.chunks to chunks, and mesh.chunk_count to shade_chunk_count.  If you gave
+   indices, set mesh.indices and mesh.index_count to them, and mesh.indices16 to NULL.
+     chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY.  It is
+   SHADE_ERROR_ARGUMENT for a negative number, and if chunks or indices overlap each other or the
+   mesh's positions and indices.  In all of these cases nothing changes. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
 
@@ -811,12 +816,12 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
-   direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye, which
-   shade_mat4_eye gives, is as near as -w <= x, y <= w allows at all eight corners; near and far do
-   not count.  Sides of an off-centre frustum that exclude the view axis are ignored.  If your
-   projection turns or moves the eye, the view undoes it: for example a left-handed one, which looks
-   along +z.  Without perspective the eye is one diagonal of the box away.  Returns the identity for
-   NaN, infinity and low > high. */
+   direction of any length (zero: +z), with up as in shade_mat4_look_at.  With a perspective the
+   eye, which shade_mat4_eye gives, is as near as -w <= x, y <= w allows at all eight corners; near
+   and far do not count.  Sides of an off-centre frustum that exclude the view axis are ignored.  If
+   your projection turns or moves the eye, the view undoes it: for example a left-handed one, which
+   looks along +z.  Without perspective the eye is one diagonal of the box away.  Returns the
+   identity for NaN, infinity and low > high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
@@ -843,16 +848,17 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
 
 /* Lists each edge of a mesh once, with a < b and its one or two triangles (-1: no second one); a
    third triangle makes a further entry.  Entries are sorted by a, then b.  Give edges room for
-   index_count entries; with less you get SHADE_ERROR_CAPACITY, and the number needed in *count.  An
-   edge from a vertex to itself is left out. */
+   index_count entries (without indices, vertex_count); with less you get SHADE_ERROR_CAPACITY, and
+   the number needed in *count.  After any other error *count is 0.  An edge from a vertex to itself
+   is left out. */
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
 /* 1 if (e.n0)(e.n1) <= 0, where e, to_eye, goes from the edge to the eye: of the two faces, with
-   normals n0 and n1, one is seen from the front, the other from behind. */
+   normals n0 and n1, one is seen from the front, the other from behind.  0 for NaN. */
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
-/* 1 if n0.n1 <= cos_crease, for unit normals: for example, 0.5 finds edges whose faces turn by 60
-   degrees or more.  0 for NaN. */
+/* 1 if n0.n1 <= cos_crease, for unit normals: for example, 0.5 finds edges at which the faces turn
+   by 60 degrees or more.  0 for NaN. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float cos_crease);
 
 /* ---- rays */
@@ -958,9 +964,9 @@ SHADE__CLOSE
    overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
    -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
    below 1 show.
-     Inline functions are compiled into your files.  They have the same bits under all flags but
-   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
-   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Inline functions are compiled into your files.  Their bits change only with -ffast-math, -Ofast
+   and the parts of these, and with -ffp-contract=fast: of clang, or of gcc beside -std=c99.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them too.
      Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
    riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
    give the same bits everywhere with -ffp-contract=off.
