@@ -62,31 +62,31 @@
        >>matrix    1941  cameras, inverses     >>power     2229  x^n
        >>pixels    2295  formats, sRGB
      Inside: light
-       >>lamps     2607  attenuation, cones    >>terms     2859  one term at one point
-       >>surface   2934  material and lights   >>lit       3051  the whole sum, at many points
+       >>lamps     2609  attenuation, cones    >>terms     2861  one term at one point
+       >>surface   2936  material and lights   >>lit       3053  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3441  fields by owner       >>vertices  3655  shading, projection
-       >>triangles 3857  culling, edge setup   >>clip      4211  near, far, guard band
-       >>tiles     4398  edges and depth test  >>cover     4761  triangles, tile by tile
-       >>fragments 5029  interpolation, lod    >>texture   5305  texels, filters
-       >>store     5782  blending, packing
+       >>state     3443  fields by owner       >>vertices  3657  shading, projection
+       >>triangles 3859  culling, edge setup   >>clip      4213  near, far, guard band
+       >>tiles     4400  edges and depth test  >>cover     4763  triangles, tile by tile
+       >>fragments 5031  interpolation, lod    >>texture   5307  texels, filters
+       >>store     5784  blending, packing
      Inside: calls of the renderer
-       >>check     6065  refusals              >>seen      6325  view volume, chunks
-       >>drive     6445  shade_draw            >>mesh      6637  shade_draw_mesh
+       >>check     6067  refusals              >>seen      6327  view volume, chunks
+       >>drive     6447  shade_draw            >>mesh      6639  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7041  shade_draw_lines      >>camera    7235  eye and line of sight
-       >>shape     7329  normals, edges        >>chunks    7879  sorting and boxes
-       >>rays      8042  shade_pick            >>image     8233  smaller pictures, mipmaps
-       >>files     8561  PPM and PNG           >>presets   8881  classic materials
+       >>lines     7043  shade_draw_lines      >>camera    7237  eye and line of sight
+       >>shape     7331  normals, edges        >>chunks    7881  sorting and boxes
+       >>rays      8044  shade_pick            >>image     8235  smaller pictures, mipmaps
+       >>files     8563  PPM and PNG           >>presets   8883  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8964  shaders, run again    >>survey    9237  experiments on a draw
-       >>numbers   9693  what makes no sense   >>doubts   10027  what is seldom right
-       >>unseen   10176  why nothing is in view
-       >>hidden   10455  why nothing is stored >>black    10622  why all is black
-       >>wrong    11006  what else is wrong    >>verdict  11398  the calls
+       >>replay    8966  shaders, run again    >>survey    9240  experiments on a draw
+       >>numbers   9696  what makes no sense   >>doubts   10030  what is seldom right
+       >>unseen   10179  why nothing is in view
+       >>hidden   10458  why nothing is stored >>black    10625  why all is black
+       >>wrong    11009  what else is wrong    >>verdict  11401  the calls
      Sources
-       >>refs     11688                        >>history  11721
-       >>license  11727
+       >>refs     11691                        >>history  11724
+       >>license  11730
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -2334,20 +2334,22 @@ static SHADE__NOINLINE float shade__decode(float c)
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
-SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 c)
+SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 linear)
 {
-    return shade_v3(shade__encode(c.x), shade__encode(c.y), shade__encode(c.z));
+    return shade_v3(shade__encode(linear.x), shade__encode(linear.y), shade__encode(linear.z));
 }
 
-SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
+SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 display)
 {
-    return shade_v3(shade__decode(c.x), shade__decode(c.y), shade__decode(c.z));
+    return shade_v3(shade__decode(display.x), shade__decode(display.y), shade__decode(display.z));
 }
 
-SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
+SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb)
 {
-    return shade_linear_from_srgb(shade_v3(
-        (float)(rgb >> 16 & 255) / 255, (float)(rgb >> 8 & 255) / 255, (float)(rgb & 255) / 255));
+    const shade_vec3 display = shade_v3((float)(rrggbb >> 16 & 255) / 255,
+                                        (float)(rrggbb >> 8 & 255) / 255,
+                                        (float)(rrggbb & 255) / 255);
+    return shade_linear_from_srgb(display);
 }
 
 /* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits.  Its channel k (R,
@@ -2951,7 +2953,7 @@ typedef struct shade__surface {
     shade_vec3 cool, warmth;    /* the tone's: cool, and warm - cool */
     int tone;               /* cool to warm by one lamp; else the equation */
     int lamps;              /* lights to loop over; 0 if no term needs them; 1 for a tone */
-    uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
+    uint32_t ungated;       /* all ones with UNGATED_SPECULAR, else 0 */
     uint32_t sign;          /* a mask for N.L in the diffuse term: TWO_SIDED_ABS clears its sign */
     shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the tone's */
 } shade__surface;
@@ -3030,7 +3032,7 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
     s->terms = terms;
     s->material = material ? *material : shade__white_lambert();
     s->eye = shade__xyzw(eye, flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
-    s->open = shade__mask((flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
+    s->ungated = shade__mask((flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
     s->sign = flags & SHADE_FLAG_TWO_SIDED_ABS ? 0x7FFFFFFF : 0xFFFFFFFF;
 
     s->lamps = lighting->lights ? shade__max(lighting->light_count, 0) : 0;
@@ -3119,12 +3121,12 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero.  open >> 1 clears
-   the sign, so that |rn| takes the place of N.L. */
-SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
+/* 1 if there is a highlight: where N.L > 0 or, if ungated, wherever N is not zero.  ungated >> 1
+   clears the sign, so that |rn| takes the place of N.L. */
+SHADE__INLINE int shade__gate(float nl, float rn, uint32_t ungated)
 {
-    uint32_t either = shade__float_bits(nl) & ~open;
-    either |= shade__float_bits(rn) & open >> 1;
+    uint32_t either = shade__float_bits(nl) & ~ungated;
+    either |= shade__float_bits(rn) & ungated >> 1;
     return shade__bits_float(either) > 0;
 }
 
@@ -3133,7 +3135,7 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 #define SHADE__OPPOSITE 1e-3f
 SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n, shade__lit *SHADE_RESTRICT r)
 {
-    const uint32_t open = r->surface->open;
+    const uint32_t ungated = r->surface->ungated;
     uint32_t opposite = 0;
     SHADE__FOR(i, n) {
         shade_vec3 half = shade_add(shade__at(&r->a.to_light, i), shade__at(&r->to_eye, i));
@@ -3146,7 +3148,7 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n, shade__lit 
     SHADE__FOR(i, n) {
         float h2 = r->h2[i], rn = r->rn[i];
         float nh = r->cosine[i] * (rn * shade__rsqrt_normal(h2));
-        uint32_t exists = shade__mask(shade__gate(r->nl[i], rn, open));
+        uint32_t exists = shade__mask(shade__gate(r->nl[i], rn, ungated));
         exists &= shade__mask(h2 >= 1e-12f);
         r->cosine[i] = shade__select(SHADE__NEVER, nh, exists);
     }
@@ -3167,7 +3169,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point, const shade
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], p[3], h2, nh;
         if (!(r->h2[i] < SHADE__OPPOSITE)) continue;
-        if (!shade__gate(r->nl[i], r->rn[i], r->surface->open)) continue;
+        if (!shade__gate(r->nl[i], r->rn[i], r->surface->ungated)) continue;
 
         shade__double3(shade__at(point, i), p);
         shade__double3(shade__at(normal, i), m);
@@ -3189,7 +3191,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point, const shade
 /* R.V as in shade__mirror_cosine, or SHADE__NEVER where the gate is shut. */
 SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n, shade__lit *SHADE_RESTRICT r)
 {
-    const uint32_t open = r->surface->open;
+    const uint32_t ungated = r->surface->ungated;
     SHADE__FOR(i, n) {
         float nl = r->nl[i], rn = r->rn[i], cosine;
         shade_vec3 to_light = shade__at(&r->a.to_light, i), to_eye = shade__at(&r->to_eye, i);
@@ -3199,7 +3201,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n, shade__lit 
         uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
-        cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
+        cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, ungated)));
         r->cosine[i] = cosine;
     }
 }
@@ -3291,11 +3293,11 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r, shade__in_
                                   shade__out_v3 rgb)
 {
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
-    const uint32_t sign = r->surface->sign, open = r->surface->open;
+    const uint32_t sign = r->surface->sign, ungated = r->surface->ungated;
     SHADE__FOR(i, n) {
         float nl = shade__keep(r->nl[i], sign), amount = r->a.amount[i];
         uint32_t front = shade__mask(nl > 0);
-        uint32_t reached = (front | open) & shade__mask(amount != 0);
+        uint32_t reached = (front | ungated) & shade__mask(amount != 0);
         shade_vec3 diffuse = plain ? k_d : shade_mul(k_d, shade__at(albedo, i));
         shade_vec3 specular = plain ? k_s : shade_mul(k_s, shade__at(tint, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
@@ -3356,7 +3358,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
         return;
     }
     if (!shade__is_zero(r->lamp->ambient)) shade__add_ambient(r, albedo, n, rgb);
-    if (!(any | s->open | ~s->sign)) return;
+    if (!(any | s->ungated | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
     if (visibility) shade__shadow(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
@@ -7272,7 +7274,7 @@ static void shade__direction3(double *v)
 /* The ray through x/w and y/w: the line where the planes of both meet.  In a perspective it starts
    on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
 static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
-                               double *way)
+                               double *direction)
 {
     const double *z = c->row[2], *w = c->row[3];
     double a[4], b[4], start[4], ab[3], aw[3], wb[3], p[3], q[3], along, w_there = 1;
@@ -7285,21 +7287,21 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
     shade__cross3(c->row[0], c->row[1], ab);
     shade__cross3(c->row[0], w, aw);
     shade__cross3(w, c->row[1], wb);
-    for (int k = 0; k < 3; k++) way[k] = ab[k] - y * aw[k] - x * wb[k];
+    for (int k = 0; k < 3; k++) direction[k] = ab[k] - y * aw[k] - x * wb[k];
     shade__cross3(b, start, p);
     shade__cross3(start, a, q);
-    along = shade__dot3(start, way);
+    along = shade__dot3(start, direction);
     for (int k = 0; k < 3; k++) {
-        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
+        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * direction[k];
         from[k] = along != 0 ? -sum / along : 0;
     }
 
     if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
     for (int k = 0; k < 3; k++) {
-        if (along == 0) way[k] = 0;
-        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
+        if (along == 0) direction[k] = 0;
+        if ((along < 0) != (w_there < 0)) direction[k] = -direction[k];
     }
-    shade__direction3(way);
+    shade__direction3(direction);
 }
 
 /* Parallel rays: w should be constant, but rounded entries make it vary a little.  For near = n and
@@ -7307,16 +7309,16 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
    rounding. */
 static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view, shade__camera *c)
 {
-    double p[16], v[16], way[3];
+    double p[16], v[16], direction[3];
     shade__doubles(shade__entries(projection), 16, p);
     shade__doubles(shade__entries(view), 16, v);
     for (int k = 0; k < 16; k++) {
         const double *a = p + k % 4, *b = v + k / 4 * 4;
         c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
     }
-    shade__cross3(c->row[0], c->row[1], way);
-    c->perspective = shade__abs(shade__dot3(c->row[3], way)) >
-                     shade__abs(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    shade__cross3(c->row[0], c->row[1], direction);
+    c->perspective = shade__abs(shade__dot3(c->row[3], direction)) >
+                     shade__abs(shade__dot3(c->row[2], direction)) * (1 / 65536.0);
     shade__ray_through(c, 0, 0, c->eye, c->sight);
     c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
     for (int k = 0; k < 3; k++) {
@@ -7677,11 +7679,11 @@ SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 }
 
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
-                                                shade_vec3 *out, void *memory, size_t bytes)
+                                                shade_vec3 *normals, void *memory, size_t bytes)
 {
     const int corners = mesh ? shade__corner_count(mesh) : 0;
     const int usable = (memory || !corners) && (uintptr_t)memory % 4 == 0;
-    shade_result result = shade__check_shape(mesh, usable ? out : NULL);
+    shade_result result = shade__check_shape(mesh, usable ? normals : NULL);
     uint32_t *order, count;
     size_t used;
     float *angle;
@@ -7693,7 +7695,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     if (result) return result;
     used = shade__corner_bytes(count);
     if (bytes < used || (count && !used)) return SHADE_ERROR_CAPACITY;
-    result = shade__check_outs(mesh, shade__array(out, count * sizeof *out),
+    result = shade__check_outs(mesh, shade__array(normals, count * sizeof *normals),
                                shade__array(memory, used));
     if (result || !count) return result;
     order = (uint32_t *)memory;
@@ -7712,7 +7714,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
                 if (i == j || shade_dot(n, other) >= cos_crease)
                     mean = shade_madd(mean, angle[order[j]], other);
             }
-            out[order[i]] = shade__unit_vector(mean);
+            normals[order[i]] = shade__unit_vector(mean);
         }
     }
     return SHADE_OK;
@@ -7760,9 +7762,9 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
     return (double)shade_dot(to_eye, n0) * (double)shade_dot(to_eye, n1) <= 0;
 }
 
-SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
+SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float cos_crease)
 {
-    return shade_dot(n0, n1) <= threshold;
+    return shade_dot(n0, n1) <= cos_crease;
 }
 
 SHADE__INLINE int shade__finite3(shade_vec3 v)
@@ -8068,12 +8070,12 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
 {
     shade__camera c;
     shade_ray ray;
-    double from[3], way[3];
+    double from[3], direction[3];
     shade__camera_of(&projection, &view, &c);
     shade__ray_through(&c, 2 * (double)x / shade__max(width, 1) - 1,
-                       1 - 2 * (double)y / shade__max(height, 1), from, way);
+                       1 - 2 * (double)y / shade__max(height, 1), from, direction);
     ray.origin = shade__single3(c.perspective ? c.eye : from);
-    ray.direction = shade__single3(way);
+    ray.direction = shade__single3(direction);
     if (!shade__finite3(ray.origin) || !shade__finite3(ray.direction)) SHADE__ZERO(ray);
     return ray;
 }
@@ -8985,7 +8987,7 @@ typedef struct shade__tally {
     int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; some w is not 0; not 1 */
     long long   fragments, discarded;    /* all of them, hidden or not; of these */
     shade__shades all, seen;             /* seen: those that have the stored depth */
-    int         rows;                    /* varyings that the vertex shader writes */
+    int         rows_written;            /* varyings that the vertex shader writes */
     int         reads_more;              /* the fragment shader reads rows past pipe.varyings */
     int         vertex_lanes_left;       /* 1: a shader wrote lane 0 of a packet, and left all */
     int         fragment_lanes_left;     /*    others alone */
@@ -9116,7 +9118,8 @@ static SHADE__NOINLINE void shade__check_vertices(const shade_pipeline *p,
     p->vertex(p->uniforms, in, &out);
     t->vertex_lanes_left |= shade__lanes_are_left(out.clip[0], 4, in->count);
     for (int k = 0; k < SHADE_MAX_VARYINGS; k++)
-        if (!shade__is_unwritten(out.varying[k][0])) t->rows = shade__max(t->rows, k + 1);
+        if (!shade__is_unwritten(out.varying[k][0]))
+            t->rows_written = shade__max(t->rows_written, k + 1);
 }
 
 /* Looks at what a fragment shader reads and writes of a packet.  Its colours must change with the
@@ -9192,11 +9195,11 @@ enum {                                   /* how a draw is run again */
     SHADE__CHECKS = 2                    /* what shaders read and write is checked */
 };
 
-/* Runs the draw, with a raster and into a picture that may differ from the given ones; margin is
-   the far_margin of a survey.  vertex NULL: the given one. */
+/* Runs the draw, with a raster and into a picture that may differ from the given ones.  far_range:
+   farthest and far_margin of a survey.  vertex NULL: the given one. */
 static shade__tally shade__run_again(const shade__replay *r, const shade_target *picture,
                                      const shade_raster *raster, shade_vertex_shader *vertex,
-                                     const float margin[2], unsigned how)
+                                     const float far_range[2], unsigned how)
 {
     shade__rerun run;
     shade__tally tally;
@@ -9209,8 +9212,8 @@ static shade__tally shade__run_again(const shade__replay *r, const shade_target 
     run.vertex = vertex ? vertex : p.vertex;
     run.fragment = how & SHADE__UNDISCARDED ? NULL : p.fragment;
     run.checks = !r->lines && how & SHADE__CHECKS;
-    run.far_depth = margin[0];
-    run.far_margin = margin[1];
+    run.far_depth = far_range[0];
+    run.far_margin = far_range[1];
     run.tally = &tally;
     t.color = NULL;
     p.vertex = shade__replay_vertex;
@@ -9399,8 +9402,8 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
 /* Runs lines or a pipeline.  vertex NULL: the given shader. */
 static shade__tally shade__replay_of(const shade__survey *s, shade_vertex_shader *vertex)
 {
-    const float far_depth[2] = { s->farthest, s->far_margin };
-    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_depth,
+    const float far_range[2] = { s->farthest, s->far_margin };
+    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_range,
                             s->how);
 }
 
@@ -10819,11 +10822,11 @@ static int shade__count_is_zero(shade__survey *q)
 /* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 for all others. */
 static int shade__lacks_normals(shade__survey *q)
 {
-    shade__survey open = *q;
-    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
-    open.material.specular = shade_v3(1, 1, 1);
-    open.material.shininess = 0;
-    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
+    shade__survey ungated = *q;
+    shade__light_by(&ungated, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    ungated.material.specular = shade_v3(1, 1, 1);
+    ungated.material.shininess = 0;
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&ungated);
 }
 
 /* Leaves only the terms of lamps in the survey, without blending.  Returns whether any is left. */
@@ -11428,7 +11431,7 @@ static const char *shade__why_faint(const shade__survey *s)
         return "The fragment shader (state.fragment, pipeline.fragment) writes lane 0 of a packet "
                "alone: it must write every lane, in a loop SHADE_EACH_LANE(i) over "
                "out->color[k][i].";
-    if (s->replay && t.reads_more && t.rows > s->replay->pipe.varyings)
+    if (s->replay && t.reads_more && t.rows_written > s->replay->pipe.varyings)
         return "pipeline.varyings is smaller than the number of rows that pipeline.vertex writes "
                "and pipeline.fragment reads, so that the last ones are not interpolated; raise it.";
     if (s->replay && !s->replay->pipe.may_discard && t.discarded)
