@@ -53,40 +53,41 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     135  options               >>types      269  materials, targets, states
-       >>light      458  the equation, colour  >>draw       567  shaders, meshes, pixels
-       >>tools      728  explain, lines, rays  >>plumbing   958  compilers, flags and bits
-       >>math      1126  vectors and matrices
+       >>config     136  options               >>types      270  materials, targets, states
+       >>light      459  the equation, colour  >>draw       568  shaders, meshes, pixels
+       >>tools      729  explain, lines, rays  >>plumbing   959  compilers, flags and bits
+       >>math      1127  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1496  processors            >>base      1743  bits, masks, rows of vectors
-       >>matrix    1941  cameras, inverses     >>power     2229  x^n
-       >>pixels    2295  formats, sRGB
+       >>machine   1497  processors            >>base      1744  bits, masks, rows of vectors
+       >>matrix    1942  cameras, inverses     >>power     2230  x^n
+       >>pixels    2296  formats, sRGB
      Inside: light
-       >>lamps     2609  attenuation, cones    >>terms     2861  one term at one point
-       >>surface   2936  material and lights   >>lit       3053  the whole sum, at many points
+       >>lamps     2610  attenuation, cones    >>terms     2862  one term at one point
+       >>surface   2937  material and lights   >>lit       3054  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3443  fields by owner       >>vertices  3657  shading, projection
-       >>triangles 3859  culling, edge setup   >>clip      4213  near, far, guard band
-       >>tiles     4400  edges and depth test  >>cover     4763  triangles, tile by tile
-       >>fragments 5031  interpolation, lod    >>texture   5307  texels, filters
-       >>store     5784  blending, packing
+       >>state     3444  fields by owner       >>vertices  3658  shading, projection
+       >>triangles 3860  culling, edge setup   >>clip      4214  near, far, guard band
+       >>tiles     4401  edges and depth test  >>cover     4764  triangles, tile by tile
+       >>fragments 5032  interpolation, lod    >>texels    5308  where they lie, loads
+       >>texture   5497  filters, mipmaps      >>store     5791  blending, packing
      Inside: calls of the renderer
-       >>check     6067  refusals              >>seen      6327  view volume, chunks
-       >>drive     6447  shade_draw            >>mesh      6639  shade_draw_mesh
+       >>check     6074  refusals              >>seen      6334  view volume, chunks
+       >>drive     6454  shade_draw            >>mesh      6646  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7043  shade_draw_lines      >>camera    7237  eye and line of sight
-       >>shape     7331  normals, edges        >>chunks    7881  sorting and boxes
-       >>rays      8044  shade_pick            >>image     8235  smaller pictures, mipmaps
-       >>files     8563  PPM and PNG           >>presets   8883  classic materials
+       >>lines     7050  shade_draw_lines      >>camera    7244  eye and line of sight
+       >>normals   7338  of vertices, corners  >>shape     7727  edges, boxes, views
+       >>chunks    7893  sorting and boxes     >>rays      8056  shade_pick
+       >>image     8247  smaller, mipmaps      >>files     8575  PPM and PNG
+       >>presets   8895  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8966  shaders, run again    >>survey    9240  experiments on a draw
-       >>numbers   9696  what makes no sense   >>doubts   10030  what is seldom right
-       >>unseen   10179  why nothing is in view
-       >>hidden   10458  why nothing is stored >>black    10625  why all is black
-       >>wrong    11009  what else is wrong    >>verdict  11401  the calls
+       >>replay    8978  shaders, run again    >>survey    9252  experiments on a draw
+       >>questions 9515  what the picture has  >>numbers   9715  what makes no sense
+       >>doubts   10049  what is seldom right  >>unseen   10198  why nothing is in view
+       >>hidden   10477  why nothing is stored >>black    10644  why all is black
+       >>wrong    11028  what else is wrong    >>verdict  11420  the calls
      Sources
-       >>refs     11691                        >>history  11724
-       >>license  11730
+       >>refs     11710                        >>history  11743
+       >>license  11749
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5037,7 +5038,7 @@ static void shade__cover(shade__draw *d, int count)
      way     push: make_planes, push_run: append; flush: replicate, undivide, the user's shader,
              store
      holds   With perspective, varyings in the queue are divided by w; the flush multiplies them by
-             w for the shader.  Lanes from count on repeat the last one.                >>texture */
+             w for the shader.  Lanes from count on repeat the last one.                 >>texels */
 
 enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels appended at once */
 
@@ -5304,16 +5305,12 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 }
 SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 
-/*---------------------------------------------------------------------------------------- >>texture
-   Filters texels for blocks of lanes, one mipmap after the other: places and weights along both
-   axes, a pair of texels above and a pair below, and their blend.
-     in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
-     way     shade_sample_lanes: sample_levels: read_level: open_level: address; filter:
-             filter_packed or filter_floats: fetch, blend_packed, blend_encoded or blend_floats;
-             add_level
-     holds   Every index lies in the texture, for any u and v.  Each mipmap has the weight max(0,
-             1 - |lod - level|), which is trilinear filtering.                      [Williams83]
-                                                                                          >>store */
+/*----------------------------------------------------------------------------------------- >>texels
+   Texels of one level for blocks of lanes: along both axes the texel before and after a coordinate
+   and its weight, then the pairs of texels above and below.
+     in      a good texture, rows u and v     out  a shade__reader; pairs of texels as words
+     way     open_level: address; then fetch: fetch_pair or fetch_apart
+     holds   Every index lies in the texture, for any u and v.                          >>texture */
 
 /* A sentence about the fault of a texture, or NULL. */
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
@@ -5496,6 +5493,16 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
         else shade__fetch_apart(r, p, line, first, 4, to);
     }
 }
+
+/*---------------------------------------------------------------------------------------- >>texture
+   Filters texels, one mipmap after the other: four texels are blended to one colour.
+     in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
+     way     shade_sample_lanes: sample_levels: read_level: open_level of >>texels; filter:
+             filter_packed or filter_floats: fetch, blend_packed, blend_encoded or blend_floats;
+             add_level
+     holds   Each mipmap has the weight max(0, 1 - |lod - level|), which is trilinear filtering.
+                                                                                    [Williams83]
+                                                                                          >>store */
 
 /* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
    not shifted down: in place, times 1 / mask, they give the same product, and as they lie below bit
@@ -7239,7 +7246,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
      in      projection, view             out  a shade__camera, in double
      way     camera_of: ray_through
      holds   A camera depends on the product of both matrices alone, not on how it is split between
-             them.                                                                        >>shape */
+             them.                                                                      >>normals */
 
 typedef struct shade__camera {
     double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
@@ -7328,17 +7335,14 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
     shade__direction3(c->sight);
 }
 
-/*------------------------------------------------------------------------------------------ >>shape
-   The shape of a mesh: normals of vertices and corners, edges, its box, and the view that shows it.
-     in      meshes, the caller's memory         out  the caller's arrays
+/*---------------------------------------------------------------------------------------- >>normals
+   Normals of vertices and corners: sums over the faces around them.
+     in      meshes, the caller's memory         out  the caller's normals
      way     mesh_normals: sum_normals: load_faces; find_faces: find_edge, find_wedge,
              find_angle; add_face.
-             mesh_corner_normals: sort_corners, triangle_normal, corner_angle.
-             mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
-             box_visible: frustum_of and in_view of >>seen.
-             mat4_fit: camera_of, frame_of, step_back
-     method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
-                                                                                         >>chunks */
+             mesh_corner_normals: sort_corners, triangle_normal, corner_angle
+     method  normals of faces, weighted by their angle at the vertex                 [Thurmer98]
+                                                                                          >>shape */
 
 #define SHADE__TAN 0.4142135623730951    /* of pi/8 */
 
@@ -7719,6 +7723,14 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     }
     return SHADE_OK;
 }
+
+/*------------------------------------------------------------------------------------------ >>shape
+   The shape of a mesh: its edges, its box, and the view that shows the box.
+     in      meshes, boxes, a projection         out  the caller's edges; boxes, a view
+     way     mesh_edges: sort_corners and edge_from of >>normals.  mesh_bounds: box_chunk.
+             box_visible: frustum_of and in_view of >>seen.
+             mat4_fit: camera_of, frame_of, step_back
+     method  edges by sorting                                                            >>chunks */
 
 /* The caller's array, of 16 bytes a corner, is scratch memory too: the sorted corners lie in its
    last quarter.  The i corners read so far have made at most i edges, which end at byte 16 i.  The
@@ -9240,11 +9252,11 @@ static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SH
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments: a draw is made again with something changed, and pixels are counted.
      in      arguments of a draw           out  numbers of pixels, stats; depths of some pixels
-     way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
-             draw_scene of >>mesh, with judge as its fragment shader; or run_again
+     way     open_survey of >>questions; then a change to a copy, and count or take_probes of it:
+             draw_trial: draw_scene of >>mesh, with judge as its fragment shader; or run_again
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read.  The mesh's fragment shader is called by tally_of alone.
-                                                                                        >>numbers */
+                                                                                      >>questions */
 
 enum {
     SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
@@ -9499,6 +9511,13 @@ static int shade__hides_nearest(const shade__survey *s, int last)
     }
     return n > 0;
 }
+
+/*-------------------------------------------------------------------------------------- >>questions
+   Surveys are opened and asked: which fragments does the picture show, where is the mesh?
+     in      arguments of a draw           out  a shade__survey; answers, most of them 0 or 1
+     way     open_survey: look_at_all.  look_at_seen: look_through, coincides, is_opaque
+     holds   A question draws copies of a survey; only look_... changes the one that it is given.
+                                                                                        >>numbers */
 
 /* ---- which fragments are drawn */
 
