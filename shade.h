@@ -54,40 +54,40 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     136  options               >>types      270  materials, targets, states
-       >>light      459  the equation, colour  >>draw       568  shaders, meshes, pixels
-       >>tools      729  explain, lines, rays  >>plumbing   959  compilers, flags and bits
-       >>math      1127  vectors and matrices
+       >>light      462  the equation, colour  >>draw       571  shaders, meshes, pixels
+       >>tools      732  explain, lines, rays  >>plumbing   962  compilers, flags and bits
+       >>math      1130  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1497  processors            >>base      1744  bits, masks, rows of vectors
-       >>matrix    1942  cameras, inverses     >>power     2230  x^n
-       >>pixels    2296  formats, sRGB
+       >>machine   1500  processors            >>base      1747  bits, masks, rows of vectors
+       >>matrix    1945  cameras, inverses     >>power     2233  x^n
+       >>pixels    2299  formats, sRGB
      Inside: light
-       >>lamps     2610  attenuation, cones    >>terms     2862  one term at one point
-       >>surface   2937  material and lights   >>lit       3054  the whole sum, at many points
+       >>lamps     2613  attenuation, cones    >>terms     2865  one term at one point
+       >>surface   2940  material and lights   >>lit       3057  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3444  fields by owner       >>vertices  3658  shading, projection
-       >>triangles 3860  culling, edge setup   >>clip      4214  near, far, guard band
-       >>tiles     4401  edges and depth test  >>cover     4764  triangles, tile by tile
-       >>fragments 5032  interpolation, lod    >>texels    5308  where they lie, loads
-       >>texture   5497  filters, mipmaps      >>store     5791  blending, packing
+       >>state     3447  fields by owner       >>vertices  3661  shading, projection
+       >>triangles 3863  culling, edge setup   >>clip      4217  near, far, guard band
+       >>tiles     4404  edges and depth test  >>cover     4767  triangles, tile by tile
+       >>fragments 5035  interpolation, lod    >>texels    5311  where they lie, loads
+       >>texture   5500  filters, mipmaps      >>store     5794  blending, packing
      Inside: calls of the renderer
-       >>check     6074  refusals              >>seen      6334  view volume, chunks
-       >>drive     6454  shade_draw            >>mesh      6646  shade_draw_mesh
+       >>check     6077  refusals              >>seen      6337  view volume, chunks
+       >>drive     6457  shade_draw            >>mesh      6649  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7050  shade_draw_lines      >>camera    7244  eye and line of sight
-       >>normals   7338  of vertices, corners  >>shape     7727  edges, boxes, views
-       >>chunks    7893  sorting and boxes     >>rays      8056  shade_pick
-       >>image     8247  smaller, mipmaps      >>files     8575  PPM and PNG
-       >>presets   8895  classic materials
+       >>lines     7054  shade_draw_lines      >>camera    7248  eye and line of sight
+       >>normals   7342  of vertices, corners  >>shape     7731  edges, boxes, views
+       >>chunks    7897  sorting and boxes     >>rays      8060  shade_pick
+       >>image     8251  smaller, mipmaps      >>files     8579  PPM and PNG
+       >>presets   8899  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8978  shaders, run again    >>survey    9252  experiments on a draw
-       >>questions 9515  what the picture has  >>numbers   9715  what makes no sense
-       >>doubts   10049  what is seldom right  >>unseen   10198  why nothing is in view
-       >>hidden   10477  why nothing is stored >>black    10644  why all is black
-       >>wrong    11028  what else is wrong    >>verdict  11420  the calls
+       >>replay    8982  shaders, run again    >>survey    9256  experiments on a draw
+       >>questions 9519  what the picture has  >>numbers   9719  what makes no sense
+       >>doubts   10053  what is seldom right  >>unseen   10202  why nothing is in view
+       >>hidden   10481  why nothing is stored >>black    10648  why all is black
+       >>wrong    11032  what else is wrong    >>verdict  11424  the calls
      Sources
-       >>refs     11710                        >>history  11743
-       >>license  11749
+       >>refs     11714                        >>history  11747
+       >>license  11753
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -281,13 +281,16 @@ typedef enum shade_result {
     SHADE_OK = 0,
     SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4,
                                 an output that overlaps an input */
-    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
-    SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk, indices of both kinds */
-    SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
+    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; neither color nor
+                                depth, or no color where a picture is read or written */
+    SHADE_ERROR_MESH,        /* positions NULL, a negative count, a stride, a chunk, indices of both
+                                kinds; an odd point_count */
+    SHADE_ERROR_STATE,       /* in a state or pipeline an unknown enumerator, a number out of range,
+                                or a fragment shader without PER_FRAGMENT; cos_crease is NaN */
     SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model, a cutoff of NaN */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
-    SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
+    SHADE_ERROR_CAPACITY,    /* the caller's array or memory is too small */
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
 } shade_result;
 
@@ -630,7 +633,7 @@ typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *
 /* What shade_draw draws with.  If you set lod_texture, fragments have a lod for shade_sample_lanes:
    log2 of the longer of the two steps, in texels of level 0, that (u, v) makes to the next pixel
    right and below.  The steps are the exact derivatives of the perspective interpolation at the
-   pixel, whatever the interpolation is. */
+   pixel, for every interpolation. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
     shade_fragment_shader *fragment;              /* NULL: depth only */
@@ -742,7 +745,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    degrees, meshes out of view, culling, depth that was not cleared, and light that does not arrive
    or clips.
      It writes nothing: it draws the mesh again and again, changing one thing at a time, and counts
-   pixels.  If it says that something is missing, no pixel shows it.  It takes the time of many
+   pixels.  It calls a thing missing only if no pixel shows it.  It takes the time of many
    frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
    picture is wrong, not in every frame.  state.fragment is called many times more than by the draw,
    at times with NaN in what the draw presets, so it must have no side effects.  The sentence is
@@ -792,7 +795,7 @@ typedef struct shade_line_state {
 } shade_line_state;
 /* Draws point_count / 2 lines between pairs of points.  Each is a rectangle on the screen, drawn as
    two triangles, which stats counts.  For lines over a filled mesh use SHADE_COMPARE_LESS_EQUAL and
-   a negative depth_bias, such as -1e-3.  A line whose ends coincide is nothing, or a square with
+   a negative depth_bias, such as -1e-3.  A line with equal ends is nothing, or a square with
    SHADE_CAP_SQUARE.  An odd or negative count, or one beyond 715827882, is SHADE_ERROR_MESH; a
    width that is negative, NaN or infinite is SHADE_ERROR_STATE. */
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
@@ -1014,8 +1017,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
-   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
-   the file. */
+   Inline functions of the implementation are SHADE__INLINE, that is static: they differ with the
+   options of the file. */
 #define SHADE__INLINE static SHADE__ALWAYS_INLINE
 #ifdef __cplusplus
 #define SHADE__EXPORT SHADE__ALWAYS_INLINE
@@ -1042,7 +1045,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
-   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
+   and sums in your file, in inlined functions too, despite the pragmas of this file; gcc
    -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again.  AltiVec's fma
    takes denormal numbers for 0: there the fma is one of doubles, which is exact, rounded once. */
 #if defined(__ALTIVEC__) && defined(SHADE__GNU) && !defined(__clang__)
@@ -1550,7 +1553,7 @@ enum {
 #elif !defined(SHADE__SPECIALIZE)
 #define SHADE__SPECIALIZE 255
 #endif
-#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)    /* 0: this copy is not compiled */
+#define SHADE__HAS(copy) (SHADE__SPECIALIZE & (copy))    /* 0: this copy is not compiled */
 
 /* gcc would turn loops that fill rows into memset or rep stos, which costs 9 % of a flat fill.  -O2
    makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, to count branches. */
@@ -1801,8 +1804,8 @@ SHADE__INLINE int32_t shade__ordinal(float x) { return (int32_t)shade__float_bit
 SHADE__INLINE float shade__from_ordinal(int32_t i) { return shade__bits_float((uint32_t)i); }
 
 /* clamp(x, lo, hi) by the order of bit patterns.
-   pre: 0 <= lo <= hi; x is not NaN, since its sign, which differs between processors, would choose
-   between lo and hi */
+   pre: 0 <= lo <= hi; x is not NaN, unless its sign bit is clear: then it gives hi.  The sign of
+   other NaNs differs between processors, and would choose between lo and hi */
 SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 {
     const int32_t i = shade__max(shade__ordinal(x), shade__ordinal(lo));
@@ -2170,8 +2173,8 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
                      shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
 }
 
-/* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  y is 1 / tan(fovy /
-   2). */
+/* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  In it y stands for
+   1 / tan(fovy / 2). */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
@@ -2269,7 +2272,7 @@ SHADE__INLINE float shade__exp2_neg(float u)
 }
 
 /* Marks a missing cosine: x^n is 0 for it, even for n = 0. */
-#define SHADE__NEVER -2.0f
+#define SHADE__NEVER (-2.0f)
 
 /* n times -log2(min(x, 1)), for shade__exp2_neg.  For x <= least it is 126, which gives 0; least is
    0 for n > 0, and SHADE__NEVER for n = 0.   pre: n >= 0, finite */
@@ -2479,12 +2482,12 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 /* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.
    Halving the bit pattern of c gives a rough square root; that root times 372, rounded down, is the
    number of the cell.  The first entry is for cell 4, the last for cell 372.  Within a cell the
-   byte changes at most once, and the entry says where: in its low 24 bits are those of the first
-   float after the change, and in its high 8 bits the byte of that float.  For example, in the last
-   cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c minus the
-   entry is set, c lies before that float, and its byte is one less.  A cell without a change has
-   the entry of another one, whose change is fewer than 2^23 floats away.  An sRGB picture of a
-   teapot takes .95 of the time with AVX-512, and .81 with AVX2 and SSE2. */
+   byte changes at most once.  The entry has the low 24 bits of the first float after the change,
+   and above them the byte of that float.  For example, in the last cell 0xFF7EDC0E means 255 from
+   the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c minus the entry is set, c lies before
+   that float, and its byte is one less.  A cell without a change has the entry of another cell,
+   with a change fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of the time
+   with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2747,8 +2750,8 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     return any;
 }
 
-/* amount = 1 / (a + b r + c r^2).  Greater, infinite and NaN r count as 1e18.  A sum of infinities
-   of both signs is NaN and gives 1e20, as in shade_attenuation. */
+/* amount = 1 / (a + b r + c r^2).  An r that is NaN, infinite or beyond 1e18 counts as 1e18.  A sum
+   of infinities of both signs is NaN and gives 1e20, as in shade_attenuation. */
 SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
                                     shade__arrival *SHADE_RESTRICT to)
 {
@@ -3490,9 +3493,9 @@ enum {
     /* at least 4 vertices of the most values; take_batch needs 3 */
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
-    SHADE__PARTS = SHADE_LANES < 64 ? 2 : 8,
-    SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
-    SHADE__BOUNDS = SHADE_LANES * SHADE_LANES / 32,
+    SHADE__PARTS = SHADE_LANES < 64 ? 2 : 8,          /* of a batch */
+    SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,     /* set up at a time */
+    SHADE__BOUNDS = SHADE_LANES * SHADE_LANES / 32,   /* depths in shade__bounds */
     SHADE__CLIP_VERTICES = 13,        /* see >>clip */
     SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>tiles tests together */
 };
@@ -3565,7 +3568,7 @@ typedef struct shade__polygon {
     uint8_t  corner[SHADE__CLIP_VERTICES];
     int      count;                   /* corners, in order */
     uint32_t taken;                   /* bit v: vertex v is in use */
-    int      in_front;                /* all corners have w > 0: they have window positions */
+    int      in_front;                /* the triangle's corners all have w > 0 */
     int64_t  area;                    /* twice, in 1/65536 pixel, of the whole polygon */
 } shade__polygon;
 
@@ -4270,7 +4273,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     const float *from = p->vertex[in].clip, *to = p->vertex[out].clip;
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
     p->taken |= 1u << v;
-    if (p->in_front) {
+    if (p->in_front) {    /* else the edge may have no place on the screen */
         /* rounding may leave a new vertex without w */
         double inner = d_in * (double)shade__maxf(to[3], shade__w_least);
         s = inner / (inner - d_out * (double)shade__maxf(from[3], shade__w_least));
@@ -5610,7 +5613,7 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
     }
 }
 
-/* Blends a block of sRGB texels, whose upper pairs begin at `above`, into four rows.  With both
+/* Blends a block of sRGB texels into four rows; the upper pairs begin at `above`.  With both
    weights 0 the result is the left texel above. */
 SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *above, shade__in x,
                                         shade__in y, shade__out out)
@@ -6661,8 +6664,9 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    shade_lighting lighting;             /* at vertices with a map: terms that the map multiplies */
-    unsigned unmapped;                   /* the other terms */
+    shade_lighting lighting;             /* with a map and light at vertices, only the terms that
+                                            the map multiplies */
+    unsigned unmapped;                   /* then: the terms that it does not */
     shade__surface surface;              /* made from lighting */
     const shade_texture *map;            /* NULL: none */
     uint32_t white_map;                  /* all ones: the map counts as white, with its holes */
@@ -6861,8 +6865,8 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
     }
 }
 
-/* Lights fragments whose albedo is the map: rgb holds its colours, and receives the light.  Not
-   inlined, so that only maps take its stack. */
+/* Lights fragments with the map as their albedo: rgb holds its colours, and receives the light.
+   Not inlined, so that only maps take its stack. */
 static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
                                            float *rgb)
 {
@@ -7545,8 +7549,8 @@ SHADE__INLINE void shade__find_angle(shade__wedge *SHADE_RESTRICT w)
     }
 }
 
-/* Finds all of the faces from their corners.  A face whose sine at corner 0 is above 1e-5 has area,
-   because the roundings of edges turn them by less than 1e-6. */
+/* Finds edges and wedges of faces from their corners.  A face with a sine above 1e-5 at corner 0
+   has area, because the roundings of edges turn them by less than 1e-6. */
 SHADE__INLINE void shade__find_faces_body(shade__faces *f)
 {
     SHADE__FOR(i, SHADE__BLOCK) { f->odd[i] = 0; }
@@ -8265,7 +8269,7 @@ static shade_result shade__check_picture(const shade_target *t)
 
 /* Along one axis, texel i of a mipmap covers a share of each of pixels 2 i, 2 i + 1 and, if the
    size is odd, 2 i + 2 of the level above.  For example, 5 pixels become 2 texels, 2.5 pixels each:
-   the shares of texel 0 are 1, 1, 0.5, those of texel 1 are 0.5, 1, 1. */
+   texel 0 has the shares 1, 1, 0.5 and texel 1 has 0.5, 1, 1. */
 typedef struct shade__shares { int pixels; double share[3]; } shade__shares;
 
 /* Tables to make a level of mipmaps. */
@@ -8783,7 +8787,7 @@ static int shade__filtered(const shade__png_rows *rows, int filter, int i)
 }
 
 /* Takes a row in a filter.  With pack 0 it only returns about how many bits that would need: 1 for
-   a byte that repeats the one three before it, else those of its code. */
+   a byte that repeats the one three before it, else the length of its code. */
 static uint32_t shade__png_row(shade__png *f, int y, int filter, int pack)
 {
     const shade_target *t = f->target;
@@ -8996,8 +9000,8 @@ typedef struct shade__shades {
 typedef struct shade__tally {
     shade_stats stats;                   /* fragments: neither discarded nor hidden */
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
-    int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; some w is not 0; not 1 */
-    long long   fragments, discarded;    /* all of them, hidden or not; of these */
+    int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; a w is not 0; not 1 */
+    long long   fragments, discarded;    /* hidden ones too; those that the shader discards */
     shade__shades all, seen;             /* seen: those that have the stored depth */
     int         rows_written;            /* varyings that the vertex shader writes */
     int         reads_more;              /* the fragment shader reads rows past pipe.varyings */
@@ -9005,7 +9009,7 @@ typedef struct shade__tally {
     int         fragment_lanes_left;     /*    others alone */
 } shade__tally;
 
-/* The bits of a NaN that no arithmetic gives: it marks floats that nobody has written. */
+/* The bits of a NaN that no arithmetic gives: it marks floats that no shader has written. */
 #define SHADE__UNWRITTEN 0x7FC5AD1Eu
 
 /* A draw that is run again. */
@@ -9016,8 +9020,8 @@ typedef struct shade__replay {
     shade__indices      indices;
     int                 corners;
     shade_pipeline      pipe;            /* the given one */
-    shade_mesh          mesh;            /* zero, and all but the raster of state: what a survey */
-    shade_draw_state    state;           /* has in place of a mesh */
+    shade_mesh          mesh;            /* zero: a survey needs a mesh and a state */
+    shade_draw_state    state;           /* zero, but for its raster */
 } shade__replay;
 
 /* One run of it, for its shaders. */
@@ -9260,7 +9264,7 @@ static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SH
 
 enum {
     SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
-    SHADE__PROBES = 256                  /* pixels whose depths are compared; a power of two */
+    SHADE__PROBES = 256                  /* pixels in which depths are compared; a power of 2 */
 };
 
 /* The fragments of one sampled pixel, in drawing order. */
@@ -9405,7 +9409,7 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     }
     trial->survey = s;
     t.color = NULL;
-    /* may_discard is 1: so >>fragments sets x, y and z, which judge reads */
+    /* may_discard = 1 makes >>fragments set x, y and z, which judge reads */
     shade__draw_scene(&t, &trial->scene, trial->tally ? shade__tally_mesh : shade__judge, 1,
                       &stats);
     return stats;
@@ -9478,13 +9482,13 @@ static int shade__differ(const shade__survey *a, const shade__survey *b)
     return 0;
 }
 
-/* Is there a pixel of sqrt(dim) or more?  Even a surface that reflects only sqrt(dim) shows it. */
+/* Is there a pixel of sqrt(dim) or more?  A surface that reflects sqrt(dim) of it gives dim. */
 static int shade__bright(const shade__survey *s)
 {
     return shade__count(s, shade__sqrt(s->dim)) > 0;
 }
 
-/* Samples pixels.  In a perspective the nearest is nearest to the eye, whatever the test is. */
+/* Samples pixels.  In a perspective the nearest is the nearest to the eye, for any depth test. */
 static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE__PROBES])
 {
     shade__survey q = *s;
@@ -9713,7 +9717,7 @@ static int shade__faces_ahead(const shade__camera *c)
 }
 
 /*---------------------------------------------------------------------------------------- >>numbers
-   Numbers that make no sense, whatever the picture is.
+   Numbers that make no sense in any picture.
      in      a survey, or the mesh           out  a sentence, or SHADE__GO_ON
      way     no_mesh: arrays_cross, indices_are_halves; bad_number: bad_matrix, bad_lamp,
              positions_are_bad, floats_are_coarse, bad_attribute                         >>doubts */
@@ -9957,8 +9961,8 @@ static int shade__positions_are_bad(const shade__survey *s)
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
-/* Has a triangle with an area a float that is NaN, infinite or beyond 1e18, whose square is
-   infinite? */
+/* Does a triangle with an area use a float that is NaN, infinite, or so large (beyond 1e18) that
+   its square may overflow? */
 static int shade__attribute_is_wild(const shade_mesh *m, const float *array, int stride,
                                     int floats)
 {
@@ -11143,7 +11147,7 @@ static int shade__is_turned(const shade__survey *s, int of)
            seams.open <= 2 * seams.pairs && !shade__are_crowded(&seams);
 }
 
-/* Is a face left out whose neighbour is not? */
+/* Is a face left out, but not its neighbour? */
 static int shade__culled_both_ways(shade__survey *q)
 {
     return q->state.raster.cull != SHADE_CULL_NONE && shade__is_turned(q, 100);
