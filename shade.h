@@ -69,25 +69,25 @@
        >>triangles 3863  culling, edge setup   >>clip      4217  near, far, guard band
        >>tiles     4404  edges and depth test  >>cover     4767  triangles, tile by tile
        >>fragments 5035  interpolation, lod    >>texels    5311  where they lie, loads
-       >>texture   5500  filters, mipmaps      >>store     5794  blending, packing
+       >>texture   5500  filters, mipmaps      >>store     5795  blending, packing
      Inside: calls of the renderer
-       >>check     6077  refusals              >>seen      6337  view volume, chunks
-       >>drive     6457  shade_draw            >>mesh      6649  shade_draw_mesh
+       >>check     6078  refusals              >>seen      6338  view volume, chunks
+       >>drive     6458  shade_draw            >>mesh      6650  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7054  shade_draw_lines      >>camera    7248  eye and line of sight
-       >>normals   7342  of vertices, corners  >>shape     7731  edges, boxes, views
-       >>chunks    7897  sorting and boxes     >>rays      8060  shade_pick
-       >>image     8251  smaller, mipmaps      >>files     8579  PPM and PNG
-       >>presets   8899  classic materials
+       >>lines     7055  shade_draw_lines      >>camera    7249  eye and line of sight
+       >>normals   7343  of vertices, corners  >>shape     7732  edges, boxes, views
+       >>chunks    7898  sorting and boxes     >>rays      8061  shade_pick
+       >>image     8252  smaller, mipmaps      >>files     8580  PPM and PNG
+       >>presets   8900  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8982  shaders, run again    >>survey    9256  experiments on a draw
-       >>questions 9519  what the picture has  >>numbers   9719  what makes no sense
-       >>doubts   10053  what is seldom right  >>unseen   10202  why nothing is in view
-       >>hidden   10481  why nothing is stored >>black    10648  why all is black
-       >>wrong    11032  what else is wrong    >>verdict  11424  the calls
+       >>replay    8983  shaders, run again    >>survey    9257  experiments on a draw
+       >>questions 9520  what the picture has  >>numbers   9720  what makes no sense
+       >>doubts   10054  what is seldom right  >>unseen   10203  why nothing is in view
+       >>hidden   10482  why nothing is stored >>black    10649  why all is black
+       >>wrong    11033  what else is wrong    >>verdict  11425  the calls
      Sources
-       >>refs     11714                        >>history  11747
-       >>license  11753
+       >>refs     11715                        >>history  11748
+       >>license  11754
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -2673,7 +2673,7 @@ typedef struct shade__lamp {
     const shade_light *light;
     shade_vec3 at;          /* its position, or at infinity the unit L */
     shade_vec3 axis;        /* S of the cone, unit; zero: no cone */
-    float a, nearest;       /* a of the attenuation, or 1 for none; the least r */
+    float a, least_r;       /* a of the attenuation, or 1 for none; the least r */
     int infinite, spot;
     int falls;              /* the attenuation depends on r */
     /* The light that one surface reflects of it, set by >>surface. */
@@ -2696,7 +2696,7 @@ static void shade__prepare_lamp(const shade_light *light, shade__lamp *lamp)
 
     lamp->falls = !lamp->infinite && !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
     lamp->a = light->constant;
-    lamp->nearest = lamp->a == 0 ? 1e-4f : 0.0f;
+    lamp->least_r = lamp->a == 0 ? 1e-4f : 0.0f;
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
@@ -2756,10 +2756,10 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
                                     shade__arrival *SHADE_RESTRICT to)
 {
     const float a = lamp->a, b = lamp->light->linear, c = lamp->light->quadratic;
-    const float nearest = lamp->nearest;
+    const float least_r = lamp->least_r;
     SHADE__FOR(i, n) {
         float r = shade__keep(to->r[i], 0x7FFFFFFF), sum;
-        r = shade__clamp_bits(r, nearest, 1e18f);
+        r = shade__clamp_bits(r, least_r, 1e18f);
         sum = a + b * r + c * (r * r);
         to->amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
     }
@@ -5357,7 +5357,7 @@ typedef struct shade__axis {
     shade_wrap wrap;
     uint32_t unit;               /* the step of i from texel to texel */
     SHADE_ALIGNED uint32_t i[2][SHADE_LANES];
-    float f[SHADE_LANES];        /* the weight of the texel after it; 0 if nearest */
+    float weight[SHADE_LANES];    /* of the texel after it; 0 if nearest */
 } shade__axis;
 
 /* One level of a texture, and the texels that some blocks of lanes read. */
@@ -5413,7 +5413,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
         float s = along[i] * n - half;
         int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s), as s >= -1/2 */
         i0 = shade__min(i0, last);    /* nearest: a coordinate of 1 would lie beyond the end */
-        a->f[i] = s - (float)i0;
+        a->weight[i] = s - (float)i0;
         a->i[0][i] = (uint32_t)(i0 < 0 ? before : i0) * unit;
         a->i[1][i] = (uint32_t)(i0 < last ? i0 + 1 : after) * unit;
     }
@@ -5441,8 +5441,8 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, con
     shade__address(u, blocks, r->nearest, &r->x);
     shade__address(v, blocks, r->nearest, &r->y);
     if (r->nearest) {
-        SHADE__ZERO(r->x.f);
-        SHADE__ZERO(r->y.f);
+        SHADE__ZERO(r->x.weight);
+        SHADE__ZERO(r->y.weight);
     }
     for (int b = 0; b < blocks; b++) {
         uint32_t apart = (uint32_t)(bytes != 4 || wide);
@@ -5568,8 +5568,9 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
     const shade__layout l = *r->layout;
     for (int b = 0; b < r->blocks * SHADE__BLOCK; b += SHADE__BLOCK) {
         const uint32_t *above = texel + 2 * b, *below = above + 2 * SHADE_LANES;
-        shade__blend_colors(&l, above, below, r->x.f + b, r->y.f + b, out + b);
-        shade__blend_alpha(&l, above, below, r->x.f + b, r->y.f + b, out + b + 3 * SHADE_LANES);
+        shade__blend_colors(&l, above, below, r->x.weight + b, r->y.weight + b, out + b);
+        shade__blend_alpha(&l, above, below, r->x.weight + b, r->y.weight + b,
+                           out + b + 3 * SHADE_LANES);
     }
 }
 
@@ -5642,7 +5643,7 @@ SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c, shad
     const float *second = c + 2 * SHADE_LANES;
     const int blocks = r->blocks;
     SHADE__EACH_BLOCK(i, blocks) {
-        float x = r->x.f[i], y = r->y.f[i], c0 = c[2 * i], c2 = second[2 * i];
+        float x = r->x.weight[i], y = r->y.weight[i], c0 = c[2 * i], c2 = second[2 * i];
         uint32_t right = shade__mask(x > 0), below = shade__mask(y > 0);
         float top = c0 + shade__keep(x * (c[2 * i + 1] - c0), right);
         float low = c2 + shade__keep(x * (second[2 * i + 1] - c2), right);
@@ -5692,7 +5693,7 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
         return;
     }
     for (int i = 0; i < blocks * SHADE__BLOCK; i += SHADE__BLOCK)
-        shade__blend_encoded(r, texel + 2 * i, r->x.f + i, r->y.f + i, to + i);
+        shade__blend_encoded(r, texel + 2 * i, r->x.weight + i, r->y.weight + i, to + i);
 }
 
 /* Filters the texels of a level.  Sets four rows, or adds to them if there are weights. */
@@ -8987,14 +8988,14 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
      holds   The caller's memory is only read, unless the caller's own shaders write.    >>survey */
 
 /* What a fragment shader returned for some fragments, without those that it discards. */
-typedef struct shade__shades {
+typedef struct shade__color_counts {
     long long count;
     long long nan;           /* of these: a channel is NaN, and 0 or NaN in the picture; */
     long long clear;         /* alpha is 0 or less; */
     long long none;          /* no channel is above 0; */
     long long dark;          /* no channel is above 8 of 255; */
     long long bright;        /* a channel is 16 or more */
-} shade__shades;
+} shade__color_counts;
 
 /* What the shaders returned in one run. */
 typedef struct shade__tally {
@@ -9002,7 +9003,7 @@ typedef struct shade__tally {
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
     int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; a w is not 0; not 1 */
     long long   fragments, discarded;    /* hidden ones too; those that the shader discards */
-    shade__shades all, seen;             /* seen: those that have the stored depth */
+    shade__color_counts all, stored;     /* stored: those that have the stored depth */
     int         rows_written;            /* varyings that the vertex shader writes */
     int         reads_more;              /* the fragment shader reads rows past pipe.varyings */
     int         vertex_lanes_left;       /* 1: a shader wrote lane 0 of a packet, and left all */
@@ -9059,7 +9060,7 @@ static float shade__stored(const shade_target *t, int x, int y, int k)
 /* Counts the colour of lane i. */
 static void shade__count_color(const shade_target *t, const shade_fragments *in,
                                const shade_colors *c, int i, shade_blend blend,
-                               shade__shades *to)
+                               shade__color_counts *to)
 {
     const float alpha = c->color[3][i], dim = shade__dim_of(t);
     const int veiled = blend == SHADE_BLEND_OVER && alpha != alpha;
@@ -9102,7 +9103,7 @@ static void shade__count_colors(const shade_target *t, const shade_fragments *in
         if (c->discard[i] || x < clip[0] || y < clip[1] || x >= clip[2] || y >= clip[3]) continue;
         shade__count_color(t, in, c, i, raster->blend, &tally->all);
         if (shade__has_stored_depth(t, in, i))
-            shade__count_color(t, in, c, i, raster->blend, &tally->seen);
+            shade__count_color(t, in, c, i, raster->blend, &tally->stored);
     }
 }
 
@@ -10203,13 +10204,13 @@ static const char *shade__doubt(const shade__survey *s)
    Why no pixel of the whole picture shows the draw: of a mesh, of lines or of a pipeline.
      in      a survey                        out  a sentence, or another answer
      way     climb the ladder nothing: climb_to
-     method  Ladders: tables of changes and answers, tried from top to bottom.  For example: with
+     method  Ladders: tables of questions and answers, tried from top to bottom.  For example: with
              culling off, are there pixels?  Then raster.cull is at fault.               >>hidden */
 
 /* ---- ladders */
 
 typedef struct shade__rung {
-    int (*change)(shade__survey *q);     /* returns whether the answer holds */
+    int (*holds)(shade__survey *q);      /* asks whether the answer is true; may change q */
     const char *answer;
     int (*mend)(shade__survey *q);       /* does what the sentence advises; returns whether the
                                             mesh then shows.  NULL: there is nothing to try */
@@ -10232,9 +10233,9 @@ typedef struct shade__ladder {
 static const shade__rung *shade__climb_to(const shade__survey *s, const shade__ladder *ladder)
 {
     shade__survey q = *s;
-    for (const shade__rung *rung = ladder->rung; rung->change; rung++) {
+    for (const shade__rung *rung = ladder->rung; rung->holds; rung++) {
         if (ladder->changes == SHADE__EACH_ALONE) q = *s;
-        if (rung->change(&q)) return rung;
+        if (rung->holds(&q)) return rung;
     }
     return NULL;
 }
@@ -11433,12 +11434,12 @@ static const shade__ladder shade__flat = {
 /* ---- the colours of a fragment shader of the caller, or of lines */
 
 /* The fragments that are visible for certain, or all: a fault that all of them have is visible. */
-static const shade__shades *shade__visible(const shade__survey *s, const shade__tally *t)
+static const shade__color_counts *shade__visible(const shade__survey *s, const shade__tally *t)
 {
     const shade_raster *r = &s->given_state->raster;
-    const int known = r->blend == SHADE_BLEND_REPLACE && !r->depth_read_only && t->seen.count &&
-                      !(s->given_stats && t->seen.count > s->given_stats->fragments);
-    return known ? &t->seen : &t->all;
+    const int known = r->blend == SHADE_BLEND_REPLACE && !r->depth_read_only && t->stored.count &&
+                      !(s->given_stats && t->stored.count > s->given_stats->fragments);
+    return known ? &t->stored : &t->all;
 }
 
 static const char *shade__why_faint(const shade__survey *s)
@@ -11446,7 +11447,7 @@ static const char *shade__why_faint(const shade__survey *s)
     const shade_raster *raster = &s->given_state->raster;
     const int lines = s->replay && s->replay->lines;
     const shade__tally t = shade__tally_of(s);
-    const shade__shades *v = shade__visible(s, &t);
+    const shade__color_counts *v = shade__visible(s, &t);
     if (!s->replay && t.fragments && t.discarded == t.fragments)
         return shade__all_discarded;
     if (!v->count) return SHADE__GO_ON;
