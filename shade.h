@@ -53,40 +53,41 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     135  options               >>types      269  materials, targets, states
-       >>light      458  the equation, colour  >>draw       568  shaders, meshes, pixels
-       >>tools      729  explain, lines, rays  >>plumbing   952  compilers, flags and bits
-       >>math      1120  vectors and matrices
+       >>config     136  options               >>types      270  materials, targets, states
+       >>light      462  the equation, colour  >>draw       571  shaders, meshes, pixels
+       >>tools      732  explain, lines, rays  >>plumbing   962  compilers, flags and bits
+       >>math      1130  vectors and matrices
      Inside: the vocabulary of the rest
-       >>machine   1490  processors            >>base      1737  bits, masks, rows of vectors
-       >>matrix    1935  cameras, inverses     >>power     2223  x^n
-       >>pixels    2289  formats, sRGB
+       >>machine   1500  processors            >>base      1747  bits, masks, rows of vectors
+       >>matrix    1945  cameras, inverses     >>power     2233  x^n
+       >>pixels    2299  formats, sRGB
      Inside: light
-       >>lamps     2601  attenuation, cones    >>terms     2853  one term at one point
-       >>surface   2928  material and lights   >>lit       3045  the whole sum, at many points
+       >>lamps     2613  attenuation, cones    >>terms     2865  one term at one point
+       >>surface   2940  material and lights   >>lit       3057  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3435  fields by owner       >>vertices  3649  shading, projection
-       >>triangles 3851  culling, edge setup   >>clip      4205  near, far, guard band
-       >>tiles     4392  edges and depth test  >>cover     4755  triangles, tile by tile
-       >>fragments 5023  interpolation, lod    >>texture   5299  texels, filters
-       >>store     5776  blending, packing
+       >>state     3447  fields by owner       >>vertices  3661  shading, projection
+       >>triangles 3863  culling, edge setup   >>clip      4217  near, far, guard band
+       >>tiles     4404  edges and depth test  >>cover     4767  triangles, tile by tile
+       >>fragments 5035  interpolation, lod    >>texels    5311  where they lie, loads
+       >>texture   5500  filters, mipmaps      >>store     5795  blending, packing
      Inside: calls of the renderer
-       >>check     6059  refusals              >>seen      6319  view volume, chunks
-       >>drive     6439  shade_draw            >>mesh      6631  shade_draw_mesh
+       >>check     6078  refusals              >>seen      6338  view volume, chunks
+       >>drive     6458  shade_draw            >>mesh      6650  shade_draw_mesh
      Inside: the tools, which call the renderer; it never calls them
-       >>lines     7035  shade_draw_lines      >>camera    7229  eye and line of sight
-       >>shape     7323  normals, edges        >>chunks    7873  sorting and boxes
-       >>rays      8036  shade_pick            >>image     8227  smaller pictures, mipmaps
-       >>files     8555  PPM and PNG           >>presets   8875  classic materials
+       >>lines     7055  shade_draw_lines      >>camera    7249  eye and line of sight
+       >>normals   7343  of vertices, corners  >>shape     7732  edges, boxes, views
+       >>chunks    7898  sorting and boxes     >>rays      8061  shade_pick
+       >>image     8252  smaller, mipmaps      >>files     8580  PPM and PNG
+       >>presets   8900  classic materials
      Inside: the explanations; SHADE_NO_EXPLAIN leaves them out
-       >>replay    8958  shaders, run again    >>survey    9231  experiments on a draw
-       >>numbers   9687  what makes no sense   >>doubts   10021  what is seldom right
-       >>unseen   10170  why nothing is in view
-       >>hidden   10449  why nothing is stored >>black    10616  why all is black
-       >>wrong    11000  what else is wrong    >>verdict  11392  the calls
+       >>replay    8983  shaders, run again    >>survey    9257  experiments on a draw
+       >>questions 9520  what the picture has  >>numbers   9720  what makes no sense
+       >>doubts   10054  what is seldom right  >>unseen   10203  why nothing is in view
+       >>hidden   10482  why nothing is stored >>black    10649  why all is black
+       >>wrong    11033  what else is wrong    >>verdict  11425  the calls
      Sources
-       >>refs     11682                        >>history  11715
-       >>license  11721
+       >>refs     11715                        >>history  11748
+       >>license  11754
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -118,7 +119,7 @@
      I_a                 ambient light of the scene
      I_La I_d I_s        ambient, diffuse and specular light of one lamp
      a b c, r            attenuation coefficients, distance to the lamp (at infinity: factor 1)
-     spot                (L.S)^e where L.S >= cos(beta), else 0; -S is where the lamp points
+     spot                max(0, L.S)^e where L.S >= cos(beta), else 0; the lamp points along -S
      B                   1 where N.L > 0, else 0
      H                   (L + V) / |L + V|; SHADE_MODEL_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
 */
@@ -151,7 +152,7 @@
                               shade_explain_lines and shade_explain_draw return ""
      SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
                               <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
-                              and turns assertions off
+                              and turns the default SHADE_ASSERT off
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        compiles each hot loop once, for the target of -march
      SHADE_ALLOW_FAST_MATH    lets clang compile the implementation with -ffast-math; the bits
@@ -280,13 +281,16 @@ typedef enum shade_result {
     SHADE_OK = 0,
     SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4,
                                 an output that overlaps an input */
-    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
-    SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk, indices of both kinds */
-    SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
+    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; neither color nor
+                                depth, or no color where a picture is read or written */
+    SHADE_ERROR_MESH,        /* positions NULL, a negative count, a stride, a chunk, indices of both
+                                kinds; an odd point_count */
+    SHADE_ERROR_STATE,       /* in a state or pipeline an unknown enumerator, a number out of range,
+                                or a fragment shader without PER_FRAGMENT; cos_crease is NaN */
     SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model, a cutoff of NaN */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
-    SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
+    SHADE_ERROR_CAPACITY,    /* the caller's array or memory is too small */
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
 } shade_result;
 
@@ -334,10 +338,10 @@ enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The lights of a scene and the lighting equation.  Positions, normals and eye
-   must be in one space with orthogonal axes of equal scale: world or eye space, never clip space.
-   On the outline of a coarse mesh some interpolated normals point away from the viewer.
-   SHADE_FLAG_TWO_SIDED flips these, which shows as specks; a finer mesh has fewer.
+/* The lights of a scene and the lighting equation.  Positions, normals and eye must be in one space
+   with orthogonal axes of equal scale: world or eye space, never clip space.  On the outline of a
+   coarse mesh some interpolated normals point away from the viewer.  SHADE_FLAG_TWO_SIDED flips
+   these, which shows as specks; a finer mesh has fewer.
      To draw a mesh unlit, set terms to SHADE_TERM_AMBIENT and ambient to 1, 1, 1: you see k_a times
    vertex colour and map. */
 typedef struct shade_lighting {
@@ -420,9 +424,9 @@ typedef enum shade_blend {       /* s: the fragment, a: its alpha, d: the pixel,
     SHADE_BLEND_ADD              /* s + d, all four channels */
 } shade_blend;
 
-/* The rasterizer state that all draws share.  The depth of a pixel depends on the
-   positions of its triangle alone: all passes over one mesh give the same depth, to the bit,
-   whatever they shade and interpolate. */
+/* The rasterizer state that all draws share.  The depth of a pixel depends on the positions of its
+   triangle alone: all passes over one mesh give the same depth, to the bit, however they shade and
+   interpolate. */
 typedef struct shade_raster {
     shade_cull    cull;
     shade_compare depth_test;
@@ -484,9 +488,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 /* How much of a lamp arrives at P if nothing is in the way: spot / (a + b r + c r^2), a factor of
    I_d and I_s; 1 for a lamp at infinity without a cone.  *to_light becomes L, unit, from P toward
    the lamp.  Where P is the lamp, or a lamp at infinity has no direction, L is zero, and a cone
-   with cos(beta) > 0 gives no light.
-   *distance becomes r, or FLT_MAX at infinity.  Either may be NULL.  For light NULL all three are
-   zero. */
+   with cos(beta) > 0 gives no light.  *distance becomes r, or FLT_MAX at infinity.  Either may be
+   NULL.  For light NULL all three are zero. */
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: point and to_light are three rows of SHADE_LANES floats, amount is one
@@ -539,8 +542,8 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light
 /* 1 / (a + b r + c r^2), at most 1e20, which is also the result for a sum that is negative or NaN.
    It is 1 where a = b = c = 0; where only a is 0, r counts as max(r, 1e-4).  r is 0 .. 1e18. */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
-/* (L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It is 1
-   where aim is zero. */
+/* max(0, L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It
+   is 1 where aim is zero.  exponent is e; negative counts as 0. */
 SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff, float exponent);
 
 /* The reflectance f_r: reflected light is f_r I (N.L).  It is k_d + k_s (N.H)^n for BLINN_PHONG,
@@ -554,8 +557,8 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, s
 /* 4 n: the Blinn-Phong exponent that gives a highlight of about the size of Phong's exponent n when
    the light comes from the viewer's side. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
-/* x^n.  x is clamped to [0, 1], a negative n counts as 0, and so does NaN as x or n, and x^0 is 1,
-   0^0 too.  The result is never NaN; its absolute error is below 2e-6 for n up to 1e6. */
+/* x^n.  x is clamped to [0, 1].  NaN and negative numbers count as 0, both as x and as n.  x^0 is 1
+   for every x.  The result is never NaN; its absolute error is below 2e-6 for n up to 1e6. */
 SHADEDEF float shade_power(float x, float n);
 
 /* From sRGB to linear light and back, component by component.  Components are clamped to [0, 1],
@@ -630,7 +633,7 @@ typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *
 /* What shade_draw draws with.  If you set lod_texture, fragments have a lod for shade_sample_lanes:
    log2 of the longer of the two steps, in texels of level 0, that (u, v) makes to the next pixel
    right and below.  The steps are the exact derivatives of the perspective interpolation at the
-   pixel, whatever the interpolation is. */
+   pixel, for every interpolation. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
     shade_fragment_shader *fragment;              /* NULL: depth only */
@@ -669,9 +672,9 @@ typedef struct shade_mesh {
     const float *texcoords;  int texcoord_stride;    /* u, v */
     const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
     int vertex_count;
-    const uint32_t *indices; int index_count;        /* NULL: vertices 0, 1, 2, ... */
+    const uint32_t *indices; int index_count;        /* NULL: indices16, or 0, 1, 2, ... */
     const struct shade_chunk *chunks; int chunk_count;    /* NULL and 0: no triangle is skipped */
-    const uint16_t *indices16;                       /* in place of indices: one of them is NULL */
+    const uint16_t *indices16;                       /* in place of indices, which are then NULL */
 } shade_mesh;
 
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
@@ -727,7 +730,10 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
                                       const shade_draw_state *state, shade_stats *stats);
 
 /*------------------------------------------------------------------------------------------ >>tools
-   Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.
+   Tools built on the renderer: explanations, chunks, lines, shapes, rays, pictures, presets.  Each
+   that returns a shade_result checks its arguments before it changes anything but stats and count.
+   A NULL that is not allowed is SHADE_ERROR_ARGUMENT; a bad target or mesh gives the result that a
+   draw of it gives.  A picture to read or write must have color, else it is SHADE_ERROR_TARGET.
                                                                                        >>plumbing */
 
 /* ---- explanations */
@@ -739,7 +745,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    degrees, meshes out of view, culling, depth that was not cleared, and light that does not arrive
    or clips.
      It writes nothing: it draws the mesh again and again, changing one thing at a time, and counts
-   pixels.  If it says that something is missing, no pixel shows it.  It takes the time of many
+   pixels.  It calls a thing missing only if no pixel shows it.  It takes the time of many
    frames and more stack than shade_draw_mesh (bench/stack.c prints how much): call it when a
    picture is wrong, not in every frame.  state.fragment is called many times more than by the draw,
    at times with NaN in what the draw presets, so it must have no side effects.  The sentence is
@@ -758,19 +764,22 @@ SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_
 /* ---- chunks */
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices; triangles 0 means 128.
-   0 for negative numbers, and where index_count is no multiple of 3. */
+   For a mesh without indices pass vertex_count.  0 for negative numbers, and where index_count is
+   no multiple of 3. */
 SHADEDEF int shade_chunk_count(int index_count, int triangles);
 /* Cuts a mesh into chunks of up to `triangles` triangles (0 means 128) and computes their boxes.
    Chunks that the mesh already has are ignored; corners that are NaN or infinite are ignored in the
    box.
      With indices NULL the triangles stay in their order, which is good if neighbours in the list
    are neighbours in space.  Otherwise give indices room for index_count entries, or vertex_count if
-   the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it, and
-   mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and the
-   halves again, in n log n steps, without further memory.  The order is the same on every machine.
-     chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
-   nothing changes.  chunks and indices must overlap neither each other nor the mesh's positions and
-   indices: the result is SHADE_ERROR_ARGUMENT, and nothing changes. */
+   the mesh has no indices: it receives the triangles sorted in space.  Sorting splits the list at
+   the median of its longest axis, and the halves again, in n log n steps, without further memory.
+   The order is the same on every machine.
+     Then set mesh.chunks to chunks, and mesh.chunk_count to shade_chunk_count.  If you gave
+   indices, set mesh.indices and mesh.index_count to them, and mesh.indices16 to NULL.
+     chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY.  It is
+   SHADE_ERROR_ARGUMENT for a negative number, and if chunks or indices overlap each other or the
+   mesh's positions and indices.  In all of these cases nothing changes. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
                                         int capacity, uint32_t *indices);
 
@@ -786,7 +795,7 @@ typedef struct shade_line_state {
 } shade_line_state;
 /* Draws point_count / 2 lines between pairs of points.  Each is a rectangle on the screen, drawn as
    two triangles, which stats counts.  For lines over a filled mesh use SHADE_COMPARE_LESS_EQUAL and
-   a negative depth_bias, such as -1e-3.  A line whose ends coincide is nothing, or a square with
+   a negative depth_bias, such as -1e-3.  A line with equal ends is nothing, or a square with
    SHADE_CAP_SQUARE.  An odd or negative count, or one beyond 715827882, is SHADE_ERROR_MESH; a
    width that is negative, NaN or infinite is SHADE_ERROR_STATE. */
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
@@ -811,12 +820,12 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
-   direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye, which
-   shade_mat4_eye gives, is as near as -w <= x, y <= w allows at all eight corners; near and far do
-   not count.  Sides of an off-centre frustum that exclude the view axis are ignored.  If your
-   projection turns or moves the eye, the view undoes it: for example a left-handed one, which looks
-   along +z.  Without perspective the eye is one diagonal of the box away.  Returns the identity for
-   NaN, infinity and low > high. */
+   direction of any length (zero: +z), with up as in shade_mat4_look_at.  With a perspective the
+   eye, which shade_mat4_eye gives, is as near as -w <= x, y <= w allows at all eight corners; near
+   and far do not count.  Sides of an off-centre frustum that exclude the view axis are ignored.  If
+   your projection turns or moves the eye, the view undoes it: for example a left-handed one, which
+   looks along +z.  Without perspective the eye is one diagonal of the box away.  Returns the
+   identity for NaN, infinity and low > high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
@@ -843,16 +852,17 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
 
 /* Lists each edge of a mesh once, with a < b and its one or two triangles (-1: no second one); a
    third triangle makes a further entry.  Entries are sorted by a, then b.  Give edges room for
-   index_count entries; with less you get SHADE_ERROR_CAPACITY, and the number needed in *count.  An
-   edge from a vertex to itself is left out. */
+   index_count entries (without indices, vertex_count); with less you get SHADE_ERROR_CAPACITY, and
+   the number needed in *count.  After any other error *count is 0.  An edge from a vertex to itself
+   is left out. */
 typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count);
 /* 1 if (e.n0)(e.n1) <= 0, where e, to_eye, goes from the edge to the eye: of the two faces, with
-   normals n0 and n1, one is seen from the front, the other from behind. */
+   normals n0 and n1, one is seen from the front, the other from behind.  0 for NaN. */
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
-/* 1 if n0.n1 <= cos_crease, for unit normals: for example, 0.5 finds edges whose faces turn by 60
-   degrees or more.  0 for NaN. */
+/* 1 if n0.n1 <= cos_crease, for unit normals: for example, 0.5 finds edges at which the faces turn
+   by 60 degrees or more.  0 for NaN. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float cos_crease);
 
 /* ---- rays */
@@ -958,9 +968,9 @@ SHADE__CLOSE
    overrides the pragmas of >>plumbing: do not use them with clang.  A program linked with
    -ffast-math flushes denormal numbers to zero, which only SHADE_FORMAT_RGBA32F and exponents far
    below 1 show.
-     Inline functions are compiled into your files.  They have the same bits under all flags but
-   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
-   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Inline functions are compiled into your files.  Their bits change only with -ffast-math, -Ofast
+   and the parts of these, and with -ffp-contract=fast: of clang, or of gcc beside -std=c99.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them too.
      Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
    riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
    give the same bits everywhere with -ffp-contract=off.
@@ -1007,8 +1017,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export static functions.
-   Those of the implementation are SHADE__INLINE, that is static: they differ with the options of
-   the file. */
+   Inline functions of the implementation are SHADE__INLINE, that is static: they differ with the
+   options of the file. */
 #define SHADE__INLINE static SHADE__ALWAYS_INLINE
 #ifdef __cplusplus
 #define SHADE__EXPORT SHADE__ALWAYS_INLINE
@@ -1035,7 +1045,7 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 
 /* A product in an inline function.  Where the processor has fused multiply-add, gcc fuses products
-   and sums in your file, in inlined functions too, whatever the pragmas of this file say; gcc
+   and sums in your file, in inlined functions too, despite the pragmas of this file; gcc
    -std=c99 does not.  fma(a, b, -0) has the bits of a b, and cannot be fused again.  AltiVec's fma
    takes denormal numbers for 0: there the fma is one of doubles, which is exact, rounded once. */
 #if defined(__ALTIVEC__) && defined(SHADE__GNU) && !defined(__clang__)
@@ -1543,7 +1553,7 @@ enum {
 #elif !defined(SHADE__SPECIALIZE)
 #define SHADE__SPECIALIZE 255
 #endif
-#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)    /* 0: this copy is not compiled */
+#define SHADE__HAS(copy) (SHADE__SPECIALIZE & (copy))    /* 0: this copy is not compiled */
 
 /* gcc would turn loops that fill rows into memset or rep stos, which costs 9 % of a flat fill.  -O2
    makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, to count branches. */
@@ -1794,8 +1804,8 @@ SHADE__INLINE int32_t shade__ordinal(float x) { return (int32_t)shade__float_bit
 SHADE__INLINE float shade__from_ordinal(int32_t i) { return shade__bits_float((uint32_t)i); }
 
 /* clamp(x, lo, hi) by the order of bit patterns.
-   pre: 0 <= lo <= hi; x is not NaN, since its sign, which differs between processors, would choose
-   between lo and hi */
+   pre: 0 <= lo <= hi; x is not NaN, unless its sign bit is clear: then it gives hi.  The sign of
+   other NaNs differs between processors, and would choose between lo and hi */
 SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 {
     const int32_t i = shade__max(shade__ordinal(x), shade__ordinal(lo));
@@ -2163,8 +2173,8 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
                      shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
 }
 
-/* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  y is 1 / tan(fovy /
-   2). */
+/* A perspective that maps eye coordinate z to depth (scale z + offset) / -z.  In it y stands for
+   1 / tan(fovy / 2). */
 static shade_mat4 shade__perspective(float fovy, float aspect, int good, double scale,
                                      double offset)
 {
@@ -2262,7 +2272,7 @@ SHADE__INLINE float shade__exp2_neg(float u)
 }
 
 /* Marks a missing cosine: x^n is 0 for it, even for n = 0. */
-#define SHADE__NEVER -2.0f
+#define SHADE__NEVER (-2.0f)
 
 /* n times -log2(min(x, 1)), for shade__exp2_neg.  For x <= least it is 126, which gives 0; least is
    0 for n > 0, and SHADE__NEVER for n = 0.   pre: n >= 0, finite */
@@ -2328,20 +2338,22 @@ static SHADE__NOINLINE float shade__decode(float c)
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
-SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 c)
+SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 linear)
 {
-    return shade_v3(shade__encode(c.x), shade__encode(c.y), shade__encode(c.z));
+    return shade_v3(shade__encode(linear.x), shade__encode(linear.y), shade__encode(linear.z));
 }
 
-SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
+SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 display)
 {
-    return shade_v3(shade__decode(c.x), shade__decode(c.y), shade__decode(c.z));
+    return shade_v3(shade__decode(display.x), shade__decode(display.y), shade__decode(display.z));
 }
 
-SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
+SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb)
 {
-    return shade_linear_from_srgb(shade_v3(
-        (float)(rgb >> 16 & 255) / 255, (float)(rgb >> 8 & 255) / 255, (float)(rgb & 255) / 255));
+    const shade_vec3 display = shade_v3((float)(rrggbb >> 16 & 255) / 255,
+                                        (float)(rrggbb >> 8 & 255) / 255,
+                                        (float)(rrggbb & 255) / 255);
+    return shade_linear_from_srgb(display);
 }
 
 /* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits.  Its channel k (R,
@@ -2470,12 +2482,12 @@ SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
 /* The bytes of sRGB targets, floor(255 encode(c) + 1/2), by table; shade__pack_bytes reads it.
    Halving the bit pattern of c gives a rough square root; that root times 372, rounded down, is the
    number of the cell.  The first entry is for cell 4, the last for cell 372.  Within a cell the
-   byte changes at most once, and the entry says where: in its low 24 bits are those of the first
-   float after the change, and in its high 8 bits the byte of that float.  For example, in the last
-   cell 0xFF7EDC0E means 255 from the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c minus the
-   entry is set, c lies before that float, and its byte is one less.  A cell without a change has
-   the entry of another one, whose change is fewer than 2^23 floats away.  An sRGB picture of a
-   teapot takes .95 of the time with AVX-512, and .81 with AVX2 and SSE2. */
+   byte changes at most once.  The entry has the low 24 bits of the first float after the change,
+   and above them the byte of that float.  For example, in the last cell 0xFF7EDC0E means 255 from
+   the float 0x3F7EDC0E on, and 254 before.  If bit 23 of c minus the entry is set, c lies before
+   that float, and its byte is one less.  A cell without a change has the entry of another cell,
+   with a change fewer than 2^23 floats away.  An sRGB picture of a teapot takes .95 of the time
+   with AVX-512, and .81 with AVX2 and SSE2. */
 static const uint32_t shade__byte_steps[] = {
     0x011F22B3u, 0x011F22B3u, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x02EEB40Eu, 0x0346EB61u,
     0x0346EB61u, 0x048B3E5Du, 0x05B3070Bu, 0x05B3070Bu, 0x06DACFB7u, 0x06DACFB7u, 0x07014C32u,
@@ -2661,7 +2673,7 @@ typedef struct shade__lamp {
     const shade_light *light;
     shade_vec3 at;          /* its position, or at infinity the unit L */
     shade_vec3 axis;        /* S of the cone, unit; zero: no cone */
-    float a, nearest;       /* a of the attenuation, or 1 for none; the least r */
+    float a, least_r;       /* a of the attenuation, or 1 for none; the least r */
     int infinite, spot;
     int falls;              /* the attenuation depends on r */
     /* The light that one surface reflects of it, set by >>surface. */
@@ -2684,7 +2696,7 @@ static void shade__prepare_lamp(const shade_light *light, shade__lamp *lamp)
 
     lamp->falls = !lamp->infinite && !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
     lamp->a = light->constant;
-    lamp->nearest = lamp->a == 0 ? 1e-4f : 0.0f;
+    lamp->least_r = lamp->a == 0 ? 1e-4f : 0.0f;
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
@@ -2738,16 +2750,16 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     return any;
 }
 
-/* amount = 1 / (a + b r + c r^2).  Greater, infinite and NaN r count as 1e18.  A sum of infinities
-   of both signs is NaN and gives 1e20, as in shade_attenuation. */
+/* amount = 1 / (a + b r + c r^2).  An r that is NaN, infinite or beyond 1e18 counts as 1e18.  A sum
+   of infinities of both signs is NaN and gives 1e20, as in shade_attenuation. */
 SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
                                     shade__arrival *SHADE_RESTRICT to)
 {
     const float a = lamp->a, b = lamp->light->linear, c = lamp->light->quadratic;
-    const float nearest = lamp->nearest;
+    const float least_r = lamp->least_r;
     SHADE__FOR(i, n) {
         float r = shade__keep(to->r[i], 0x7FFFFFFF), sum;
-        r = shade__clamp_bits(r, nearest, 1e18f);
+        r = shade__clamp_bits(r, least_r, 1e18f);
         sum = a + b * r + c * (r * r);
         to->amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
     }
@@ -2945,7 +2957,7 @@ typedef struct shade__surface {
     shade_vec3 cool, warmth;    /* the tone's: cool, and warm - cool */
     int tone;               /* cool to warm by one lamp; else the equation */
     int lamps;              /* lights to loop over; 0 if no term needs them; 1 for a tone */
-    uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
+    uint32_t ungated;       /* all ones with UNGATED_SPECULAR, else 0 */
     uint32_t sign;          /* a mask for N.L in the diffuse term: TWO_SIDED_ABS clears its sign */
     shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the tone's */
 } shade__surface;
@@ -3024,7 +3036,7 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
     s->terms = terms;
     s->material = material ? *material : shade__white_lambert();
     s->eye = shade__xyzw(eye, flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
-    s->open = shade__mask((flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
+    s->ungated = shade__mask((flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
     s->sign = flags & SHADE_FLAG_TWO_SIDED_ABS ? 0x7FFFFFFF : 0xFFFFFFFF;
 
     s->lamps = lighting->lights ? shade__max(lighting->light_count, 0) : 0;
@@ -3113,12 +3125,12 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* 1 if there is a highlight: where N.L > 0 or, if open, wherever N is not zero.  open >> 1 clears
-   the sign, so that |rn| takes the place of N.L. */
-SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
+/* 1 if there is a highlight: where N.L > 0 or, if ungated, wherever N is not zero.  ungated >> 1
+   clears the sign, so that |rn| takes the place of N.L. */
+SHADE__INLINE int shade__gate(float nl, float rn, uint32_t ungated)
 {
-    uint32_t either = shade__float_bits(nl) & ~open;
-    either |= shade__float_bits(rn) & open >> 1;
+    uint32_t either = shade__float_bits(nl) & ~ungated;
+    either |= shade__float_bits(rn) & ungated >> 1;
     return shade__bits_float(either) > 0;
 }
 
@@ -3127,7 +3139,7 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 #define SHADE__OPPOSITE 1e-3f
 SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n, shade__lit *SHADE_RESTRICT r)
 {
-    const uint32_t open = r->surface->open;
+    const uint32_t ungated = r->surface->ungated;
     uint32_t opposite = 0;
     SHADE__FOR(i, n) {
         shade_vec3 half = shade_add(shade__at(&r->a.to_light, i), shade__at(&r->to_eye, i));
@@ -3140,7 +3152,7 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n, shade__lit 
     SHADE__FOR(i, n) {
         float h2 = r->h2[i], rn = r->rn[i];
         float nh = r->cosine[i] * (rn * shade__rsqrt_normal(h2));
-        uint32_t exists = shade__mask(shade__gate(r->nl[i], rn, open));
+        uint32_t exists = shade__mask(shade__gate(r->nl[i], rn, ungated));
         exists &= shade__mask(h2 >= 1e-12f);
         r->cosine[i] = shade__select(SHADE__NEVER, nh, exists);
     }
@@ -3161,7 +3173,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point, const shade
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], p[3], h2, nh;
         if (!(r->h2[i] < SHADE__OPPOSITE)) continue;
-        if (!shade__gate(r->nl[i], r->rn[i], r->surface->open)) continue;
+        if (!shade__gate(r->nl[i], r->rn[i], r->surface->ungated)) continue;
 
         shade__double3(shade__at(point, i), p);
         shade__double3(shade__at(normal, i), m);
@@ -3183,7 +3195,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point, const shade
 /* R.V as in shade__mirror_cosine, or SHADE__NEVER where the gate is shut. */
 SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n, shade__lit *SHADE_RESTRICT r)
 {
-    const uint32_t open = r->surface->open;
+    const uint32_t ungated = r->surface->ungated;
     SHADE__FOR(i, n) {
         float nl = r->nl[i], rn = r->rn[i], cosine;
         shade_vec3 to_light = shade__at(&r->a.to_light, i), to_eye = shade__at(&r->to_eye, i);
@@ -3193,7 +3205,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n, shade__lit 
         uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
-        cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
+        cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, ungated)));
         r->cosine[i] = cosine;
     }
 }
@@ -3285,11 +3297,11 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r, shade__in_
                                   shade__out_v3 rgb)
 {
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
-    const uint32_t sign = r->surface->sign, open = r->surface->open;
+    const uint32_t sign = r->surface->sign, ungated = r->surface->ungated;
     SHADE__FOR(i, n) {
         float nl = shade__keep(r->nl[i], sign), amount = r->a.amount[i];
         uint32_t front = shade__mask(nl > 0);
-        uint32_t reached = (front | open) & shade__mask(amount != 0);
+        uint32_t reached = (front | ungated) & shade__mask(amount != 0);
         shade_vec3 diffuse = plain ? k_d : shade_mul(k_d, shade__at(albedo, i));
         shade_vec3 specular = plain ? k_s : shade_mul(k_s, shade__at(tint, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
@@ -3350,7 +3362,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r, shade__v3 
         return;
     }
     if (!shade__is_zero(r->lamp->ambient)) shade__add_ambient(r, albedo, n, rgb);
-    if (!(any | s->open | ~s->sign)) return;
+    if (!(any | s->ungated | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
     if (visibility) shade__shadow(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
@@ -3481,9 +3493,9 @@ enum {
     /* at least 4 vertices of the most values; take_batch needs 3 */
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
-    SHADE__PARTS = SHADE_LANES < 64 ? 2 : 8,
-    SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
-    SHADE__BOUNDS = SHADE_LANES * SHADE_LANES / 32,
+    SHADE__PARTS = SHADE_LANES < 64 ? 2 : 8,          /* of a batch */
+    SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,     /* set up at a time */
+    SHADE__BOUNDS = SHADE_LANES * SHADE_LANES / 32,   /* depths in shade__bounds */
     SHADE__CLIP_VERTICES = 13,        /* see >>clip */
     SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>tiles tests together */
 };
@@ -3556,7 +3568,7 @@ typedef struct shade__polygon {
     uint8_t  corner[SHADE__CLIP_VERTICES];
     int      count;                   /* corners, in order */
     uint32_t taken;                   /* bit v: vertex v is in use */
-    int      in_front;                /* all corners have w > 0: they have window positions */
+    int      in_front;                /* the triangle's corners all have w > 0 */
     int64_t  area;                    /* twice, in 1/65536 pixel, of the whole polygon */
 } shade__polygon;
 
@@ -4261,7 +4273,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     const float *from = p->vertex[in].clip, *to = p->vertex[out].clip;
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
     p->taken |= 1u << v;
-    if (p->in_front) {
+    if (p->in_front) {    /* else the edge may have no place on the screen */
         /* rounding may leave a new vertex without w */
         double inner = d_in * (double)shade__maxf(to[3], shade__w_least);
         s = inner / (inner - d_out * (double)shade__maxf(from[3], shade__w_least));
@@ -5029,7 +5041,7 @@ static void shade__cover(shade__draw *d, int count)
      way     push: make_planes, push_run: append; flush: replicate, undivide, the user's shader,
              store
      holds   With perspective, varyings in the queue are divided by w; the flush multiplies them by
-             w for the shader.  Lanes from count on repeat the last one.                >>texture */
+             w for the shader.  Lanes from count on repeat the last one.                 >>texels */
 
 enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels appended at once */
 
@@ -5296,16 +5308,12 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 }
 SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 
-/*---------------------------------------------------------------------------------------- >>texture
-   Filters texels for blocks of lanes, one mipmap after the other: places and weights along both
-   axes, a pair of texels above and a pair below, and their blend.
-     in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
-     way     shade_sample_lanes: sample_levels: read_level: open_level: address; filter:
-             filter_packed or filter_floats: fetch, blend_packed, blend_encoded or blend_floats;
-             add_level
-     holds   Every index lies in the texture, for any u and v.  Each mipmap has the weight max(0,
-             1 - |lod - level|), which is trilinear filtering.                      [Williams83]
-                                                                                          >>store */
+/*----------------------------------------------------------------------------------------- >>texels
+   Texels of one level for blocks of lanes: along both axes the texel before and after a coordinate
+   and its weight, then the pairs of texels above and below.
+     in      a good texture, rows u and v     out  a shade__reader; pairs of texels as words
+     way     open_level: address; then fetch: fetch_pair or fetch_apart
+     holds   Every index lies in the texture, for any u and v.                          >>texture */
 
 /* A sentence about the fault of a texture, or NULL. */
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
@@ -5349,7 +5357,7 @@ typedef struct shade__axis {
     shade_wrap wrap;
     uint32_t unit;               /* the step of i from texel to texel */
     SHADE_ALIGNED uint32_t i[2][SHADE_LANES];
-    float f[SHADE_LANES];        /* the weight of the texel after it; 0 if nearest */
+    float weight[SHADE_LANES];    /* of the texel after it; 0 if nearest */
 } shade__axis;
 
 /* One level of a texture, and the texels that some blocks of lanes read. */
@@ -5405,7 +5413,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
         float s = along[i] * n - half;
         int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s), as s >= -1/2 */
         i0 = shade__min(i0, last);    /* nearest: a coordinate of 1 would lie beyond the end */
-        a->f[i] = s - (float)i0;
+        a->weight[i] = s - (float)i0;
         a->i[0][i] = (uint32_t)(i0 < 0 ? before : i0) * unit;
         a->i[1][i] = (uint32_t)(i0 < last ? i0 + 1 : after) * unit;
     }
@@ -5433,8 +5441,8 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u, con
     shade__address(u, blocks, r->nearest, &r->x);
     shade__address(v, blocks, r->nearest, &r->y);
     if (r->nearest) {
-        SHADE__ZERO(r->x.f);
-        SHADE__ZERO(r->y.f);
+        SHADE__ZERO(r->x.weight);
+        SHADE__ZERO(r->y.weight);
     }
     for (int b = 0; b < blocks; b++) {
         uint32_t apart = (uint32_t)(bytes != 4 || wide);
@@ -5488,6 +5496,16 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line, int k
         else shade__fetch_apart(r, p, line, first, 4, to);
     }
 }
+
+/*---------------------------------------------------------------------------------------- >>texture
+   Filters texels, one mipmap after the other: four texels are blended to one colour.
+     in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
+     way     shade_sample_lanes: sample_levels: read_level: open_level of >>texels; filter:
+             filter_packed or filter_floats: fetch, blend_packed, blend_encoded or blend_floats;
+             add_level
+     holds   Each mipmap has the weight max(0, 1 - |lod - level|), which is trilinear filtering.
+                                                                                    [Williams83]
+                                                                                          >>store */
 
 /* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
    not shifted down: in place, times 1 / mask, they give the same product, and as they lie below bit
@@ -5550,8 +5568,9 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r, shade__in_bits te
     const shade__layout l = *r->layout;
     for (int b = 0; b < r->blocks * SHADE__BLOCK; b += SHADE__BLOCK) {
         const uint32_t *above = texel + 2 * b, *below = above + 2 * SHADE_LANES;
-        shade__blend_colors(&l, above, below, r->x.f + b, r->y.f + b, out + b);
-        shade__blend_alpha(&l, above, below, r->x.f + b, r->y.f + b, out + b + 3 * SHADE_LANES);
+        shade__blend_colors(&l, above, below, r->x.weight + b, r->y.weight + b, out + b);
+        shade__blend_alpha(&l, above, below, r->x.weight + b, r->y.weight + b,
+                           out + b + 3 * SHADE_LANES);
     }
 }
 
@@ -5595,7 +5614,7 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
     }
 }
 
-/* Blends a block of sRGB texels, whose upper pairs begin at `above`, into four rows.  With both
+/* Blends a block of sRGB texels into four rows; the upper pairs begin at `above`.  With both
    weights 0 the result is the left texel above. */
 SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *above, shade__in x,
                                         shade__in y, shade__out out)
@@ -5624,7 +5643,7 @@ SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c, shad
     const float *second = c + 2 * SHADE_LANES;
     const int blocks = r->blocks;
     SHADE__EACH_BLOCK(i, blocks) {
-        float x = r->x.f[i], y = r->y.f[i], c0 = c[2 * i], c2 = second[2 * i];
+        float x = r->x.weight[i], y = r->y.weight[i], c0 = c[2 * i], c2 = second[2 * i];
         uint32_t right = shade__mask(x > 0), below = shade__mask(y > 0);
         float top = c0 + shade__keep(x * (c[2 * i + 1] - c0), right);
         float low = c2 + shade__keep(x * (second[2 * i + 1] - c2), right);
@@ -5674,7 +5693,7 @@ SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, flo
         return;
     }
     for (int i = 0; i < blocks * SHADE__BLOCK; i += SHADE__BLOCK)
-        shade__blend_encoded(r, texel + 2 * i, r->x.f + i, r->y.f + i, to + i);
+        shade__blend_encoded(r, texel + 2 * i, r->x.weight + i, r->y.weight + i, to + i);
 }
 
 /* Filters the texels of a level.  Sets four rows, or adds to them if there are weights. */
@@ -6646,8 +6665,9 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    shade_lighting lighting;             /* at vertices with a map: terms that the map multiplies */
-    unsigned unmapped;                   /* the other terms */
+    shade_lighting lighting;             /* with a map and light at vertices, only the terms that
+                                            the map multiplies */
+    unsigned unmapped;                   /* then: the terms that it does not */
     shade__surface surface;              /* made from lighting */
     const shade_texture *map;            /* NULL: none */
     uint32_t white_map;                  /* all ones: the map counts as white, with its holes */
@@ -6846,8 +6866,8 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
     }
 }
 
-/* Lights fragments whose albedo is the map: rgb holds its colours, and receives the light.  Not
-   inlined, so that only maps take its stack. */
+/* Lights fragments with the map as their albedo: rgb holds its colours, and receives the light.
+   Not inlined, so that only maps take its stack. */
 static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
                                            float *rgb)
 {
@@ -7231,7 +7251,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
      in      projection, view             out  a shade__camera, in double
      way     camera_of: ray_through
      holds   A camera depends on the product of both matrices alone, not on how it is split between
-             them.                                                                        >>shape */
+             them.                                                                      >>normals */
 
 typedef struct shade__camera {
     double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
@@ -7266,7 +7286,7 @@ static void shade__direction3(double *v)
 /* The ray through x/w and y/w: the line where the planes of both meet.  In a perspective it starts
    on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
 static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
-                               double *way)
+                               double *direction)
 {
     const double *z = c->row[2], *w = c->row[3];
     double a[4], b[4], start[4], ab[3], aw[3], wb[3], p[3], q[3], along, w_there = 1;
@@ -7279,21 +7299,21 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
     shade__cross3(c->row[0], c->row[1], ab);
     shade__cross3(c->row[0], w, aw);
     shade__cross3(w, c->row[1], wb);
-    for (int k = 0; k < 3; k++) way[k] = ab[k] - y * aw[k] - x * wb[k];
+    for (int k = 0; k < 3; k++) direction[k] = ab[k] - y * aw[k] - x * wb[k];
     shade__cross3(b, start, p);
     shade__cross3(start, a, q);
-    along = shade__dot3(start, way);
+    along = shade__dot3(start, direction);
     for (int k = 0; k < 3; k++) {
-        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
+        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * direction[k];
         from[k] = along != 0 ? -sum / along : 0;
     }
 
     if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
     for (int k = 0; k < 3; k++) {
-        if (along == 0) way[k] = 0;
-        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
+        if (along == 0) direction[k] = 0;
+        if ((along < 0) != (w_there < 0)) direction[k] = -direction[k];
     }
-    shade__direction3(way);
+    shade__direction3(direction);
 }
 
 /* Parallel rays: w should be constant, but rounded entries make it vary a little.  For near = n and
@@ -7301,16 +7321,16 @@ static void shade__ray_through(const shade__camera *c, double x, double y, doubl
    rounding. */
 static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view, shade__camera *c)
 {
-    double p[16], v[16], way[3];
+    double p[16], v[16], direction[3];
     shade__doubles(shade__entries(projection), 16, p);
     shade__doubles(shade__entries(view), 16, v);
     for (int k = 0; k < 16; k++) {
         const double *a = p + k % 4, *b = v + k / 4 * 4;
         c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
     }
-    shade__cross3(c->row[0], c->row[1], way);
-    c->perspective = shade__abs(shade__dot3(c->row[3], way)) >
-                     shade__abs(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    shade__cross3(c->row[0], c->row[1], direction);
+    c->perspective = shade__abs(shade__dot3(c->row[3], direction)) >
+                     shade__abs(shade__dot3(c->row[2], direction)) * (1 / 65536.0);
     shade__ray_through(c, 0, 0, c->eye, c->sight);
     c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
     for (int k = 0; k < 3; k++) {
@@ -7320,17 +7340,14 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
     shade__direction3(c->sight);
 }
 
-/*------------------------------------------------------------------------------------------ >>shape
-   The shape of a mesh: normals of vertices and corners, edges, its box, and the view that shows it.
-     in      meshes, the caller's memory         out  the caller's arrays
+/*---------------------------------------------------------------------------------------- >>normals
+   Normals of vertices and corners: sums over the faces around them.
+     in      meshes, the caller's memory         out  the caller's normals
      way     mesh_normals: sum_normals: load_faces; find_faces: find_edge, find_wedge,
              find_angle; add_face.
-             mesh_corner_normals: sort_corners, triangle_normal, corner_angle.
-             mesh_edges: sort_corners, edge_from.  mesh_bounds: box_chunk.
-             box_visible: frustum_of and in_view of >>seen.
-             mat4_fit: camera_of, frame_of, step_back
-     method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
-                                                                                         >>chunks */
+             mesh_corner_normals: sort_corners, triangle_normal, corner_angle
+     method  normals of faces, weighted by their angle at the vertex                 [Thurmer98]
+                                                                                          >>shape */
 
 #define SHADE__TAN 0.4142135623730951    /* of pi/8 */
 
@@ -7533,8 +7550,8 @@ SHADE__INLINE void shade__find_angle(shade__wedge *SHADE_RESTRICT w)
     }
 }
 
-/* Finds all of the faces from their corners.  A face whose sine at corner 0 is above 1e-5 has area,
-   because the roundings of edges turn them by less than 1e-6. */
+/* Finds edges and wedges of faces from their corners.  A face with a sine above 1e-5 at corner 0
+   has area, because the roundings of edges turn them by less than 1e-6. */
 SHADE__INLINE void shade__find_faces_body(shade__faces *f)
 {
     SHADE__FOR(i, SHADE__BLOCK) { f->odd[i] = 0; }
@@ -7671,11 +7688,11 @@ SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 }
 
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
-                                                shade_vec3 *out, void *memory, size_t bytes)
+                                                shade_vec3 *normals, void *memory, size_t bytes)
 {
     const int corners = mesh ? shade__corner_count(mesh) : 0;
     const int usable = (memory || !corners) && (uintptr_t)memory % 4 == 0;
-    shade_result result = shade__check_shape(mesh, usable ? out : NULL);
+    shade_result result = shade__check_shape(mesh, usable ? normals : NULL);
     uint32_t *order, count;
     size_t used;
     float *angle;
@@ -7687,7 +7704,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     if (result) return result;
     used = shade__corner_bytes(count);
     if (bytes < used || (count && !used)) return SHADE_ERROR_CAPACITY;
-    result = shade__check_outs(mesh, shade__array(out, count * sizeof *out),
+    result = shade__check_outs(mesh, shade__array(normals, count * sizeof *normals),
                                shade__array(memory, used));
     if (result || !count) return result;
     order = (uint32_t *)memory;
@@ -7706,11 +7723,19 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
                 if (i == j || shade_dot(n, other) >= cos_crease)
                     mean = shade_madd(mean, angle[order[j]], other);
             }
-            out[order[i]] = shade__unit_vector(mean);
+            normals[order[i]] = shade__unit_vector(mean);
         }
     }
     return SHADE_OK;
 }
+
+/*------------------------------------------------------------------------------------------ >>shape
+   The shape of a mesh: its edges, its box, and the view that shows the box.
+     in      meshes, boxes, a projection         out  the caller's edges; boxes, a view
+     way     mesh_edges: sort_corners and edge_from of >>normals.  mesh_bounds: box_chunk.
+             box_visible: frustum_of and in_view of >>seen.
+             mat4_fit: camera_of, frame_of, step_back
+     method  edges by sorting                                                            >>chunks */
 
 /* The caller's array, of 16 bytes a corner, is scratch memory too: the sorted corners lie in its
    last quarter.  The i corners read so far have made at most i edges, which end at byte 16 i.  The
@@ -7754,9 +7779,9 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
     return (double)shade_dot(to_eye, n0) * (double)shade_dot(to_eye, n1) <= 0;
 }
 
-SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
+SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float cos_crease)
 {
-    return shade_dot(n0, n1) <= threshold;
+    return shade_dot(n0, n1) <= cos_crease;
 }
 
 SHADE__INLINE int shade__finite3(shade_vec3 v)
@@ -8062,12 +8087,12 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
 {
     shade__camera c;
     shade_ray ray;
-    double from[3], way[3];
+    double from[3], direction[3];
     shade__camera_of(&projection, &view, &c);
     shade__ray_through(&c, 2 * (double)x / shade__max(width, 1) - 1,
-                       1 - 2 * (double)y / shade__max(height, 1), from, way);
+                       1 - 2 * (double)y / shade__max(height, 1), from, direction);
     ray.origin = shade__single3(c.perspective ? c.eye : from);
-    ray.direction = shade__single3(way);
+    ray.direction = shade__single3(direction);
     if (!shade__finite3(ray.origin) || !shade__finite3(ray.direction)) SHADE__ZERO(ray);
     return ray;
 }
@@ -8245,7 +8270,7 @@ static shade_result shade__check_picture(const shade_target *t)
 
 /* Along one axis, texel i of a mipmap covers a share of each of pixels 2 i, 2 i + 1 and, if the
    size is odd, 2 i + 2 of the level above.  For example, 5 pixels become 2 texels, 2.5 pixels each:
-   the shares of texel 0 are 1, 1, 0.5, those of texel 1 are 0.5, 1, 1. */
+   texel 0 has the shares 1, 1, 0.5 and texel 1 has 0.5, 1, 1. */
 typedef struct shade__shares { int pixels; double share[3]; } shade__shares;
 
 /* Tables to make a level of mipmaps. */
@@ -8763,7 +8788,7 @@ static int shade__filtered(const shade__png_rows *rows, int filter, int i)
 }
 
 /* Takes a row in a filter.  With pack 0 it only returns about how many bits that would need: 1 for
-   a byte that repeats the one three before it, else those of its code. */
+   a byte that repeats the one three before it, else the length of its code. */
 static uint32_t shade__png_row(shade__png *f, int y, int filter, int pack)
 {
     const shade_target *t = f->target;
@@ -8963,29 +8988,29 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
      holds   The caller's memory is only read, unless the caller's own shaders write.    >>survey */
 
 /* What a fragment shader returned for some fragments, without those that it discards. */
-typedef struct shade__shades {
+typedef struct shade__color_counts {
     long long count;
     long long nan;           /* of these: a channel is NaN, and 0 or NaN in the picture; */
     long long clear;         /* alpha is 0 or less; */
     long long none;          /* no channel is above 0; */
     long long dark;          /* no channel is above 8 of 255; */
     long long bright;        /* a channel is 16 or more */
-} shade__shades;
+} shade__color_counts;
 
 /* What the shaders returned in one run. */
 typedef struct shade__tally {
     shade_stats stats;                   /* fragments: neither discarded nor hidden */
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
-    int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; some w is not 0; not 1 */
-    long long   fragments, discarded;    /* all of them, hidden or not; of these */
-    shade__shades all, seen;             /* seen: those that have the stored depth */
-    int         rows;                    /* varyings that the vertex shader writes */
+    int         any_xy, any_w, other_w;  /* 1: some x or y is not 0; a w is not 0; not 1 */
+    long long   fragments, discarded;    /* hidden ones too; those that the shader discards */
+    shade__color_counts all, stored;     /* stored: those that have the stored depth */
+    int         rows_written;            /* varyings that the vertex shader writes */
     int         reads_more;              /* the fragment shader reads rows past pipe.varyings */
     int         vertex_lanes_left;       /* 1: a shader wrote lane 0 of a packet, and left all */
     int         fragment_lanes_left;     /*    others alone */
 } shade__tally;
 
-/* The bits of a NaN that no arithmetic gives: it marks floats that nobody has written. */
+/* The bits of a NaN that no arithmetic gives: it marks floats that no shader has written. */
 #define SHADE__UNWRITTEN 0x7FC5AD1Eu
 
 /* A draw that is run again. */
@@ -8996,8 +9021,8 @@ typedef struct shade__replay {
     shade__indices      indices;
     int                 corners;
     shade_pipeline      pipe;            /* the given one */
-    shade_mesh          mesh;            /* zero, and all but the raster of state: what a survey */
-    shade_draw_state    state;           /* has in place of a mesh */
+    shade_mesh          mesh;            /* zero: a survey needs a mesh and a state */
+    shade_draw_state    state;           /* zero, but for its raster */
 } shade__replay;
 
 /* One run of it, for its shaders. */
@@ -9035,7 +9060,7 @@ static float shade__stored(const shade_target *t, int x, int y, int k)
 /* Counts the colour of lane i. */
 static void shade__count_color(const shade_target *t, const shade_fragments *in,
                                const shade_colors *c, int i, shade_blend blend,
-                               shade__shades *to)
+                               shade__color_counts *to)
 {
     const float alpha = c->color[3][i], dim = shade__dim_of(t);
     const int veiled = blend == SHADE_BLEND_OVER && alpha != alpha;
@@ -9078,7 +9103,7 @@ static void shade__count_colors(const shade_target *t, const shade_fragments *in
         if (c->discard[i] || x < clip[0] || y < clip[1] || x >= clip[2] || y >= clip[3]) continue;
         shade__count_color(t, in, c, i, raster->blend, &tally->all);
         if (shade__has_stored_depth(t, in, i))
-            shade__count_color(t, in, c, i, raster->blend, &tally->seen);
+            shade__count_color(t, in, c, i, raster->blend, &tally->stored);
     }
 }
 
@@ -9110,7 +9135,8 @@ static SHADE__NOINLINE void shade__check_vertices(const shade_pipeline *p,
     p->vertex(p->uniforms, in, &out);
     t->vertex_lanes_left |= shade__lanes_are_left(out.clip[0], 4, in->count);
     for (int k = 0; k < SHADE_MAX_VARYINGS; k++)
-        if (!shade__is_unwritten(out.varying[k][0])) t->rows = shade__max(t->rows, k + 1);
+        if (!shade__is_unwritten(out.varying[k][0]))
+            t->rows_written = shade__max(t->rows_written, k + 1);
 }
 
 /* Looks at what a fragment shader reads and writes of a packet.  Its colours must change with the
@@ -9186,11 +9212,11 @@ enum {                                   /* how a draw is run again */
     SHADE__CHECKS = 2                    /* what shaders read and write is checked */
 };
 
-/* Runs the draw, with a raster and into a picture that may differ from the given ones; margin is
-   the far_margin of a survey.  vertex NULL: the given one. */
+/* Runs the draw, with a raster and into a picture that may differ from the given ones.  far_range:
+   farthest and far_margin of a survey.  vertex NULL: the given one. */
 static shade__tally shade__run_again(const shade__replay *r, const shade_target *picture,
                                      const shade_raster *raster, shade_vertex_shader *vertex,
-                                     const float margin[2], unsigned how)
+                                     const float far_range[2], unsigned how)
 {
     shade__rerun run;
     shade__tally tally;
@@ -9203,8 +9229,8 @@ static shade__tally shade__run_again(const shade__replay *r, const shade_target 
     run.vertex = vertex ? vertex : p.vertex;
     run.fragment = how & SHADE__UNDISCARDED ? NULL : p.fragment;
     run.checks = !r->lines && how & SHADE__CHECKS;
-    run.far_depth = margin[0];
-    run.far_margin = margin[1];
+    run.far_depth = far_range[0];
+    run.far_margin = far_range[1];
     run.tally = &tally;
     t.color = NULL;
     p.vertex = shade__replay_vertex;
@@ -9231,15 +9257,15 @@ static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SH
 /*----------------------------------------------------------------------------------------- >>survey
    Experiments: a draw is made again with something changed, and pixels are counted.
      in      arguments of a draw           out  numbers of pixels, stats; depths of some pixels
-     way     open_survey; then a change to a copy, and count or take_probes of it: draw_trial:
-             draw_scene of >>mesh, with judge as its fragment shader; or run_again
+     way     open_survey of >>questions; then a change to a copy, and count or take_probes of it:
+             draw_trial: draw_scene of >>mesh, with judge as its fragment shader; or run_again
      holds   A survey is a draw.  An experiment changes a copy of it, q, and draws the copy.  The
              caller's memory is only read.  The mesh's fragment shader is called by tally_of alone.
-                                                                                        >>numbers */
+                                                                                      >>questions */
 
 enum {
     SHADE__SUSPECTS = 16,                /* the most lamps that experiments use */
-    SHADE__PROBES = 256                  /* pixels whose depths are compared; a power of two */
+    SHADE__PROBES = 256                  /* pixels in which depths are compared; a power of 2 */
 };
 
 /* The fragments of one sampled pixel, in drawing order. */
@@ -9384,7 +9410,7 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
     }
     trial->survey = s;
     t.color = NULL;
-    /* may_discard is 1: so >>fragments sets x, y and z, which judge reads */
+    /* may_discard = 1 makes >>fragments set x, y and z, which judge reads */
     shade__draw_scene(&t, &trial->scene, trial->tally ? shade__tally_mesh : shade__judge, 1,
                       &stats);
     return stats;
@@ -9393,8 +9419,8 @@ static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial
 /* Runs lines or a pipeline.  vertex NULL: the given shader. */
 static shade__tally shade__replay_of(const shade__survey *s, shade_vertex_shader *vertex)
 {
-    const float far_depth[2] = { s->farthest, s->far_margin };
-    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_depth,
+    const float far_range[2] = { s->farthest, s->far_margin };
+    return shade__run_again(s->replay, &s->picture, &s->state.raster, vertex, far_range,
                             s->how);
 }
 
@@ -9457,13 +9483,13 @@ static int shade__differ(const shade__survey *a, const shade__survey *b)
     return 0;
 }
 
-/* Is there a pixel of sqrt(dim) or more?  Even a surface that reflects only sqrt(dim) shows it. */
+/* Is there a pixel of sqrt(dim) or more?  A surface that reflects sqrt(dim) of it gives dim. */
 static int shade__bright(const shade__survey *s)
 {
     return shade__count(s, shade__sqrt(s->dim)) > 0;
 }
 
-/* Samples pixels.  In a perspective the nearest is nearest to the eye, whatever the test is. */
+/* Samples pixels.  In a perspective the nearest is the nearest to the eye, for any depth test. */
 static void shade__take_probes(const shade__survey *s, shade__probe probes[SHADE__PROBES])
 {
     shade__survey q = *s;
@@ -9490,6 +9516,13 @@ static int shade__hides_nearest(const shade__survey *s, int last)
     }
     return n > 0;
 }
+
+/*-------------------------------------------------------------------------------------- >>questions
+   Surveys are opened and asked: which fragments does the picture show, where is the mesh?
+     in      arguments of a draw           out  a shade__survey; answers, most of them 0 or 1
+     way     open_survey: look_at_all.  look_at_seen: look_through, coincides, is_opaque
+     holds   A question draws copies of a survey; only look_... changes the one that it is given.
+                                                                                        >>numbers */
 
 /* ---- which fragments are drawn */
 
@@ -9685,7 +9718,7 @@ static int shade__faces_ahead(const shade__camera *c)
 }
 
 /*---------------------------------------------------------------------------------------- >>numbers
-   Numbers that make no sense, whatever the picture is.
+   Numbers that make no sense in any picture.
      in      a survey, or the mesh           out  a sentence, or SHADE__GO_ON
      way     no_mesh: arrays_cross, indices_are_halves; bad_number: bad_matrix, bad_lamp,
              positions_are_bad, floats_are_coarse, bad_attribute                         >>doubts */
@@ -9929,8 +9962,8 @@ static int shade__positions_are_bad(const shade__survey *s)
     return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(&all, 0).rejected > 0;
 }
 
-/* Has a triangle with an area a float that is NaN, infinite or beyond 1e18, whose square is
-   infinite? */
+/* Does a triangle with an area use a float that is NaN, infinite, or so large (beyond 1e18) that
+   its square may overflow? */
 static int shade__attribute_is_wild(const shade_mesh *m, const float *array, int stride,
                                     int floats)
 {
@@ -10171,13 +10204,13 @@ static const char *shade__doubt(const shade__survey *s)
    Why no pixel of the whole picture shows the draw: of a mesh, of lines or of a pipeline.
      in      a survey                        out  a sentence, or another answer
      way     climb the ladder nothing: climb_to
-     method  Ladders: tables of changes and answers, tried from top to bottom.  For example: with
+     method  Ladders: tables of questions and answers, tried from top to bottom.  For example: with
              culling off, are there pixels?  Then raster.cull is at fault.               >>hidden */
 
 /* ---- ladders */
 
 typedef struct shade__rung {
-    int (*change)(shade__survey *q);     /* returns whether the answer holds */
+    int (*holds)(shade__survey *q);      /* asks whether the answer is true; may change q */
     const char *answer;
     int (*mend)(shade__survey *q);       /* does what the sentence advises; returns whether the
                                             mesh then shows.  NULL: there is nothing to try */
@@ -10200,9 +10233,9 @@ typedef struct shade__ladder {
 static const shade__rung *shade__climb_to(const shade__survey *s, const shade__ladder *ladder)
 {
     shade__survey q = *s;
-    for (const shade__rung *rung = ladder->rung; rung->change; rung++) {
+    for (const shade__rung *rung = ladder->rung; rung->holds; rung++) {
         if (ladder->changes == SHADE__EACH_ALONE) q = *s;
-        if (rung->change(&q)) return rung;
+        if (rung->holds(&q)) return rung;
     }
     return NULL;
 }
@@ -10813,11 +10846,11 @@ static int shade__count_is_zero(shade__survey *q)
 /* Are all normals in view zero or NaN?  Ungated highlights of exponent 0 are 1 for all others. */
 static int shade__lacks_normals(shade__survey *q)
 {
-    shade__survey open = *q;
-    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
-    open.material.specular = shade_v3(1, 1, 1);
-    open.material.shininess = 0;
-    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
+    shade__survey ungated = *q;
+    shade__light_by(&ungated, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    ungated.material.specular = shade_v3(1, 1, 1);
+    ungated.material.shininess = 0;
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&ungated);
 }
 
 /* Leaves only the terms of lamps in the survey, without blending.  Returns whether any is left. */
@@ -11115,7 +11148,7 @@ static int shade__is_turned(const shade__survey *s, int of)
            seams.open <= 2 * seams.pairs && !shade__are_crowded(&seams);
 }
 
-/* Is a face left out whose neighbour is not? */
+/* Is a face left out, but not its neighbour? */
 static int shade__culled_both_ways(shade__survey *q)
 {
     return q->state.raster.cull != SHADE_CULL_NONE && shade__is_turned(q, 100);
@@ -11401,12 +11434,12 @@ static const shade__ladder shade__flat = {
 /* ---- the colours of a fragment shader of the caller, or of lines */
 
 /* The fragments that are visible for certain, or all: a fault that all of them have is visible. */
-static const shade__shades *shade__visible(const shade__survey *s, const shade__tally *t)
+static const shade__color_counts *shade__visible(const shade__survey *s, const shade__tally *t)
 {
     const shade_raster *r = &s->given_state->raster;
-    const int known = r->blend == SHADE_BLEND_REPLACE && !r->depth_read_only && t->seen.count &&
-                      !(s->given_stats && t->seen.count > s->given_stats->fragments);
-    return known ? &t->seen : &t->all;
+    const int known = r->blend == SHADE_BLEND_REPLACE && !r->depth_read_only && t->stored.count &&
+                      !(s->given_stats && t->stored.count > s->given_stats->fragments);
+    return known ? &t->stored : &t->all;
 }
 
 static const char *shade__why_faint(const shade__survey *s)
@@ -11414,7 +11447,7 @@ static const char *shade__why_faint(const shade__survey *s)
     const shade_raster *raster = &s->given_state->raster;
     const int lines = s->replay && s->replay->lines;
     const shade__tally t = shade__tally_of(s);
-    const shade__shades *v = shade__visible(s, &t);
+    const shade__color_counts *v = shade__visible(s, &t);
     if (!s->replay && t.fragments && t.discarded == t.fragments)
         return shade__all_discarded;
     if (!v->count) return SHADE__GO_ON;
@@ -11422,7 +11455,7 @@ static const char *shade__why_faint(const shade__survey *s)
         return "The fragment shader (state.fragment, pipeline.fragment) writes lane 0 of a packet "
                "alone: it must write every lane, in a loop SHADE_EACH_LANE(i) over "
                "out->color[k][i].";
-    if (s->replay && t.reads_more && t.rows > s->replay->pipe.varyings)
+    if (s->replay && t.reads_more && t.rows_written > s->replay->pipe.varyings)
         return "pipeline.varyings is smaller than the number of rows that pipeline.vertex writes "
                "and pipeline.fragment reads, so that the last ones are not interpolated; raise it.";
     if (s->replay && !s->replay->pipe.may_discard && t.discarded)

@@ -66,6 +66,8 @@ check "no blank line after the declarations of a function: blank lines stand bet
     head { declared = 1 }' $H)"
 check "the first struct within the first 285 lines" "$(awk '
     /^typedef struct/ { if (FNR > 285) print FNR ": " $0; exit }' $H)"
+check "sections of at most 450 lines" "$(awk '
+    /^\/\*-+ >>/ { if (tag && FNR - start > 450) print start ": " tag " has " FNR - start; tag = $2; start = FNR }' $H)"
 check "functions of at most 80 lines" "$(awk '/^\{$/ { start = FNR } /^\}$/ && start { if (FNR - start > 80) print FNR ": " FNR - start; start = 0 }' $H)"
 check "#if on compilers and targets only in >>config, >>plumbing and >>machine" "$(awk '
     /^\/\*-+ >>/ { section = $2 }
