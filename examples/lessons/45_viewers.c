@@ -62,18 +62,18 @@ int main(int argc, char **argv)
     shade_clear(&c.target, shade_v4(0.02f, 0.022f, 0.026f, 1), 1);
     for (int i = 0; i < 3; i++) {
         int x = 6 + 318 * i;
-        char text[60];
+        char say[60];
         state.lighting.flags = i == 2 ? SHADE_FLAG_INFINITE_VIEWER : 0;
         draw(canvas_panel(&c, x, 8, SIZE, SIZE), state, !i, -size / 2, -size / 2, size);
-        int differ = differing(&c, x, 8);
+        int n = differing(&c, x, 8);
         for (int k = 0; k < 2; k++) {    /* two of them, framed and larger */
             int at = x + EDGE + 2 * CELL * k, below = x + (SIZE - LARGE) * k;
             float left = 2 * (float)k - 1.5f, low = 0.5f - 2 * (float)k;
             draw(canvas_inset(&c, at, at - x + 8, CELL, CELL), state, !i, left, low, 1);
             draw(canvas_inset(&c, below, 328, LARGE, LARGE), state, !i, left, low, 1);
         }
-        sprintf(text, i ? "the two: %d of 10000 pixels differ" : "V = (eye − P) / |eye − P|", differ);
-        label_caption(&c, x + SIZE / 2, 508, grey, name[i], text);
+        sprintf(say, i ? "the two: %d of 10000 pixels differ" : "V = (eye − P) / |eye − P|", n);
+        label_caption(&c, x + SIZE / 2, 508, grey, name[i], say);
     }
     return canvas_save(&c, argc, argv, "viewers.ppm");
 }

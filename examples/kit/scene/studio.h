@@ -557,7 +557,7 @@ static uint64_t studio_join(const owned_mesh *m, const model_part *part, uint32_
     return sum;
 }
 
-/* Six times the volume between a triangle and the origin; below 0: it shows its back from outside */
+/* Six times the volume between a triangle and the origin: below 0 where that sees its front */
 static double studio_volume(const float *a, const float *b, const float *c)
 {
     const double x = (double)b[1] * (double)c[2] - (double)b[2] * (double)c[1];
@@ -591,7 +591,8 @@ static int studio_is_closed(const model *m)
             const float *at = m->mesh.positions;
             uint32_t a = corner[0];
             while (root[a] != a) a = root[a];
-            volume[a] += studio_volume(at + 3 * corner[0], at + 3 * corner[1], at + 3 * corner[2]);
+            volume[a] += studio_volume(at + 3 * (size_t)corner[0], at + 3 * (size_t)corner[1],
+                                       at + 3 * (size_t)corner[2]);
         }
     }
     for (size_t i = 0; i < n && closed; i++) closed = volume[i] > -1e-8;

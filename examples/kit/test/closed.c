@@ -11,7 +11,8 @@ static int passed, failed;
 
 static void check(const char *what, int good)
 {
-    if (good) passed++;
+    if (good)
+        passed++;
     else {
         printf("FAIL closed: %s\n", what);
         failed++;
