@@ -21,12 +21,12 @@ chart() {
 
 if [ -s "$build/bench_compare.tsv" ]; then
     # Bars from the top row down: how many times faster than the best peer, with the widest vectors
-    # and, where run.sh measured levels, with SSE2 beside peers of 128 bits; slower ones are red.
+    # and, where run.sh measured levels, with SSE4.1 beside peers of 128 bits; slower ones are red.
     # Lines without tabs tell of the machine.
-    [ -s "$build/bench_level_0.tsv" ] || : >"$build/bench_level_0.tsv"
+    [ -s "$build/bench_level_1.tsv" ] || : >"$build/bench_level_1.tsv"
     awk -F'\t' -v OFS='\t' 'NF > 1 && FILENAME == ARGV[1] { narrow[$1] = $4; who[$1] = $5; next }
         NF > 1 && $4 > 0 { print $1, $2, $4, $5, narrow[$1] + 0, who[$1] == "" ? "-" : who[$1] }' \
-        "$build/bench_level_0.tsv" "$build/bench_compare.tsv" >"$build/bench_ratio.tsv"
+        "$build/bench_level_1.tsv" "$build/bench_compare.tsv" >"$build/bench_ratio.tsv"
     rows=$(wc -l <"$build/bench_ratio.tsv")
     notes=$(awk -F'\t' 'NF == 1' "$build/bench_compare.tsv" | tr -d '`"\\')
     lines=$(printf '%s\n' "$notes" | wc -l)
@@ -40,7 +40,7 @@ set label 3 "thick: the widest vectors, and ms a frame" \\
     at screen 0.02, screen 1 - 62 / high tc rgb '#3b6ea5'
 stats '$build/bench_ratio.tsv' using 5 name 'NARROW' nooutput
 if (NARROW_max > 0) {
-    set label 4 "thin: SSE2 beside peers of 128 bits" \\
+    set label 4 "thin: SSE4.1 beside peers of 128 bits" \\
         at screen 0.39, screen 1 - 62 / high tc rgb '#7799bb'
 }
 set label 5 "red: slower than the peer" at screen 0.74, screen 1 - 62 / high tc rgb '#cc4433'
