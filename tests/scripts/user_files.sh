@@ -5,8 +5,9 @@
 # same bits on every machine.
 #   The programs of $own have sums of their own, which compilers may fuse.  The script holds that
 # each draws other bits somewhere, and the same ones with -ffp-contract=off.  Lessons are drawn with
-# one sample a pixel; a third of them for RISC-V and s390x, or with LONG=1 all.  A word tries only
-# machines that have it in their command.  What is not installed is named and left out.
+# one sample a pixel: all of them by gcc, by clang, fused on x86-64 and on aarch64; a third of them
+# elsewhere, another one on each machine, or with LONG=1 all.  A word tries only machines that have
+# it in their command.  What is not installed is named and left out.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD word=${1:-}
@@ -102,7 +103,10 @@ draw_one() {
     esac
 }
 # fuses or not, runner (or ""), compiler for C++ (or none), compiler and flags: all programs
-machine() {
+machine() { third=; on_machine "$@"; }
+# which third, and the same: README's, the head's and those of embed, and a third of the lessons
+some_on() { third=${LONG:+all}; third=${third:-$1}; shift; on_machine "$@"; }
+on_machine() {
     fuses=$1 runner=$2 cxx=$3; shift 3
     case "$*" in *"$word"*) ;; *) return ;; esac
     inline "$fuses" "$runner" "$@"
@@ -111,8 +115,8 @@ machine() {
     mkdir "$D"
     [ -n "$runner" ] && implementation "$@" && object=$T/shade_$1.o
     cp "$object" "$D/shade.o"
-    case ${LONG:-}$runner in
-    qemu-riscv64 | qemu-s390x) some=$(printf '%s\n' $some | awk 'NR <= 4 || NR % 3 == 0') ;;
+    case $third in
+    [012]) some=$(printf '%s\n' $some | awk -v third="$third" 'NR <= 4 || NR % 3 == third') ;;
     esac
     for name in $by_rays; do    # the list has words in lines
         [ -n "$runner" ] && some=$(printf '%s\n' $some | grep -vx "$name")
@@ -137,14 +141,14 @@ machine() {
 # G12
 : >"$T/differed"
 machine 0 "" g++ gcc -O2
-machine 0 "" "" gcc -O3
 machine 1 "" g++ gcc -O2 -march=haswell
-machine 1 "" "" gcc -O2 -march=native
 machine 0 "" clang++ clang -O2
-machine 0 "" clang++-19 clang-19 -O2
 machine 1 qemu-aarch64 "" aarch64-linux-gnu-gcc -static -O2
-machine 1 qemu-riscv64 "" riscv64-linux-gnu-gcc -static -O2
-machine 1 qemu-s390x "" s390x-linux-gnu-gcc -static -O2
+some_on 0 0 "" "" gcc -O3
+some_on 1 1 "" "" gcc -O2 -march=native
+some_on 2 0 "" clang++-19 clang-19 -O2
+some_on 0 1 qemu-riscv64 "" riscv64-linux-gnu-gcc -static -O2
+some_on 1 1 qemu-s390x "" s390x-linux-gnu-gcc -static -O2
 inline 1 qemu-arm arm-linux-gnueabihf-gcc -static -O2 -mfpu=neon-vfpv4
 inline 1 qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O2
 inline 1 qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O3

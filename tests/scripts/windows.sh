@@ -4,7 +4,7 @@
 # ASCII.  Their pictures have the bits of this system's.  view needs a POSIX terminal and is left out.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
-cc=x86_64-w64-mingw32-gcc
+cc=x86_64-w64-mingw32-gcc TOP=$PWD
 find_wine
 if [ -z "$wine" ] || ! there $cc || ! "$wine" cmd /c exit >/dev/null 2>&1; then
     left_out "programs for Windows: no mingw-w64 or no Wine"
@@ -12,13 +12,20 @@ if [ -z "$wine" ] || ! there $cc || ! "$wine" cmd /c exit >/dev/null 2>&1; then
 fi
 
 built="-std=c99 -Wall -Wextra -Werror -O1 -ffp-contract=off -I."
-check "the runner builds" $cc $built -w -static tests/unit/*.c -lm -o "$T/runner.exe"
+# The implementation is in main.c: the sections are compiled once for all builds of it.
+sections() {
+    mkdir "$T/units" && for f in tests/unit/*.c; do
+        [ "$f" = tests/unit/main.c ] || echo "$PWD/$f"
+    done | (cd "$T/units" && xargs $cc $built -I"$TOP" -w -DSHADE__IMPLEMENTED -c)
+}
+check "the sections build" sections
+check "the runner builds" $cc $built -w -static tests/unit/main.c "$T"/units/*.o -lm -o "$T/runner.exe"
 check "the runner" "$wine" "$T/runner.exe"
 # On any processor each build of the loops for vectors runs, by the section that calls them most.
 for level in $(awk '/^flags/ { print 0; if (/ sse4_1 /) print 1; if (/ avx2 /) print 2; if (/ avx512vl / && / avx512bw /) print 3; exit }' \
                /proc/cpuinfo); do
-    check "the runner of build $level builds" $cc $built -w -static -DSHADE__LEVEL=$level tests/unit/*.c \
-        -lm -o "$T/level.exe"
+    check "the runner of build $level builds" $cc $built -w -static -DSHADE__LEVEL=$level tests/unit/main.c \
+        "$T"/units/*.o -lm -o "$T/level.exe"
     check "the runner of build $level" "$wine" "$T/level.exe" lanes
 done
 check "the scenes build" $cc $built -w -static -DSCENE_MAIN tests/unit/scene.c -lm -o "$T/scenes.exe"
