@@ -4,9 +4,9 @@
    shade.h computes emission, ambient, Lambert, Phong and Blinn-Phong light ("iteration four" of the
    graphics courses) over any number of directional, point and spot lights.  It has the vector and
    matrix maths that this needs, and a small, fast triangle rasterizer with vertex and fragment
-   shaders that displays the result.  It allocates nothing, keeps no global state, starts no threads
-   and draws into memory that you own.  Every compiler and processor produces the same pixels, to
-   the bit, because all arithmetic is IEEE single and double precision and is never contracted.
+   shaders that displays the result.  It allocates nothing, keeps no state, starts no threads and
+   draws into memory that you own.  Every compiler and processor produces the same pixels, to the
+   bit, because all arithmetic is IEEE single and double precision and is never contracted.
    Compile your own shaders with -ffp-contract=off (>>plumbing, "Fast math").
 
    To use it, write in exactly one C or C++ file
@@ -7349,7 +7349,7 @@ static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *vie
      method  normals of faces, weighted by their angle at the vertex                 [Thurmer98]
                                                                                           >>shape */
 
-#define SHADE__TAN 0.4142135623730951    /* of pi/8 */
+#define SHADE__TAN_PI_8 0.4142135623730951    /* of pi/8 */
 
 /* atan(s) for |s| <= tan(pi/8) */
 SHADE__INLINE double shade__arc(double s)
@@ -7371,7 +7371,7 @@ SHADE__INLINE double shade__by_sign(double a, double b, double x)
 SHADE__INLINE double shade__lane_angle(double y, double x)
 {
     const double quarter = 0.78539816339744830962, ax = shade__abs(x), t = (y - ax) / (y + ax);
-    const double low = t + SHADE__TAN, high = SHADE__TAN - t;    /* < 0: t is low, high */
+    const double low = t + SHADE__TAN_PI_8, high = SHADE__TAN_PI_8 - t;    /* < 0: t is low, high */
     const double over = shade__by_sign(shade__by_sign(y - ax, y, low), -ax, high);
     const double under = shade__by_sign(shade__by_sign(y + ax, ax, low), y, high);
     const double from = shade__by_sign(shade__by_sign(quarter, 0, low), 2 * quarter, high);
