@@ -284,7 +284,7 @@ static void prove_packing(void)
     png.sink = swallow;
     for (int k = 0; k < 3; k++) png.before[k] = ANY_OF(0, 255);
     png.repeats = ANY_OF(0, SHADE__PNG_REPEAT);
-    png.apart = ANY_OF(0, 3);
+    png.distances = ANY_OF(0, 3);
     png.sum[0] = (uint32_t)ANY_OF(0, 65520);
     png.sum[1] = (uint32_t)ANY_OF(0, 65520);
     png.bits = (uint32_t)ANY_OF(0, 127);

@@ -122,6 +122,19 @@ if command -v gcc >/dev/null && ctags --version 2>/dev/null | grep -q Universal;
     rm -f /tmp/lint_aux.$$ /tmp/lint_functions.$$ /tmp/lint_missed.$$
 else echo "left out: ctags (no gcc or no Universal Ctags)"; fi
 # but for the program in the comment at its top
+# names of shade.h that proofs speak of: a place stands in it once, and the drivers compile
+check "places of tests/prove/known.txt stand in shade.h once" "$(sed -n 's/^\[[a-z]*\] //p' tests/prove/known.txt | sort -u |
+    while read -r place; do
+        [ "$(grep -cF -- "$place" $H)" -eq 1 ] || echo "$place"
+    done)"
+builtins=$(mktemp -d)
+printf 'int Frama_C_interval(int, int);\nfloat Frama_C_float_interval(float, float);\n' >"$builtins/__fc_builtin.h"
+check "the drivers of tests/prove compile" "$(sed -n 's/^#ifdef PROVE_//p' tests/prove/*.c | while read -r driver; do
+    ${CC:-cc} -std=c99 -w -fsyntax-only -I. -I"$builtins" "-DPROVE_$driver" -DPROVE_HEADER='"shade.h"' \
+        "$(grep -lx "#ifdef PROVE_$driver" tests/prove/*.c)" 2>&1
+done)"
+rm -rf "$builtins"
+
 check "no heap, no exit, no print" "$(sed '1,/^#ifndef SHADE_H/s/.*//' $H | grep -nE '\b(malloc|calloc|realloc|free|exit|abort|printf|fprintf|puts)[ ]*\(')"
 
 check "every file of tests stands in tests/README.md" "$(for file in tests/unit/*.c tests/scripts/*.sh; do
