@@ -32,7 +32,7 @@ local function spoken(inlines)
 end
 -- MathML of pandoc, in which each term of k_e, k_a, k_d or k_s has the class of its colour, to the next sign,
 -- comma or bracket; fences grow and bars are borders, as MathML Core wants it.
-local FENCES = { ['+'] = true, ['='] = true, [','] = true, [']'] = true, ['}'] = true, ['<'] = true }
+local FENCES = { ['+'] = true, ['='] = true, [','] = true, [']'] = true, ['}'] = true, ['&lt;'] = true }
 local function term_end(text, at)
     local depth = 0
     while true do
@@ -60,12 +60,23 @@ local function mathml(math)
     local body, note = text:match('^(.-)(<annotation.*)$')
     if not body then return nil end
     body = body:gsub('minsize="[%d.]+" maxsize="[%d.]+" stretchy="false"', 'minsize="2.4em" stretchy="true" symmetric="true"')
-    -- what holds nothing tall does not stretch: Latin Modern Math draws signs that may stretch too wide
-    local held = '<mo stretchy="true" form="prefix">%(</mo>(.-)<mo stretchy="true" form="postfix">%)</mo>'
-    body = body:gsub(held, function(inner)
-        if inner:match('<mfrac') or inner:match('<munder') or inner:match('<mtable') then return nil end
-        return '<mo stretchy="false" form="prefix">(</mo>' .. inner .. '<mo stretchy="false" form="postfix">)</mo>'
-    end)
+    -- What holds nothing tall does not stretch, nor does its partner: Latin Modern Math draws signs that may
+    -- stretch too wide.
+    local still, open = {}, {}
+    for at, form in body:gmatch('()<mo stretchy="true" form="(%a+)">[()]</mo>') do
+        if form == 'prefix' then open[#open + 1] = at
+        elseif #open > 0 then
+            local first = table.remove(open)
+            local inner = body:sub(first, at)
+            if not (inner:match('<mfrac') or inner:match('<munder') or inner:match('<mtable')) then
+                still[#still + 1], still[#still + 2] = first, at
+            end
+        end
+    end
+    table.sort(still)
+    for i = #still, 1, -1 do
+        body = body:sub(1, still[i] - 1) .. body:sub(still[i]):gsub('"true"', '"false"', 1)
+    end
     body = body:gsub('<mtable>', '<mtable displaystyle="true">')
     body = body:gsub('<mover>(.-)<mo accent="true">¯</mo></mover>', '<mrow class="over">%1</mrow>')
     if body:match('∝') then body = body:gsub('(</?)mtext', '%1mi') end          -- words beside a sign take its room

@@ -200,7 +200,7 @@ const luminance = rgb => 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 let paper, ink;
 function readTheme() {
     const style = getComputedStyle(document.documentElement);
-    [paper, ink] = ['--paper', '--ink'].map(name => fromHex(style.getPropertyValue(name).trim()));
+    [paper, ink] = ['--scene', '--ink'].map(name => fromHex(style.getPropertyValue(name).trim()));
 }
 
 // ---- controls -----------------------------------------------------------------------------------

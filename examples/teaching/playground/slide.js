@@ -9,6 +9,7 @@ addEventListener('message', async ({ data, source }) => {
     if (data.letter > 0) {
         document.documentElement.classList.add('slide');
         document.documentElement.style.fontSize = data.letter + 'px';
+        readTheme();
     }
     if (typeof data.go !== 'string' && typeof data.draw !== 'string') return;
     while (!shown.length) await new Promise(done => setTimeout(done, 20));

@@ -115,6 +115,16 @@ else left_out "the archive: no zip or no unzip"; fi
 check "no address of another host" no grep -nE '(src|href)="(https?:)?//' "$T"/pages/*.html
 check "each question has its answer" same "$(grep -hc '^<details>' examples/teaching/course/*.md)" \
     "$(grep -hc '^</details>' examples/teaching/course/*.md)"
+check "a bracket is as tall as its partner" awk '{
+    for (depth = 0; match($0, /<mo stretchy="[a-z]+" form="[a-z]+">[()]<\/mo>/); $0 = substr($0, RSTART + RLENGTH)) {
+        mark = substr($0, RSTART, RLENGTH)
+        tall = mark ~ /"true"/
+        if (mark ~ /\(/) opened[++depth] = tall
+        else if (depth && opened[depth--] != tall) { print FILENAME ":" FNR; failed = 1 }
+        seen++
+    }
+} END { exit failed || seen < 150 }' "$T"/pages/course-*.html
+check "a comparison has no term's colour" no grep -n '<mi>[eads]</mi></msub><mo>&lt;' "$T"/pages/course-uw.html
 check "formulas became MathML" no grep -nE '\$|class="math' "$T"/course-words
 lessons() {                     # pictures, and lessons named in text
     grep -ohE '\b[0-9]{2}_[a-z_]+' examples/teaching/course/*.md | sort -u | while read -r name; do

@@ -174,6 +174,18 @@ check('slides with live pictures', moving.length > 75, moving.length);
     await page.context().close();
 }
 
+// ---- what no light reaches is black, and stands out from the picture's ground on a dark slide too ----
+
+for (const colorScheme of ['light', 'dark']) {
+    const page = await openDeck('slides-uw.html', { colorScheme }, '#/34');
+    const inside = () => page.frames().find(one => one.url().includes('index.html'));
+    let contrast;
+    check('black on the ground of a picture, ' + colorScheme, await soon(async () =>
+        (contrast = inside() && await inside().evaluate(() =>
+            typeof paper === 'object' && luminance(paper) / 0.05 + 1)) >= 1.7), contrast);
+    await page.context().close();
+}
+
 // ---- slides on all screens: nothing beyond them, letters for a hall, ink on paper -------------------
 
 // Of each drawing the size of its letters
