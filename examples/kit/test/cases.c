@@ -174,11 +174,16 @@ static int step_of(const asked *a, renderer_scene *s, uint32_t at)
     static const double still[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
     const renderer_object o = { .kind = RENDERER_SPHERE, .size = { 1, 1, 1 } };
     renderer_object all[MOST];
-    double n[MOST];
+    double n[MOST], m[16];
     const int count = numbers_at(a->j, at, n, MOST), number = count ? (int)n[0] : 0;
+    memcpy(m, still, sizeof m);
+    for (int k = 0; k < 3 && count == 4; k++) m[4 * k + 3] = n[k + 1];
     if (json_is(a->j, at + 1, "add")) return renderer_add(s, &o, 1) == number;
     if (json_is(a->j, at + 1, "remove")) return renderer_put_object(s, number, NULL, 0) == 1;
     if (json_is(a->j, at + 1, "pose")) return renderer_pose(s, &number, still, 1) == -1;
+    if (json_is(a->j, at + 1, "move")) return renderer_pose(s, &number, m, 1) == -1;
+    if (json_is(a->j, at + 1, "at"))
+        return renderer_records(s, number, all, MOST) == 1 && near(all->place, n + 1, 3, 0);
     if (json_is(a->j, at + 1, "clear")) return renderer_put_all(s, NULL, 0);
     if (json_is(a->j, at + 1, "stale"))
         return renderer_pose(s, &number, still, 1) == -2 &&

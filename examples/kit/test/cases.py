@@ -260,6 +260,10 @@ handles(["stale", 0], ["add", 0], ["stale", 1], ["stale", 7])
 handles(["add", 0], ["add", 1], ["clear"], ["stale", 0], ["stale", 1], ["add", 2], ["objects", [2]])
 handles(*[["add", k] for k in range(5)], ["remove", 4], ["remove", 3], ["add", 5], ["objects", [0, 1, 2, 5]])
 handles(["add", 0], ["add", 1], ["add", 2], ["remove", 1], ["pose", 2], ["pose", 0], ["stale", 1], ["objects", [0, 2]])
+handles(["add", 0], ["add", 1], ["move", 1, [1, -2, 3]], ["at", 0, [0, 0, 0]], ["at", 1, [1, -2, 3]])
+handles(["add", 0], ["move", 0, [1e8, 0.125, -7]], ["pose", 0], ["at", 0, [0, 0, 0]], ["move", 0, [5, 6, 7]], ["at", 0, [5, 6, 7]])
+handles(["add", 0], ["add", 1], ["remove", 0], ["move", 1, [0, 0, 9]], ["add", 2], ["at", 2, [0, 0, 0]], ["at", 1, [0, 0, 9]],
+        ["stale", 0], ["objects", [1, 2]])
 live, steps, number = [], [], 0
 for _ in range(60):
     if live and rng.random() < 0.5:

@@ -227,7 +227,8 @@ export const Camera: {
                                            ortho?: boolean; fov?: number; margin?: number }): CameraMatrices;
 };
 
-/** An object of a Renderer: every call that takes its number takes it. */
+/** An object of a Renderer, and its number wherever one is wanted but for ===, which needs number: every call that
+    takes its number takes it. */
 export interface Solid {
     readonly number: number;
     readonly renderer: Renderer;
@@ -257,10 +258,10 @@ export class Renderer {
     checker(one?: Color, other?: Color): number;
     /** Size: half the sides of a plane (none: endless) and box, a radius, radii, or radius and half the
         length along z; of a shape its scale. */
-    add(shape: ShapeName | Shape, size?: number | Numbers, options?: Looks & { at?: Numbers; pose?: Numbers }): number;
+    add(shape: ShapeName | Shape, size?: number | Numbers, options?: Looks & { at?: Numbers; pose?: Numbers }): Solid;
     /** The numbers of all objects, in order. */
     readonly objects: number[];
-    /** An object by its number: ids hold numbers, and this has the rest. */
+    /** What add() gave, by its number, which ids hold. */
     object(number: number | Solid): Solid;
     /** What is not given stays; undefined is as if add() had not been given it. */
     change(number: number | Solid, options: Looks & { size?: number | Numbers }): void;

@@ -52,7 +52,7 @@ function free(taken) {
     return number;
 }
 
-/** An object of a renderer: what add() gave the number of */
+/** An object of a renderer: what add() gives, and its number where a number is wanted */
 class Solid {
     #of; #number;
 
@@ -115,7 +115,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
     return class Renderer {
         #made = library.scene_open();
-        #shown = new Map();    // object to { shape, options }, as add() took them
+        #shown = new Map();    // object to { shape, options, solid }: as add() took them, and what it gave
         #meshes = new Map();   // number to shape
         #textures = new Map(); // number to { slot, cube, owned }: whether it came with a shape
         #nextTexture = 0;
@@ -346,7 +346,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         }
 
         /** Adds an object, of "plane", "sphere", "ellipsoid", "capsule", "cylinder", "box" or what mesh()
-         *  and height_field() return, and gives its number, which ids have; object() has more of it. */
+         *  and height_field() return, and gives it: number, which ids have, pose, color, change(), show() and
+         *  remove().  Every call that takes its number takes it, and it is one in arithmetic. */
         add(shape, size, options) {
             const got = check.record("options", options, ["at", "pose", ...LOOKS]), { at = [0, 0, 0], pose, ...looks } = got;
             if (typeof shape === "string") check.choice("shape", shape, Object.keys(KINDS));
@@ -365,23 +366,23 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             const number = withMemory((room) => library.scene_add(this.#scene, put(room(4 * OBJECT), floats), 1));
             if (number < 0) throw new RangeError("memory is not enough for the object");
-            this.#shown.set(number, { shape, options: own(looks) });
-            return number;
+            const solid = new Solid(this, number);
+            this.#shown.set(number, { shape, options: own(looks), solid });
+            return solid;
         }
 
-        /** An object by its number, with number, pose, color, change(), show() and remove(); every call that takes
-         *  a number takes it, and it is one in arithmetic. */
-        object(number) { return new Solid(this, this.#number("number", number)); }
+        /** What add() gave, by its number */
+        object(number) { return this.#shown.get(this.#number("number", number)).solid; }
 
         /** Changes what is given of an object, as add() takes it; undefined is as without a word. */
         change(number, options) {
             const at = this.#number("number", number);
             const { size, ...looks } = check.record("options", options, ["size", ...LOOKS]);
-            const { shape, options: old } = this.#shown.get(at), all = { ...old, ...own(looks) };
+            const shown = this.#shown.get(at), { shape } = shown, all = { ...shown.options, ...own(looks) };
             const { floats, ints } = this.#dressed(at, shape, all);
             if (size !== undefined) floats.set(this.#size(shape, size), AT.size);
             this.#write(at, { floats, ints });
-            this.#shown.set(at, { shape, options: all });
+            shown.options = all;
         }
 
         /** The record of an object by now, where it is, with other looks */

@@ -56,19 +56,28 @@ const run = {
     },
     pose({ matrix, want }) {
         const r = new Renderer(8, 8), ball = r.add("sphere", 1, { pose: columns(matrix) });
-        near(r.object(ball).pose.slice(12, 15), want, 0);
+        near(ball.pose.slice(12, 15), want, 0);
     },
     handles({ steps }) {
-        const r = new Renderer(8, 8), still = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
-        for (const [step, given] of steps) {
-            if (step === "add") assert.equal(r.add("sphere", 1), given);
-            else if (step === "remove") r.remove(given);
+        const r = new Renderer(8, 8), still = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], made = [];
+        for (const [step, given, place] of steps) {
+            if (step === "add") {
+                made.push(r.add("sphere", 1));
+                assert.equal(made.at(-1).number, given);
+                assert.ok(made.at(-1) == given && made.at(-1) - given === 0 && `${made.at(-1)}` === `${given}`);
+            } else if (step === "remove") {
+                if (given % 2) made[given].remove();
+                else r.remove(given);
+            } else if (step === "move") made[given].pose = place;
+            else if (step === "at") near(r.object(given).pose.slice(12, 15), place, 0);
             else if (step === "clear") r.clear();
             else if (step === "pose") r.pose(given, still);
             else if (step === "objects") assert.deepEqual(r.objects, given);
             else {
                 const gone = new RegExp(`there is no object ${given}$`);
-                for (const call of [() => r.pose(given, still), () => r.remove(given), () => r.object(given)]) assert.throws(call, gone);
+                const old = made[given] ?? { remove: () => r.remove(given), set pose(m) { r.pose(given, m); } };
+                for (const call of [() => r.pose(given, still), () => r.remove(given), () => r.object(given), () => old.remove(),
+                                    () => { old.pose = still; }]) assert.throws(call, gone);
             }
         }
     },

@@ -52,7 +52,7 @@ function life(seed) {
         () => {
             const kind = r.one(Object.keys(SIZES)), shape = shapes.size && r.random() < 0.5 ? r.one([...shapes.keys()]) : kind;
             const own = looks(), size = shape === kind ? SIZES[kind] : 0.4, pose = turned(r);
-            const number = made.add(shape, size, { pose, ...own });
+            const { number } = made.add(shape, size, { pose, ...own });
             assert.ok(!objects.has(number));
             objects.set(number, { shape, size, pose, own, visible: true });
         },
@@ -107,7 +107,7 @@ function life(seed) {
         for (const [number, picture] of pictures) maps.set(number, other.texture(picture));
         for (const [shape, arrays] of shapes) meshes.set(shape, other.mesh(arrays));
         for (const [number, { shape, size, pose, own, visible }] of objects) {
-            const there = other.add(meshes.get(shape) ?? shape, size, { pose, ...own, texture: maps.get(own.texture) });
+            const { number: there } = other.add(meshes.get(shape) ?? shape, size, { pose, ...own, texture: maps.get(own.texture) });
             other.show(there, visible);
             numbers.set(there, number);
         }

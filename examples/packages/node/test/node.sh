@@ -37,7 +37,7 @@ check "README's second program" sh -c "cd '$T/use' && node both.mjs"
 cat "$T/use/program3.mjs" - >"$T/use/drawn3.mjs" <<'END'
 let seen = 0, red = 0;    // a ball of radius 0.4, 3.82 away, 115.2 pixels a unit at distance 1
 for (let i = 0; i < 96 * 128; i++)
-    if (ids[2 * i] === ball) { seen++; red += color[3 * i] > 2 * color[3 * i + 1]; }
+    if (ids[2 * i] === ball.number) { seen++; red += color[3 * i] > 2 * color[3 * i + 1]; }
 console.log(Math.abs(seen / (Math.PI * 12.1 ** 2) - 1) < 0.05 && red === seen ? "a red ball" : [seen, red]);
 END
 check "README's third program" same "$(cd "$T/use" && node drawn3.mjs 2>&1)" "a red ball"

@@ -89,12 +89,19 @@ def ids(case):
 
 
 def handles(case):
-    made = shade.Renderer(8, 8)
+    made, balls = shade.Renderer(8, 8), []
     for step, *given in case["steps"]:
         if step == "add":
-            assert made.add("sphere", 1) == given[0]
+            balls.append(made.add("sphere", 1))
+            assert balls[-1] == given[0]
+        elif step == "move":
+            balls[given[0]].pose = given[1]
+        elif step == "at":
+            near(balls[given[0]].pose[:3, 3], given[1], 0)
         elif step == "stale":
-            for call in (lambda: made.pose(given[0], np.eye(4)), lambda: made.remove(given[0])):
+            old = balls[given[0]] if given[0] < len(balls) else given[0]
+            for call in (lambda: made.pose(given[0], np.eye(4)), lambda: made.remove(given[0]),
+                         lambda: made.remove(old), lambda: made.pose(old, np.eye(4))):
                 with pytest.raises(shade.Error, match=f"there is no object {given[0]}"):
                     call()
         elif step == "objects":
