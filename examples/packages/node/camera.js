@@ -30,15 +30,6 @@ export function camerasOf({ library, withMemory, put, text, asked }) {
         for (let i = 0, at; (at = library.view_name(i, angles)); i++) VIEWS[text(at)] = [...doubles(angles, 2)];
     });
 
-    /** From where coordinates in a box are counted, so that floats keep their digits */
-    function originOf(low, high) {
-        return withMemory((room) => {
-            const out = room(24);
-            library.origin(put(room(24), Float64Array.from(low)), put(room(24), Float64Array.from(high)), out);
-            return [...doubles(out, 3)];
-        });
-    }
-
     /** Meshes in a world that counts from an origin: { origin, placed }. */
     function placed(meshes) {
         return withMemory((room) => {
@@ -155,21 +146,7 @@ export function camerasOf({ library, withMemory, put, text, asked }) {
         },
     };
 
-    return { Camera, originOf, placed, fitted, studio, rigid, rangeOf, given };
-}
-
-/** The box around the rows that are finite and fit floats */
-export function boxOf(rows) {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (let i = 0; i < rows.length; i += 3) {
-        const most = Math.max(Math.abs(rows[i]), Math.abs(rows[i + 1]), Math.abs(rows[i + 2]));
-        if (!(most <= 1e30)) continue;
-        for (let k = 0; k < 3; k++) {
-            low[k] = Math.min(low[k], rows[i + k]);
-            high[k] = Math.max(high[k], rows[i + k]);
-        }
-    }
-    return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
+    return { Camera, placed, fitted, studio, rigid, rangeOf, given };
 }
 
 /** The eye of a camera in the space of a mesh, or the way toward it where all see the same way. */

@@ -1,6 +1,6 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
-import { boxOf, camerasOf, eyeOf } from "./camera.js";
+import { camerasOf, eyeOf } from "./camera.js";
 import encoded from "./module.js";
 import { readersOf } from "./model.js";
 import { mujocoOf } from "./mujoco.js";
@@ -235,15 +235,17 @@ function touch(one) {
 
 const forgotten = new FinalizationRegistry(putAway);
 
-/** Positions as floats that count from an origin: of numbers in double, near them. */
-function localOf(value) {
-    const exact = check.doubles("positions", value, 3);
-    const origin = exact instanceof Float64Array ? cameras.originOf(...boxOf(exact)) : [0, 0, 0];
-    const positions = Float32Array.from(exact);
-    if (origin.some((x) => x !== 0)) {
-        for (let i = 0; i < exact.length; i++) positions[i] = exact[i] - origin[i % 3];
-    }
-    return { positions, origin };
+/** Positions as floats that count from an origin: of numbers in double, near what of them can be seen. */
+function localOf(exact, indices) {
+    if (exact instanceof Float32Array) return { positions: exact.slice(), origin: [0, 0, 0] };
+    return withMemory((room) => {
+        const [at, corners] = [exact, indices].map((array) => put(room(array.byteLength + 8), array));
+        const local = room(4 * exact.length + 4), origin = room(24);
+        if (library.local(at, exact.length / 3, corners, indices.length, local, origin)) {
+            throw new RangeError("memory is not enough for the mesh");
+        }
+        return { positions: floats(local, exact.length).slice(), origin: [...new Float64Array(library.memory.buffer, origin, 3)] };
+    });
 }
 
 /** Indices of faces, rows of 3 or 4 corners */
@@ -273,10 +275,11 @@ export class Mesh {
         if (source === undefined) throw new ShadeError("mesh must be an object with positions");
         const got = check.record("mesh", source, MESH_OPTIONS);
         const { normals = "auto", color, colors, edges = false, twoSided = true } = got;
-        Object.assign(this, localOf(got.positions));
-        const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
+        const exact = check.doubles("positions", got.positions, 3);
+        const vertices = exact.length / 3, sentence = text(library.words(INDEX));
         this.indices = got.faces === undefined ? check.indices("indices", got.indices, vertices, sentence).slice()
             : triangles(got.faces, vertices);
+        Object.assign(this, localOf(exact, this.indices));
         warn(this);
         this.pose = got.pose === undefined ? IDENTITY : check.pose("pose", got.pose);
         this.edges = check.flag("edges", edges);
@@ -495,4 +498,4 @@ export const read3mf = readers.read3mf;
 export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared, localOf, cameras });
 
 /** MuJoCo's own class without OpenGL: new mujoco.Renderer(mj, model, height, width). */
-export const mujoco = mujocoOf(Renderer);
+export const mujoco = mujocoOf(Renderer, { library, withMemory, put, asked });

@@ -4,25 +4,19 @@ import * as check from "./arguments.js";
 
 const { ShadeError } = check;
 
-// Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8, MOVED = 14;
-const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
-              "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
-              "indices16"];
+// Words of renderer_object, renderer_picture, shade_light, renderer_image, renderer_moved and heights
+const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8, MOVED = 14, GROUND = 14;
 const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
                 cylinder: [0, 0, 1], box: [0, 1, 2] };
-export const HIDDEN = 1;
-const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS = 8;
+const HIDDEN = 1, TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS = 8;
 // Where the fields of renderer_object begin, in words
-export const AT = { kind: 24, mesh: 25, texture: 26, flags: 27, id: 28, first: 29, count: 30, size: 31, rgba: 34,
-                    specular: 38, shininess: 41, emission: 42, glow: 43, repeat: 46, metal: 48, tint: 49,
-                    cutoff: 50, relief: 51, glow_map: 52, strength: 53, glow_factor: 54 };
+const AT = { kind: 24, mesh: 25, texture: 26, flags: 27, id: 28, first: 29, count: 30, size: 31, rgba: 34,
+             specular: 38, shininess: 41, emission: 42, glow: 43, repeat: 46, metal: 48, tint: 49,
+             cutoff: 50, relief: 51, glow_map: 52, strength: 53, glow_factor: 54 };
 // Place and turn are doubles, before all.
-export const PLACE = 0;
-export const TURN = 3;
-const POSE = 12;
+const PLACE = 0, TURN = 3, POSE = 12;
 const NOT_RIGID = "must be a rotation and a translation, without scale, by columns";
 const FRAME = ["color", "depth", "ids", "normals"];
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
@@ -34,7 +28,7 @@ function pictured(value) {
 }
 
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
-export function plainRecord() {
+function plainRecord() {
     const floats = new Float32Array(OBJECT), ints = new Int32Array(floats.buffer);
     const doubles = new Float64Array(floats.buffer, 0, POSE);
     doubles.set([1, 0, 0, 0, 1, 0, 0, 0, 1], TURN);
@@ -96,7 +90,7 @@ function own(options) {
 
 /** The class, over the functions of index.js that know the module's memory. */
 export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared, localOf, cameras }) {
-    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length], [9, IMAGE], [11, MOVED]].forEach(([i, words]) => {
+    [[4, OBJECT], [5, SHOT], [3, LIGHT], [9, IMAGE], [11, MOVED], [12, GROUND]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
     const forgotten = new FinalizationRegistry((scene) => library.scene_close(scene));
@@ -144,6 +138,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!this.#made) throw new ShadeError("renderer was freed");
             return this.#made;
         }
+        get _at() { return this.#scene; }
 
         // ---- what is drawn
 
@@ -223,9 +218,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #moved(shape, value, { normals = shape.source.normals, ...others }) {
             const given = check.isArray(normals) ? 2 : ["flat", "smooth"].indexOf(normals), { indices } = shape;
             if (Object.keys(others).length || given < 0 || given !== shape.quick) return false;
-            const { positions, origin } = localOf(value), vertices = positions.length / 3;
+            const exact = check.doubles("positions", value, 3), vertices = exact.length / 3;
             const directions = given === 2 ? check.rows("normals", normals, 3) : null;
-            if (vertices !== shape.vertices || (directions && directions.length !== positions.length)) return false;
+            if (vertices !== shape.vertices || (directions && directions.length !== exact.length)) return false;
+            const { positions, origin } = localOf(exact, indices);
             const done = withMemory((room) => {
                 const at = [positions, directions, indices].map((array) => (array ? put(room(array.byteLength + 4), array) : 0));
                 const ask = new Float64Array(MOVED / 2);
@@ -239,32 +235,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return done > 0;
         }
 
-        /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
-        _mesh(source, number = free(this.#meshes.keys())) {
-            const got = check.record("mesh", source, ["positions", "indices", "normals", "uv"]);
-            const positions = check.rows("positions", got.positions, 3), vertices = positions.length / 3;
-            if (!positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
-            const indices = check.indices("indices", got.indices, vertices, "bad indices");
-            const given = check.isArray(got.normals);
-            const kind = given ? "flat" : check.choice("normals", got.normals ?? "flat", ["flat", "smooth"]);
-            const arrays = [positions, given ? check.rows("normals", got.normals, 3) : null,
-                            got.uv ? check.rows("uv", got.uv, 2) : null, indices];
-            [[1, 3, "normals"], [2, 2, "uv"]].forEach(([k, width, name]) => {
-                if (arrays[k] && arrays[k].length !== width * vertices) {
-                    throw new ShadeError(`${name} must have a row for each of ${vertices} vertices`);
-                }
-            });
-            const made = withMemory((room) => {
-                const at = arrays.map((array) => (array ? put(room(array.byteLength || 4), array) : 0));
-                const set = { positions: at[0], normals: at[1], texcoords: at[2], vertex_count: vertices,
-                              indices: at[3], index_count: indices.length };
-                const ask = Uint32Array.from(MESH, (name) => set[name] ?? 0);
-                return library.scene_mesh(this.#scene, number, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0, 0);
-            });
-            if (!made) throw new RangeError("memory is not enough for the mesh");
-            return this.#shape(number, indices.length / 3);
-        }
-
         /** Ground for add(): rows of heights along y, over x from -half[0] to half[0]. */
         height_field(heights, rows, columns, half) {
             const shape = this.#ground(heights, rows, columns, half, free(this.#meshes.keys()));
@@ -273,17 +243,22 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         #ground(heights, rows, columns, half, number) {
             for (const [name, count] of Object.entries({ rows, columns })) check.integer(name, count, 2, 1e6);
-            const z = check.vector("heights", heights, rows * columns);
-            const [a, b] = check.vector("half", half, 2), positions = new Float32Array(3 * rows * columns), indices = [];
-            if (!(a > 0 && b > 0)) throw new ShadeError("half must be positive");
-            for (let i = 0, k = 0; i < rows; i++) {
-                for (let j = 0; j < columns; j++, k++) {
-                    positions.set([2 * a * j / (columns - 1) - a, 2 * b * i / (rows - 1) - b, z[k]], 3 * k);
-                    if (i === rows - 1 || j === columns - 1) continue;
-                    indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
-                }
-            }
-            return this._mesh({ positions, indices, normals: "smooth" }, number);
+            const z = check.vector("heights", heights, rows * columns), sides = check.vector("half", half, 2);
+            if (!sides.every((x) => x > 0)) throw new ShadeError("half must be positive");
+            return this.#shape(number, this._heights(number, z, rows, columns, [...sides, 1]));
+        }
+
+        /** Puts ground in the place of a mesh, and returns its triangles; with a base it has sides down to that. */
+        _heights(number, heights, rows, columns, [a, b, scale, base = -1]) {
+            const triangles = withMemory((room) => {
+                const ask = new Float64Array(GROUND / 2), z = Float32Array.from(heights);
+                new Int32Array(ask.buffer).set([put(room(z.byteLength), z), rows, columns]);
+                ask.set([a, b, scale, base], 2);
+                new Int32Array(ask.buffer)[12] = base < 0 ? 0 : 1;
+                return library.scene_heights(this.#scene, number, put(room(4 * GROUND), ask));
+            });
+            if (!triangles) throw new RangeError("memory is not enough for the mesh");
+            return triangles;
         }
 
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
@@ -305,9 +280,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!this.#textures.has(number)) throw new ShadeError(`${name}: there is no texture ${number}`);
             return this.#textures.get(number);
         }
-
-        /** Where the module has a texture */
-        _slot(number) { return this.#textures.get(number).slot; }
 
         #texture(picture, number, wrap = check.wraps("", picture), colors = true) {
             const { data, width, height, faces = 1 } = picture;

@@ -16,7 +16,7 @@ from ._native import interruptible, library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
 from .camera import UPRIGHT, Camera, Viewpoint, at, direction, fitted, studio
 from .light import PRESETS, Flag, Light, Lighting, Material, Model, preset
-from .mesh import Like, Mesh, is_file, mesh as as_mesh, origin_of
+from .mesh import Like, Mesh, is_file, mesh as as_mesh
 from .picture import Picture, png_path
 
 Color = Union[str, Sequence[float], Array]
@@ -254,19 +254,14 @@ class Scene:
         the matrices from each mesh's own coordinates to those, (N, parts, 4, 4)."""
         if poses is None:
             poses = np.array([[part.pose for part in self.parts]]).reshape(1, -1, 4, 4)
-        out = np.array(poses, np.float64)
-        if not out.size:
-            return np.zeros(3), out
-        own = np.array([part.mesh.origin for part in self.parts])
-        reach = np.array([part.mesh.radius for part in self.parts])
-        with np.errstate(all="ignore"):
-            if own.any():
-                out[..., :3, 3] += np.einsum("npij,pj->npi", out[..., :3, :3], own)
-            middle = out[..., :3, 3]
-            radius = (np.abs(out[..., :3, :3]).max((2, 3)) * reach)[..., None]
-            origin = origin_of((middle - radius).min((0, 1)), (middle + radius).max((0, 1)))
-        out[..., :3, 3] -= origin
-        return origin, out
+        out, origin = np.array(poses, np.float64), np.zeros(3)
+        rows = np.empty((*out.shape[:2], 20))    # core_place: pose by columns, origin, reach
+        rows[..., :16] = out.swapaxes(2, 3).reshape(*out.shape[:2], 16)
+        for i, part in enumerate(self.parts):
+            rows[:, i, 16:] = *part.mesh.origin, part.mesh.radius
+        if out.size:
+            library.python_place_all(pointer(rows), out.shape[0] * out.shape[1], pointer(origin))
+        return origin, rows[..., :16].reshape(out.shape).swapaxes(2, 3)
 
     def _points(self, places: Doubles) -> Floats:
         """Every vertex of a face, counted from the origin of the places."""
