@@ -57,8 +57,10 @@ typedef struct python_view {              /* a camera and where its picture goes
     int32_t *ids;
     int in_studio;        /* else lit by lighting */
     shade_mat4 to_studio; /* the scene about the origin, within distance 1 */
-    int bent;             /* light above SHOULDER is bent toward white, so that white has form */
+    int quick; /* three lamps that stay with the camera; QUICK_LAMPS: with ambient light of its own */
 } python_view;
+
+enum { QUICK = 1, QUICK_LAMPS };
 
 typedef struct light_studio { /* the thumbnail's light, and all items as one model in it */
     studio light;
@@ -153,12 +155,39 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
-/* What the items of a view have in common; a viewer at infinity is far away in the studio. */
-static look look_of(const python_view *v, const light_studio *s)
+/* The quick lamps of a view */
+static void light_quickly(const python_view *v, shade_light lamp[3], shade_lighting *to)
+{
+    /* the way that their light travels in front of the camera, and its colour */
+    static const double way[3][3] = { { 0.55, -0.85, -0.75 },
+                                      { -1.0, 0.05, -0.55 },
+                                      { -0.6, -0.5, 1.0 } };
+    static const shade_vec3 color[3] = { { 1.02f, 0.99f, 0.95f },
+                                         { 0.20f, 0.23f, 0.28f },
+                                         { 0.35f, 0.38f, 0.42f } };
+    for (int i = 0; i < 3; i++) {
+        float at[3];
+        for (int k = 0; k < 3; k++) {
+            const shade_vec4 c = v->view.col[k];
+            at[k] = (float)-(way[i][0] * (double)c.x + way[i][1] * (double)c.y +
+                             way[i][2] * (double)c.z);
+        }
+        lamp[i] = (shade_light){ .position = { at[0], at[1], at[2], 0 } };
+        lamp[i].diffuse = lamp[i].specular = color[i];
+    }
+    to->lights = lamp;
+    to->light_count = 3;
+    if (v->quick == QUICK) to->ambient = shade_v3(0.17f, 0.175f, 0.19f);
+}
+
+/* What the items of a view have in common; a viewer at infinity is far away in the studio.  Light of
+   the quick lamps above SHOULDER is bent toward white, so that white has form. */
+static look look_of(const python_view *v, const light_studio *s, shade_light lamp[3])
 {
     const int endless = (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
     shade_mat4 eye = shade_mat4_inverse(v->view);
-    look k = { .lighting = v->lighting, .placed = 1, .clipped = !v->bent };
+    look k = { .lighting = v->lighting, .placed = 1, .clipped = !v->quick };
+    if (v->quick) light_quickly(v, lamp, &k.lighting);
     if (s) {
         eye = shade_mat4_mul(s->from_world, eye);
         k.studio = &s->light;
@@ -219,7 +248,8 @@ static shade_result draw_meshes(const shade_target *target, const python_job *jo
                                 const python_view *v, int step, int notes_only)
 {
     shade_result result = SHADE_OK;
-    look k = look_of(v, job->studio);
+    shade_light lamp[3];
+    look k = look_of(v, job->studio, lamp);
     k.notes_only = notes_only;
     for (int i = 0; i < job->item_count && !result; i++) {
         const python_item *item = &job->items[i];
@@ -1020,6 +1050,12 @@ int python_fit(core_refusal *r, const core_side *side, const float *points, size
     core_cloud_add(&cloud, points, NULL, count, NULL);
     core_fit(&cloud, side, out);
     return 0;
+}
+
+SHADEDEF int python_eye(const double *view, int parallel, const double *pose, double *eye);
+int python_eye(const double *view, int parallel, const double *pose, double *eye)
+{
+    return core_eye(view, parallel, pose, eye);
 }
 
 SHADEDEF void python_studio(const float *points, size_t count, const double *view, int up,

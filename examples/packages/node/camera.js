@@ -148,20 +148,3 @@ export function camerasOf({ library, withMemory, put, text, asked }) {
 
     return { Camera, placed, fitted, studio, rigid, rangeOf, given };
 }
-
-/** The eye of a camera in the space of a mesh, or the way toward it where all see the same way. */
-export function eyeOf({ view, projection }, pose) {
-    const parallel = projection[15] !== 0, inverse = inverted(pose);
-    if (!inverse) return null;
-    const eye = [0, 1, 2].map((k) => -(view[4 * k] * view[12] + view[4 * k + 1] * view[13] + view[4 * k + 2] * view[14]));
-    const p = parallel ? [view[2], view[6], view[10]] : eye.map((x, k) => x - pose[12 + k]);
-    return { eye: inverse.map((row) => row[0] * p[0] + row[1] * p[1] + row[2] * p[2]), parallel };
-}
-
-/** The rows of the inverse of the upper left 3 x 3, or null */
-function inverted(m) {
-    const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
-    const [a, b, c] = [0, 4, 8].map((k) => [m[k], m[k + 1], m[k + 2]]);
-    const rows = [cross(b, c), cross(c, a), cross(a, b)], det = a[0] * rows[0][0] + a[1] * rows[0][1] + a[2] * rows[0][2];
-    return det === 0 ? null : rows.map((row) => row.map((x) => x / det));
-}

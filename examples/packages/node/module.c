@@ -26,11 +26,10 @@ typedef struct asked_mesh {
 } asked_mesh;
 
 typedef struct asked_item {
-    double eye[3];                     /* in the space of the mesh, or the way toward the viewer */
+    double pose[16];                   /* by columns */
     struct module_mesh *mesh;
-    int edges, two_sided, parallel;    /* parallel: eye is a direction */
+    int edges, two_sided;
     shade_material material;
-    shade_mat4 pose;
     int blended;
     float opacity, alpha_cutoff, metal, rough;
     float strength;                    /* of the relief */
@@ -51,7 +50,7 @@ typedef struct asked_view {
     shade_mat4 view, projection;
     int in_studio;
     shade_mat4 to_studio;
-    int bent;
+    int quick;                         /* as of a python_view */
 } asked_view;
 
 typedef struct module_map {
@@ -235,19 +234,22 @@ static shade_result find_edges(module_mesh *m)
 }
 
 /* Pairs of points of the edges to draw, in memory that the caller frees */
-static shade_result lines_of(const asked_item *asked, python_item *item)
+static shade_result lines_of(const asked_item *asked, const asked_view *seen, python_item *item)
 {
     module_mesh *m = asked->mesh;
+    const int parallel = seen->projection.col[3].w != 0;
     shade_result result = m->edges_known ? SHADE_OK : find_edges(m);
     const shade_vec3 ink = shade_rgb(0x20242A);
     shade_vec3 *lines;
-    if (result) return result;
+    double view[16], eye[3];
+    for (int k = 0; k < 16; k++) view[k] = (double)(&seen->view.col[k / 4].x)[k % 4];
+    if (result || !core_eye(view, parallel, asked->pose, eye)) return result;
     lines = (shade_vec3 *)malloc(2 * sizeof *lines * ((size_t)m->edge_count + 1));
     if (!lines) return SHADE_ERROR_CAPACITY;
     item->lines = lines;
     item->line_points =
-        build_drawn_edges(m->source.positions, m->edges, m->edge_count, m->face_normals, asked->eye,
-                          asked->parallel, BUILD_COS_EDGE, lines);
+        build_drawn_edges(m->source.positions, m->edges, m->edge_count, m->face_normals, eye,
+                          parallel, BUILD_COS_EDGE, lines);
     item->line_width = 1.4f;
     item->line_color = shade_v4(ink.x, ink.y, ink.z, 1);
     return SHADE_OK;
@@ -260,12 +262,13 @@ static const shade_texture *texture_of(const module_map *map)
     return map->texture.pixels ? &map->texture : NULL;
 }
 
-static shade_result item_of(const asked_item *asked, python_item *item)
+static shade_result item_of(const asked_item *asked, const asked_view *seen, python_item *item)
 {
     memset(item, 0, sizeof *item);
     item->mesh = asked->mesh->built.mesh;
     item->state.material = &asked->material;
-    item->state.model = asked->pose;
+    for (int k = 0; k < 16; k++)
+        (&item->state.model.col[k / 4].x)[k % 4] = (float)asked->pose[k];
     item->state.diffuse_map = texture_of(&asked->mesh->map);
     item->relief = texture_of(&asked->mesh->relief);
     item->relief_heights = asked->mesh->relief_heights;
@@ -279,7 +282,7 @@ static shade_result item_of(const asked_item *asked, python_item *item)
     item->metal = asked->metal;
     item->rough = asked->rough;
     item->unlit = asked->unlit;
-    return asked->edges ? lines_of(asked, item) : SHADE_OK;
+    return asked->edges ? lines_of(asked, seen, item) : SHADE_OK;
 }
 
 EXPORT(draw) shade_result module_draw(const asked_view *asked, const asked_item *items, int count);
@@ -304,13 +307,13 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     view.lighting.flags = asked->flags;
     view.in_studio = asked->in_studio;
     view.to_studio = asked->to_studio;
-    view.bent = asked->bent;
+    view.quick = asked->quick;
     view.rgba = asked->rgba;
     view.depth = asked->depth;
     view.ids = asked->ids;
     for (int i = 0; i < 2 * count && !result; i++) {    /* first what hides, then what blends */
         if (!items[i % count].blended != (i < count)) continue;
-        result = item_of(&items[i % count], &item[made]);
+        result = item_of(&items[i % count], asked, &item[made]);
         item[made++].id = i % count;
     }
     if (!result) result = (shade_result)python_draw(item, count, &view, 1, 1, NULL);

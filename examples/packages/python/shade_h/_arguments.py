@@ -12,7 +12,6 @@ import numpy as np
 from ._native import Array, Bytes, Doubles, Error, Floats, Indices, asked, library, pointer
 
 Color = Union[str, Sequence[float], Array]
-MATERIALS = [library.shade_preset_name(i).decode().replace(" ", "_") for i in range(24)]
 MOST = 2**31 - 1
 WRAPS = ["repeat", "clamp", "mirror"]
 NOT_RIGID = "must be a rotation and a translation, without scale, with 0, 0, 0, 1 in the last row"

@@ -28,11 +28,6 @@ class Error(ValueError):
     """A refused argument: its name, and the words of the library or what was wanted."""
 
 
-class Vec3(Structure):
-    """shade_vec3"""
-    _fields_ = [("x", c_float), ("y", c_float), ("z", c_float)]
-
-
 class Mesh(Structure):
     """shade_mesh"""
     _fields_ = [("positions", c_void_p), ("position_stride", c_int), ("normals", c_void_p),
@@ -102,7 +97,7 @@ class View(Structure):
                 ("view", c_float * 16), ("projection", c_float * 16),
                 ("background", c_float * 4), ("lighting", Lighting), ("poses", c_void_p),
                 ("rgba", c_void_p), ("depth", c_void_p), ("normals", c_void_p),
-                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("bent", c_int)]
+                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("quick", c_int)]
 
 
 #: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count, pose_count;
@@ -260,6 +255,7 @@ def _open() -> Any:
             ("python_view_name", c_char_p, [c_int, c_void_p]),
             ("python_direction", None, [c_double, c_double, c_int, c_void_p]),
             ("python_fit", c_int, [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
+            ("python_eye", c_int, [c_void_p, c_int, c_void_p, c_void_p]),
             ("python_studio", None, [c_void_p, c_size_t, c_void_p, c_int, c_void_p]),
             ("python_place_all", None, [c_void_p, c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
