@@ -22,6 +22,7 @@
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
 #include "examples/kit/core/mjv.h"
+#include "examples/kit/draw/section.h"
 #include "examples/shared/label.h"
 
 #ifndef NATIVE
@@ -616,6 +617,20 @@ int python_drawn_edges(const float *positions, const shade_edge *edges, int coun
                        shade_vec3 *points)
 {
     return build_drawn_edges(positions, edges, count, normals, eye, parallel, cosine, points);
+}
+
+/* Whether the outline of a cut is closed: of n pieces, each from two numbers to two, of a mesh of that
+   extent.  0, SECTION_TORN or SECTION_OPEN; -1: out of memory */
+SHADEDEF int python_section_state(const double *pieces, size_t n, double extent);
+int python_section_state(const double *pieces, size_t n, double extent)
+{
+    section s = { .edges = n, .edge = (section_edge *)malloc((n + 1) * sizeof *s.edge) };
+    int state;
+    for (size_t i = 0; s.edge && i < n; i++, pieces += 4)
+        section_piece(&s.edge[i], pieces, pieces + 2);
+    state = s.edge ? section_state(&s, extent) : -1;
+    free(s.edge);
+    return state;
 }
 
 /* ---- text ------------------------------------------------------------------------------------ */

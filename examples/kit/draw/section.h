@@ -103,23 +103,27 @@ static inline void section_flatten(const section *s, uint32_t i, double out[2])
     out[1] = v - u;
 }
 
+/* A part of the outline from one point of the plane to another */
+static inline void section_piece(section_edge *e, const double begin[2], const double end[2])
+{
+    e->way = begin[1] > end[1] ? -1 : 1;
+    memcpy(e->low, e->way > 0 ? begin : end, sizeof e->low);
+    memcpy(e->high, e->way > 0 ? end : begin, sizeof e->high);
+}
+
 /* Adds a part of the outline, with the solid always on the same side. */
 static inline void section_outline(section *s, uint32_t from, uint32_t to)
 {
-    section_edge e = { .way = 1 }, *grown;
+    section_edge *grown;
+    double begin[2], end[2];
     if (s->failed) return;
-    section_flatten(s, from, e.low);
-    section_flatten(s, to, e.high);
-    if (e.low[1] > e.high[1]) {
-        e.way = -1;
-        section_flatten(s, to, e.low);
-        section_flatten(s, from, e.high);
-    }
+    section_flatten(s, from, begin);
+    section_flatten(s, to, end);
     grown = (section_edge *)mesh_grow(s->edge, s->edges, &s->edge_room, sizeof *grown);
     s->failed |= !grown;
     if (!grown) return;
     s->edge = grown;
-    grown[s->edges++] = e;
+    section_piece(&grown[s->edges++], begin, end);
 }
 
 /* Adds what stays of a triangle. */

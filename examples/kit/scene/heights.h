@@ -3,6 +3,7 @@
 #ifndef SCENE_HEIGHTS_H
 #define SCENE_HEIGHTS_H
 
+#include <limits.h>
 #include "renderer.h"
 
 typedef struct heights {

@@ -192,11 +192,6 @@ def affine(name: str, value: object, shape: tuple[int | None, ...] = (4, 4)) -> 
     return got
 
 
-def matrix(name: str, value: object) -> Floats:
-    """A matrix of 4 x 4 by its columns, as the library has it."""
-    return np.ascontiguousarray(floats(name, value, (4, 4), finite=True).T)
-
-
 def into(name: str, value: object, shape: tuple[int, ...], kind: type) -> Array:
     """An array that the caller hands in to be filled, or a new one for None."""
     if value is None:

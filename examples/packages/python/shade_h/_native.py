@@ -216,6 +216,7 @@ def _open() -> Any:
             ("python_seen", None, 2 * [c_void_p, c_size_t] + 2 * [c_void_p]),
             ("python_edges", c_int, 4 * [c_void_p]),
             ("python_drawn_edges", c_int, 2 * [c_void_p] + [c_int, c_void_p, c_void_p, c_int, c_double, c_void_p]),
+            ("python_section_state", c_int, [c_void_p, c_size_t, c_double]),
             ("python_has_letter", c_int, [c_int]),
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),
             ("python_png_open", c_char_p, [c_void_p, c_char_p, c_size_t, c_void_p]),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import Array, Bytes, Doubles, Error
+from ._native import Array, Bytes, Doubles, Error, library, pointer
 from .annotate import display
 from .light import Material
 from .mesh import Mesh, Surface
@@ -16,6 +16,7 @@ from .mesh import Mesh, Surface
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 PIECES = 4_000_000    # of a cap; beyond, it is filled by fewer rows
 LINES = 24            # of the hatch across a mesh
+_OPEN = 2             # of section_state in section.h: sheets, which have no inside
 
 
 def _facing(normal: Doubles, ways: tuple[Doubles, Doubles]) -> Doubles:
@@ -90,18 +91,6 @@ def _between(c: Doubles, s: Doubles, k: int) -> Doubles:
     return np.asarray(a + (b - a) * (-low / (high - low))[:, None])
 
 
-def _state(cuts: Doubles, extent: float) -> str:
-    """"" of closed outlines (m, 2, 2), "torn" or "open", as section_state in section.h says."""
-    least = (1e-3 + 3e-7 * len(cuts)) * extent
-    ends = [cuts @ np.array(way) for way in ((1, 0.382), (-0.382, 1))]
-    pairs = [np.sort(at, axis=None).reshape(-1, 2) for at in ends]
-    gap, turned = (max(float(np.abs(at[:, 0] - at[:, 1]).sum()) for at in of)
-                   for of in (pairs, [np.sort(at, axis=0) for at in ends]))
-    if gap > max(least, 0.05 * float(np.linalg.norm(cuts[:, 1] - cuts[:, 0], axis=1).sum())):
-        return "open"
-    return "torn" if max(gap, turned) > least else ""
-
-
 def _filled(cuts: Doubles) -> Doubles:
     """Quadrangles, (n, 4, 2), that fill the outlines (m, 2, 2): rows between the heights of all
     ends, cut where an outline crosses them, and filled where the outlines wind around."""
@@ -164,13 +153,16 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     v = np.cross(normal, u)
     flat = np.stack([(cuts - point) @ u, (cuts - point) @ v], 2)
     extent = float(np.ptp(corners[:, :, :3].reshape(-1, 3), 0).max()) if len(corners) else 1.0
-    state = _state(flat, extent)
+    flat = np.ascontiguousarray(flat)
+    state = library.python_section_state(pointer(flat), len(flat), extent)
+    if state < 0:
+        raise MemoryError("memory is not enough for the section")
     if state:
         warnings.warn("section: the mesh is open" + (
-            " where it is cut: the cut is not filled" if state == "open" else
+            " where it is cut: the cut is not filled" if state == _OPEN else
             ", or turned both ways, where it is cut: the cut is filled between each second pair of its lines"),
             stacklevel=5)
-    quads = _filled(flat if state != "open" else flat[:0])
+    quads = _filled(flat if state != _OPEN else flat[:0])
     cap = (quads[..., :1] * u + quads[..., 1:] * v + point)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3)
     size = (extent or 1.0) / LINES
     at = [3]
