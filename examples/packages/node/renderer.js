@@ -243,9 +243,9 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         #ground(heights, rows, columns, half, number) {
             for (const [name, count] of Object.entries({ rows, columns })) check.integer(name, count, 2, 1e6);
-            const z = check.vector("heights", heights, rows * columns), sides = check.vector("half", half, 2);
-            if (!sides.every((x) => x > 0)) throw new ShadeError("half must be positive");
-            return this.#shape(number, this._heights(number, z, rows, columns, [...sides, 1]));
+            const z = check.vector("heights", heights, rows * columns);
+            if (!check.vector("half", half, 2).every((x) => x > 0)) throw new ShadeError("half must be positive");
+            return this.#shape(number, this._heights(number, z, rows, columns, [...half, 1]));
         }
 
         /** Puts ground in the place of a mesh, and returns its triangles; with a base it has sides down to that. */
