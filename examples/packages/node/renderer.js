@@ -107,6 +107,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         return held[name].at;
     }
 
+    /** What each call does is said in index.d.ts. */
     return class Renderer {
         #made = library.scene_open();
         #shown = new Map();    // object to { shape, options, solid }: as add() took them, and what it gave
@@ -142,8 +143,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- what is drawn
 
-        /** A mesh for add(): a Mesh with its colour, pictures, transparency, holes and material, or positions,
-         *  indices, normals, uv and colors. */
         mesh(source) { return this.#taken(source, free(this.#meshes.keys())); }
 
         #taken(source, number) {
@@ -192,9 +191,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             floats[AT.cutoff] = cutoff;
         }
 
-        /** Gives a shape other vertices: positions alone, where options may have others of indices, normals, uv and
-         *  colors, and the rest stays; or all, as mesh() takes it; or heights as height_field() took them.  Its objects
-         *  show it. */
         update(shape, source, options = undefined) {
             this.#known(shape);
             const others = check.record("options", options, ["indices", "normals", "uv", "colors"]);
@@ -235,7 +231,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return done > 0;
         }
 
-        /** Ground for add(): rows of heights along y, over x from -half[0] to half[0]. */
         height_field(heights, rows, columns, half) {
             const shape = this.#ground(heights, rows, columns, half, free(this.#meshes.keys()));
             return Object.assign(shape, { ground: [rows, columns, Float64Array.from(half)] });
@@ -261,12 +256,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return triangles;
         }
 
-        /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
-         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
-         *  Texture. */
         texture(picture) { return this.#texture(pictured(picture), null); }
 
-        /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
         update_texture(number, picture) {
             const { cube } = this.#textureOf("number", number);
             if (cube !== (picture?.faces === 6)) {
@@ -304,7 +295,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return named;
         }
 
-        /** A texture of 2 x 2 squares, which repeats. */
         checker(one = "#5a6e82", other = "#8fa3b5") {
             const data = new Uint8Array(4 * 64 * 64).fill(255);
             const colors = Object.entries({ one, other }).map((c) => check.color(...c).map((x) => Math.round(255 * x)));
@@ -317,9 +307,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return this.srgb ? linear(rgb) : rgb;
         }
 
-        /** Adds an object, of "plane", "sphere", "ellipsoid", "capsule", "cylinder", "box" or what mesh()
-         *  and height_field() return, and gives it: number, which ids have, pose, color, change(), show() and
-         *  remove().  Every call that takes its number takes it, and it is one in arithmetic. */
         add(shape, size, options) {
             const got = check.record("options", options, ["at", "pose", ...LOOKS]), { at = [0, 0, 0], pose, ...looks } = got;
             if (typeof shape === "string") check.choice("shape", shape, Object.keys(KINDS));
@@ -329,8 +316,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             floats.set(this.#size(shape, size), AT.size);
             doubles.set(check.place("at", at), PLACE);
             if (pose !== undefined) {
-                const m = rows("pose", pose);
-                if (!this.#rigid([m])) throw new ShadeError(`pose ${NOT_RIGID}`);
+                const m = this.#rigid(() => "pose", this.#matrices(() => "pose", 1, [pose]));
                 for (let k = 0; k < 3; k++) {
                     doubles[PLACE + k] = m[4 * k + 3];
                     doubles.set(m.slice(4 * k, 4 * k + 3), TURN + 3 * k);
@@ -343,10 +329,8 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return solid;
         }
 
-        /** What add() gave, by its number */
         object(number) { return this.#shown.get(this.#number("number", number)).solid; }
 
-        /** Changes what is given of an object, as add() takes it; undefined is as without a word. */
         change(number, options) {
             const at = this.#number("number", number);
             const { size, ...looks } = check.record("options", options, ["size", ...LOOKS]);
@@ -435,10 +419,12 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             try { change(); } finally { library.scene_done(this.#scene); }
         }
 
-        /** 1: matrices, row by row, are rotations and translations. */
-        #rigid(matrices) {
-            const rows = Float64Array.from(matrices.flat());
-            return withMemory((room) => library.not_rigid(put(room(rows.byteLength + 8), rows), matrices.length)) < 0;
+        /** Matrices, row by row, that are rotations and translations */
+        #rigid(named, matrices) {
+            const at = (room) => put(room(matrices.byteLength + 8), matrices);
+            const bad = withMemory((room) => library.not_rigid(at(room), matrices.length / 16));
+            if (bad >= 0) throw new ShadeError(`${named(bad)} ${NOT_RIGID}`);
+            return matrices;
         }
 
         #size(shape, size) {
@@ -454,17 +440,13 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return SIZES[shape].map((k) => got[k]);
         }
 
-        /** The numbers of all objects, in order. */
         get objects() { return [...this.#shown.keys()].sort((a, b) => a - b); }
 
-        /** Moves an object: 4 x 4 by columns, a rotation and a translation. */
         pose(number, pose) {
             const at = this.#number("number", number);
             this.#move(() => `pose of object ${at}`, [at], [pose]);
         }
 
-        /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
-         *  where one is refused. */
         poses(poses, numbers = this.objects) {
             if (!check.isArray(numbers)) throw new ShadeError("numbers must be an array");
             this.#move((i) => `poses[${i}]`, Array.from(numbers, (number, i) => this.#number(`numbers[${i}]`, number)), poses);
@@ -486,7 +468,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return Float64Array.from(Array.from(poses, (pose, i) => rows(named(i), pose)).flat());
         }
 
-        /** Hides an object, or shows it again. */
         show(number, visible = true) {
             const at = this.#number("number", number), { ints } = this.#recordOf(at);
             check.flag("visible", visible);
@@ -494,8 +475,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#write(at, { ints });
         }
 
-        /** Takes away an object by its number, which none is given again, or a shape that no object shows, with the
-         *  textures that came with it.  Its memory is given back. */
         remove(what) {
             if (typeof what === "number" || what instanceof Solid) {
                 const number = this.#number("what", what);
@@ -512,7 +491,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             what.textures.forEach((texture) => this.#drop(texture));
         }
 
-        /** Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with it. */
         remove_texture(number) {
             const { owned, slot } = this.#textureOf("number", number), { sky, texture } = this.#behind;
             const shown = this.objects.find((i) => this.#recordOf(i).ints[AT.texture] === 1 + slot);
@@ -527,8 +505,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#textures.delete(texture);
         }
 
-        /** Takes away all objects, shapes and textures, and gives back their memory; lamps and a background of
-         *  one colour stay. */
         clear() {
             this.#atOnce(() => {
                 library.scene_put_all(this.#scene, 0, 0);
@@ -542,8 +518,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- what it is lit by
 
-        /** Up to 8 lamps, ambient light, and the number or numbers of the lamps, directional or spots, that cast
-         *  shadows. */
         light(lights, ambient = [0, 0, 0], shadow = []) {
             void this.#scene;    // a renderer that was freed is refused
             if (!Array.isArray(lights)) throw new ShadeError("lights must be an array");
@@ -573,15 +547,12 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#behind = { sky, texture, background };
         }
 
-        /** One colour behind all objects. */
         background(color) { this.#setBehind({ background: [...this.#color("color", color), 1] }); }
 
-        /** A sky from the colour straight below to that straight above, +z. */
         sky(low = "#dfe8f0", high = "#4a7ab0") {
             this.#setBehind({ sky: 1, low: this.#color("low", low), high: this.#color("high", high) });
         }
 
-        /** A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL. */
         sky_texture(texture) {
             if (!this.#textureOf("texture", texture).cube) throw new ShadeError(`texture ${texture} is no cube`);
             this.#setBehind({ sky: 2, texture });
@@ -589,7 +560,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- pictures
 
-        /** New arrays for render(), or for so many pictures of render_batch(). */
         frame(wanted = undefined) {
             const { color = true, depth = true, ids = true, normals = false, pictures = 1 } =
                 check.record("wanted", wanted, [...FRAME, "pictures"]);
@@ -600,14 +570,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                      ids: ids ? new Int32Array(2 * pixels) : null, normals: normals ? new Float32Array(3 * pixels) : null };
         }
 
-        /** Draws what a camera { view, projection }, matrices of WebGL, sees, into the arrays of out or new ones. */
         render(camera, out = this.frame(), options = undefined) {
             return this._draw(out, [this.#seen("camera", camera)], options);
         }
 
-        /** A picture for each camera, as render() draws it, one after the other in the arrays of out or new ones.
-         *  poses has for each picture matrices of all objects in the order of their numbers, which stay where they
-         *  were; one camera then serves all. */
         render_batch(cameras, poses = undefined, out = undefined, options = undefined) {
             const seen = check.isArray(cameras) ? Array.from(cameras) : Array(poses?.length ?? 1).fill(cameras);
             if (poses && poses.length !== seen.length) {
@@ -628,12 +594,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return { view, projection, ...cameras.rangeOf(name, projection) };
         }
 
-        /** Matrices of all objects, row by row */
+        /** Matrices of all objects */
         #posed(name, poses) {
-            const named = (i) => `${name}[${i}]`, matrices = this.#matrices(named, this.#shown.size, poses);
-            const bad = withMemory((room) => library.not_rigid(put(room(matrices.byteLength + 8), matrices), this.#shown.size));
-            if (bad >= 0) throw new ShadeError(`${named(bad)} ${NOT_RIGID}`);
-            return matrices;
+            const named = (i) => `${name}[${i}]`;
+            return this.#rigid(named, this.#matrices(named, this.#shown.size, poses));
         }
 
         /** A picture for each of shots, whose records are objects, one after the other, in place of those that were
