@@ -58,7 +58,7 @@ typedef struct python_view {              /* a camera and where its picture goes
     int32_t *ids;
     int in_studio;        /* else lit by lighting */
     shade_mat4 to_studio; /* the scene about the origin, within distance 1 */
-    int quick; /* three lamps that stay with the camera; QUICK_LAMPS: with ambient light of its own */
+    int quick; /* lamps that stay with the camera; QUICK_LAMPS: and ambient of lighting */
 } python_view;
 
 enum { QUICK = 1, QUICK_LAMPS };
@@ -181,8 +181,8 @@ static void light_quickly(const python_view *v, shade_light lamp[3], shade_light
     if (v->quick == QUICK) to->ambient = shade_v3(0.17f, 0.175f, 0.19f);
 }
 
-/* What the items of a view have in common; a viewer at infinity is far away in the studio.  Light of
-   the quick lamps above SHOULDER is bent toward white, so that white has form. */
+/* What the items of a view have in common; a viewer at infinity is far away in the studio.  Light
+   of the quick lamps above SHOULDER is bent toward white, so that white has form. */
 static look look_of(const python_view *v, const light_studio *s, shade_light lamp[3])
 {
     const int endless = (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
@@ -560,7 +560,7 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
-/* ---- meshes, of scene/build.h ----------------------------------------------------------------- */
+/* ---- meshes, of scene/build.h ---------------------------------------------------------------- */
 
 /* What a mesh becomes, which begins with what is drawn; *result says why it is NULL. */
 SHADEDEF build *python_build(const build_asked *asked, int *result);
@@ -590,8 +590,8 @@ int python_local(const double *exact, size_t vertices, const uint32_t *corner, s
     return build_local(exact, vertices, corner, corners, local, origin);
 }
 
-/* Marks in seen, which is zero, what can be seen of a mesh; low and high, at low + 3: the box around
-   that. */
+/* Marks in seen, which is zero, what can be seen of a mesh; low and high, at low + 3: the box
+   around that. */
 SHADEDEF void python_seen(const float *at, size_t vertices, const uint32_t *corner, size_t corners,
                           uint8_t *seen, double *low);
 void python_seen(const float *at, size_t vertices, const uint32_t *corner, size_t corners,
@@ -619,8 +619,8 @@ int python_drawn_edges(const float *positions, const shade_edge *edges, int coun
     return build_drawn_edges(positions, edges, count, normals, eye, parallel, cosine, points);
 }
 
-/* Whether the outline of a cut is closed: of n pieces, each from two numbers to two, of a mesh of that
-   extent.  0, SECTION_TORN or SECTION_OPEN; -1: out of memory */
+/* Whether the outline of a cut is closed: of n pieces, each from two numbers to two, of a mesh of
+   that extent.  0, SECTION_TORN or SECTION_OPEN; -1: out of memory */
 SHADEDEF int python_section_state(const double *pieces, size_t n, double extent);
 int python_section_state(const double *pieces, size_t n, double extent)
 {
@@ -1223,7 +1223,7 @@ int python_renderer_draw(renderer *const *r, int renderers, const renderer_scene
     return (int)renderer_draw(r, renderers, scene, pictures, count, stop);
 }
 
-/* ---- scenes of MuJoCo, of core/mjv.h ---------------------------------------------------------- */
+/* ---- scenes of MuJoCo, of core/mjv.h --------------------------------------------------------- */
 
 NATIVE(mjv_texture)
 int python_mjv_texture(renderer_scene *scene, int number, const uint8_t *texels, int width,

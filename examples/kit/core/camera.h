@@ -446,8 +446,8 @@ static inline void core_origin(const double low[3], const double high[3], double
     for (int k = 0; k < 3; k++) origin[k] = nearbyint((low[k] + high[k]) / 2 / step) * step;
 }
 
-/* The eye of a camera in the space of a mesh, or where all see the same way the way toward it.  view
-   and pose: by columns.  0: the pose flattens the mesh, and there is none */
+/* The eye of a camera in the space of a mesh, or where all see the same way the way toward it.
+   view and pose: by columns.  0: the pose flattens the mesh, and there is none */
 static inline int core_eye(const double *view, int parallel, const double *pose, double eye[3])
 {
     const double *a = pose, *b = pose + 4, *c = pose + 8;

@@ -1,5 +1,5 @@
-/* module.c - what index.js calls: meshes are made, by kit/scene/build.h, and drawn in the memory of a
-   WebAssembly module.
+/* module.c - what index.js calls: meshes are made, by kit/scene/build.h, and drawn in the memory of
+   a WebAssembly module.
 
    index.js writes the structs that begin with "asked" word by word and is the only caller: it
    checks lengths, indices and sizes before.  A pointer that it hands over is freed here. */
@@ -21,7 +21,7 @@ typedef struct asked_map {
 } asked_map;
 
 typedef struct asked_mesh {
-    build_asked mesh;                            /* whose colours are those of a display, uv upward */
+    build_asked mesh; /* whose colours are those of a display, and uv upward */
     asked_map map, relief, glow;
 } asked_mesh;
 

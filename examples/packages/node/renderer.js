@@ -57,6 +57,7 @@ class Solid {
     valueOf() { return this.#number; }
     toString() { return `${this.#number}`; }
     toJSON() { return this.#number; }
+    [Symbol.for("nodejs.util.inspect.custom")]() { return `Solid ${this}`; }    // what console.log shows
 
     /** From the object to the world, 4 x 4 by columns.  Assigned, it moves: as a matrix or as a place. */
     get pose() { return this.#of._pose(this); }

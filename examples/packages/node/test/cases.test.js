@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
+import { inspect } from "node:util";
 import { Camera, Mesh, Renderer, ShadeError, depthPng, idsPng, mujoco, readIdsPng } from "shade-h";
 
 const table = process.env.CASES ?? new URL("../../../kit/test/cases.json", import.meta.url);
@@ -85,6 +86,7 @@ const run = {
             if (step === "add") {
                 made.push(r.add("sphere", 1));
                 assert.equal(made.at(-1).number, given);
+                assert.equal(inspect(made.at(-1)), `Solid ${given}`);
                 assert.ok(made.at(-1) == given && made.at(-1) - given === 0 && `${made.at(-1)}` === `${given}`);
             } else if (step === "remove") {
                 if (given % 2) made[given].remove();
