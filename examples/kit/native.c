@@ -22,7 +22,7 @@
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
 #include "examples/kit/core/mjv.h"
-#include "examples/kit/draw/section.h"
+#include "examples/kit/draw/cut.h"
 #include "examples/shared/label.h"
 
 #ifndef NATIVE
@@ -619,19 +619,58 @@ int python_drawn_edges(const float *positions, const shade_edge *edges, int coun
     return build_drawn_edges(positions, edges, count, normals, eye, parallel, cosine, points);
 }
 
-/* Whether the outline of a cut is closed: of n pieces, each from two numbers to two, of a mesh of
-   that extent.  0, SECTION_TORN or SECTION_OPEN; -1: out of memory */
-SHADEDEF int python_section_state(const double *pieces, size_t n, double extent);
-int python_section_state(const double *pieces, size_t n, double extent)
+/* ---- cuts, of draw/cut.h --------------------------------------------------------------------- */
+
+typedef struct python_filling {
+    double *quad; /* 8 numbers each */
+    size_t count, room;
+    double more, lowest;
+} python_filling;
+
+static int fill_between(void *user, const cut_crossing *c, const double *height)
 {
-    section s = { .edges = n, .edge = (section_edge *)malloc((n + 1) * sizeof *s.edge) };
-    int state;
-    for (size_t i = 0; s.edge && i < n; i++, pieces += 4)
-        section_piece(&s.edge[i], pieces, pieces + 2);
-    state = s.edge ? section_state(&s, extent) : -1;
-    free(s.edge);
-    return state;
+    python_filling *f = (python_filling *)user;
+    const double low = fmax(height[0] - f->more, f->lowest), high = height[1];
+    const double quad[8] = { c[0].low, low, c[1].low, low, c[1].high, high, c[0].high, high };
+    double *grown = (double *)mesh_grow(f->quad, f->count, &f->room, sizeof quad);
+    if (!grown) return 1;
+    f->quad = grown;
+    memcpy(grown + 8 * f->count++, quad, sizeof quad);
+    return 0;
 }
+
+/* Fills the outline of a cut, n pieces, each from two numbers to two, of a mesh of that extent, by
+   quadrangles, which python_give frees, in rows that reach a little over each other, so that no
+   pixel falls between them.  *state: 0, CUT_TORN or, which is not filled, CUT_OPEN; NULL: out of
+   memory */
+SHADEDEF double *python_fill(const double *pieces, size_t n, double extent, int *state,
+                             size_t *count);
+double *python_fill(const double *pieces, size_t n, double extent, int *state, size_t *count)
+{
+    python_filling f = { .quad = (double *)malloc(8 * sizeof *f.quad), .room = 1 };
+    cut_outline o = { .edges = n, .edge = (cut_edge *)malloc((n + 1) * sizeof *o.edge) };
+    double *height = NULL;
+    size_t rows = 0;
+    int failed = !f.quad || !o.edge;
+    for (size_t i = 0; o.edge && i < n; i++)
+        cut_piece(&o.edge[i], pieces + 4 * i, pieces + 4 * i + 2);
+    *state = failed ? 0 : cut_state(&o, extent);
+    if (!failed && n && *state != CUT_OPEN) {
+        height = cut_rows(&o, 0, 0, 4000000, &rows);
+        if (height) f.lowest = height[0];
+        if (height) f.more = 2e-5 * (height[rows - 1] - height[0]);
+        failed = !height || cut_fill(&o, height, rows, 1, fill_between, &f);
+    }
+    free(height);
+    free(o.edge);
+    *count = f.count;
+    if (!failed) return f.quad;
+    free(f.quad);
+    return NULL;
+}
+
+SHADEDEF void python_give(void *memory);
+void python_give(void *memory) { free(memory); }
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
