@@ -21,6 +21,8 @@
 #include "examples/kit/scene/deform.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
+#include "examples/kit/core/mjv.h"
+#include "examples/kit/draw/cut.h"
 #include "examples/shared/label.h"
 
 #ifndef NATIVE
@@ -56,8 +58,10 @@ typedef struct python_view {              /* a camera and where its picture goes
     int32_t *ids;
     int in_studio;        /* else lit by lighting */
     shade_mat4 to_studio; /* the scene about the origin, within distance 1 */
-    int bent;             /* light above SHOULDER is bent toward white, so that white has form */
+    int quick; /* lamps that stay with the camera; QUICK_LAMPS: and ambient of lighting */
 } python_view;
+
+enum { QUICK = 1, QUICK_LAMPS };
 
 typedef struct light_studio { /* the thumbnail's light, and all items as one model in it */
     studio light;
@@ -152,12 +156,39 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
-/* What the items of a view have in common; a viewer at infinity is far away in the studio. */
-static look look_of(const python_view *v, const light_studio *s)
+/* The quick lamps of a view */
+static void light_quickly(const python_view *v, shade_light lamp[3], shade_lighting *to)
+{
+    /* the way that their light travels in front of the camera, and its colour */
+    static const double way[3][3] = { { 0.55, -0.85, -0.75 },
+                                      { -1.0, 0.05, -0.55 },
+                                      { -0.6, -0.5, 1.0 } };
+    static const shade_vec3 color[3] = { { 1.02f, 0.99f, 0.95f },
+                                         { 0.20f, 0.23f, 0.28f },
+                                         { 0.35f, 0.38f, 0.42f } };
+    for (int i = 0; i < 3; i++) {
+        float at[3];
+        for (int k = 0; k < 3; k++) {
+            const shade_vec4 c = v->view.col[k];
+            at[k] = (float)-(way[i][0] * (double)c.x + way[i][1] * (double)c.y +
+                             way[i][2] * (double)c.z);
+        }
+        lamp[i] = (shade_light){ .position = { at[0], at[1], at[2], 0 } };
+        lamp[i].diffuse = lamp[i].specular = color[i];
+    }
+    to->lights = lamp;
+    to->light_count = 3;
+    if (v->quick == QUICK) to->ambient = shade_v3(0.17f, 0.175f, 0.19f);
+}
+
+/* What the items of a view have in common; a viewer at infinity is far away in the studio.  Light
+   of the quick lamps above SHOULDER is bent toward white, so that white has form. */
+static look look_of(const python_view *v, const light_studio *s, shade_light lamp[3])
 {
     const int endless = (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
     shade_mat4 eye = shade_mat4_inverse(v->view);
-    look k = { .lighting = v->lighting, .placed = 1, .clipped = !v->bent };
+    look k = { .lighting = v->lighting, .placed = 1, .clipped = !v->quick };
+    if (v->quick) light_quickly(v, lamp, &k.lighting);
     if (s) {
         eye = shade_mat4_mul(s->from_world, eye);
         k.studio = &s->light;
@@ -218,7 +249,8 @@ static shade_result draw_meshes(const shade_target *target, const python_job *jo
                                 const python_view *v, int step, int notes_only)
 {
     shade_result result = SHADE_OK;
-    look k = look_of(v, job->studio);
+    shade_light lamp[3];
+    look k = look_of(v, job->studio, lamp);
     k.notes_only = notes_only;
     for (int i = 0; i < job->item_count && !result; i++) {
         const python_item *item = &job->items[i];
@@ -528,86 +560,117 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
-/* ---- corners that are alike become one vertex ------------------------------------------------ */
+/* ---- meshes, of scene/build.h ---------------------------------------------------------------- */
 
-/* Marks the vertices of triangles, but not of those that have two corners at one place, which
-   cannot be seen, unless all are such. */
-SHADEDEF void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t *seen);
-void python_seen(const double *at, const uint32_t *corner, size_t count, uint8_t *seen)
+/* What a mesh becomes, which begins with what is drawn; *result says why it is NULL. */
+SHADEDEF build *python_build(const build_asked *asked, int *result);
+build *python_build(const build_asked *asked, int *result)
 {
-    int any = 0;
-    for (size_t i = 0; i < count; i += 3) {
-        int hidden = 0;
-        for (size_t k = 0; k < 3; k++) {
-            const double *p = at + 3 * (size_t)corner[i + k];
-            const double *q = at + 3 * (size_t)corner[i + (k + 1) % 3];
-            hidden |= p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
-        }
-        for (size_t k = 0; k < 3 && !hidden; k++) seen[corner[i + k]] = 1;
-        any |= !hidden;
-    }
-    for (size_t i = 0; i < count && !any; i++) seen[corner[i]] = 1;
+    build *b = (build *)calloc(1, sizeof *b);
+    *result = (int)(b ? build_mesh(b, asked) : SHADE_ERROR_CAPACITY);
+    if (!*result) return b;
+    if (b) build_free(b);
+    free(b);
+    return NULL;
 }
 
-/* The unit normal of each corner's face */
-SHADEDEF void python_face_normals(const shade_mesh *mesh, float *normals);
-void python_face_normals(const shade_mesh *mesh, float *normals)
+SHADEDEF void python_build_free(build *b);
+void python_build_free(build *b)
 {
-    for (int i = 0; i < mesh->index_count; i += 3) {
-        shade_vec3 p[3], N;
-        for (int k = 0; k < 3; k++)
-            memcpy(&p[k], mesh->positions + 3 * (size_t)mesh->indices[i + k], sizeof p[k]);
-        N = shade_face_normal(p[0], p[1], p[2]);
-        for (int k = 0; k < 3; k++, normals += 3) memcpy(normals, &N, sizeof N);
-    }
+    build_free(b);
+    free(b);
 }
 
-/* Directs normals that a caller gives, one for each vertex, as those of files are; those without a
-   direction, zero or NaN, are made anew. */
-SHADEDEF int python_direct_normals(const shade_mesh *mesh, float *normals);
-int python_direct_normals(const shade_mesh *mesh, float *normals)
+NATIVE(local)
+int python_local(const double *exact, size_t vertices, const uint32_t *corner, size_t corners,
+                 float *local, double *origin);
+int python_local(const double *exact, size_t vertices, const uint32_t *corner, size_t corners,
+                 float *local, double *origin)
 {
-    shade_result result = SHADE_OK;
-    shade_vec3 *made = NULL;
-    for (int i = 0; i < mesh->vertex_count && !result; i++) {
-        float *n = normals + 3 * (size_t)i;
-        const double given[3] = { (double)n[0], (double)n[1], (double)n[2] };
-        mesh_normal(given, n);
-        if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
-        if (!made) {
-            made = (shade_vec3 *)malloc((size_t)mesh->vertex_count * sizeof *made);
-            result = made ? shade_mesh_normals(mesh, made) : SHADE_ERROR_CAPACITY;
-        }
-        if (!result) memcpy(n, &made[i], sizeof *made);
-    }
-    free(made);
-    return (int)result;
+    return build_local(exact, vertices, corner, corners, local, origin);
 }
 
-/* Gives each corner the number of the first one with its vertex and its value, of width floats, and
-   returns how many differ.  made has their corners.  Of a vertex with many values the last ones
-   alone are compared.  first, of vertex_count, and next, of count, are scratch. */
-SHADEDEF int python_weld(const uint32_t *vertex, int count, const float *value, int width,
-                         uint32_t *index, uint32_t *made, int32_t *first, int32_t *next);
-int python_weld(const uint32_t *vertex, int count, const float *value, int width, uint32_t *index,
-                uint32_t *made, int32_t *first, int32_t *next)
+/* Marks in seen, which is zero, what can be seen of a mesh; low and high, at low + 3: the box
+   around that. */
+SHADEDEF void python_seen(const float *at, size_t vertices, const uint32_t *corner, size_t corners,
+                          uint8_t *seen, double *low);
+void python_seen(const float *at, size_t vertices, const uint32_t *corner, size_t corners,
+                 uint8_t *seen, double *low)
 {
-    const size_t floats = (size_t)width, bytes = floats * sizeof *value;
-    int n = 0;
-    for (int i = 0; i < count; i++) {
-        int32_t *head = &first[vertex[i]], at = *head;
-        int steps = 0;
-        while (at >= 0 && memcmp(value + floats * made[at], value + floats * (size_t)i, bytes))
-            at = ++steps < 16 ? next[at] : -1;
-        if (at < 0) {
-            made[n] = (uint32_t)i;
-            next[n] = *head;
-            *head = at = n++;
-        }
-        index[i] = (uint32_t)at;
-    }
-    return n;
+    build_seen(at, NULL, corner, corners, seen);
+    build_box(at, NULL, seen, vertices, low, low + 3);
 }
+
+/* edges and normals have room for as many as the mesh has corners; count: how many edges there
+   are. */
+SHADEDEF int python_edges(const shade_mesh *mesh, shade_edge *edges, double *normals, int *count);
+int python_edges(const shade_mesh *mesh, shade_edge *edges, double *normals, int *count)
+{
+    return (int)build_edges(mesh, edges, normals, count);
+}
+
+SHADEDEF int python_drawn_edges(const float *positions, const shade_edge *edges, int count,
+                                const double *normals, const double *eye, int parallel,
+                                double cosine, shade_vec3 *points);
+int python_drawn_edges(const float *positions, const shade_edge *edges, int count,
+                       const double *normals, const double *eye, int parallel, double cosine,
+                       shade_vec3 *points)
+{
+    return build_drawn_edges(positions, edges, count, normals, eye, parallel, cosine, points);
+}
+
+/* ---- cuts, of draw/cut.h --------------------------------------------------------------------- */
+
+typedef struct python_filling {
+    double *quad; /* 8 numbers each */
+    size_t count, room;
+    double more, lowest;
+} python_filling;
+
+static int fill_between(void *user, const cut_crossing *c, const double *height)
+{
+    python_filling *f = (python_filling *)user;
+    const double low = fmax(height[0] - f->more, f->lowest), high = height[1];
+    const double quad[8] = { c[0].low, low, c[1].low, low, c[1].high, high, c[0].high, high };
+    double *grown = (double *)mesh_grow(f->quad, f->count, &f->room, sizeof quad);
+    if (!grown) return 1;
+    f->quad = grown;
+    memcpy(grown + 8 * f->count++, quad, sizeof quad);
+    return 0;
+}
+
+/* Fills the outline of a cut, n pieces, each from two numbers to two, of a mesh of that extent, by
+   quadrangles, which python_give frees, in rows that reach a little over each other, so that no
+   pixel falls between them.  *state: 0, CUT_TORN or, which is not filled, CUT_OPEN; NULL: out of
+   memory */
+SHADEDEF double *python_fill(const double *pieces, size_t n, double extent, int *state,
+                             size_t *count);
+double *python_fill(const double *pieces, size_t n, double extent, int *state, size_t *count)
+{
+    python_filling f = { .quad = (double *)malloc(8 * sizeof *f.quad), .room = 1 };
+    cut_outline o = { .edges = n, .edge = (cut_edge *)malloc((n + 1) * sizeof *o.edge) };
+    double *height = NULL;
+    size_t rows = 0;
+    int failed = !f.quad || !o.edge;
+    for (size_t i = 0; o.edge && i < n; i++)
+        cut_piece(&o.edge[i], pieces + 4 * i, pieces + 4 * i + 2);
+    *state = failed ? 0 : cut_state(&o, extent);
+    if (!failed && n && *state != CUT_OPEN) {
+        height = cut_rows(&o, 0, 0, 4000000, &rows);
+        if (height) f.lowest = height[0];
+        if (height) f.more = 2e-5 * (height[rows - 1] - height[0]);
+        failed = !height || cut_fill(&o, height, rows, 1, fill_between, &f);
+    }
+    free(height);
+    free(o.edge);
+    *count = f.count;
+    if (!failed) return f.quad;
+    free(f.quad);
+    return NULL;
+}
+
+SHADEDEF void python_give(void *memory);
+void python_give(void *memory) { free(memory); }
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
@@ -1043,6 +1106,12 @@ int python_fit(core_refusal *r, const core_side *side, const float *points, size
     return 0;
 }
 
+SHADEDEF int python_eye(const double *view, int parallel, const double *pose, double *eye);
+int python_eye(const double *view, int parallel, const double *pose, double *eye)
+{
+    return core_eye(view, parallel, pose, eye);
+}
+
 SHADEDEF void python_studio(const float *points, size_t count, const double *view, int up,
                             double *out);
 void python_studio(const float *points, size_t count, const double *view, int up, double *out)
@@ -1053,11 +1122,11 @@ void python_studio(const float *points, size_t count, const double *view, int up
     core_studio(&ball, view, up, out);
 }
 
-/* low and high: the box; out: from where it counts */
-NATIVE(origin) void python_origin_of(const double *low, const double *high, double *out);
-void python_origin_of(const double *low, const double *high, double *out)
+/* Meshes in their places: poses become those of a world that counts from an origin. */
+NATIVE(place_all) void python_place_all(core_place *places, int count, double *origin);
+void python_place_all(core_place *places, int count, double *origin)
 {
-    core_origin(low, high, out);
+    core_place_all(places, count, origin);
 }
 
 /* ---- cameras of renderer.h ------------------------------------------------------------------- */
@@ -1077,6 +1146,13 @@ int python_scene_mesh(renderer_scene *scene, int number, const shade_mesh *mesh,
     return renderer_set_mesh(scene, number, mesh, smooth, origin);
 }
 
+NATIVE(scene_heights)
+int python_scene_heights(renderer_scene *scene, int number, const heights *h);
+int python_scene_heights(renderer_scene *scene, int number, const heights *h)
+{
+    return heights_set(scene, number, h);
+}
+
 /* 1: done, 0: out of memory, -1: the mesh has other counts, -2: a position is not finite.  Normals
    that are given are directed where they stand. */
 NATIVE(scene_deform)
@@ -1087,7 +1163,7 @@ int python_scene_deform(renderer_scene *scene, int number, const renderer_moved 
                                .vertex_count = m->vertex_count,
                                .indices = m->faces,
                                .index_count = m->index_count };
-    if (m->given && python_direct_normals(&moved, m->given)) return 0;
+    if (m->given && build_direct(&moved, m->given)) return 0;
     return renderer_deform(scene, number, m);
 }
 
@@ -1186,17 +1262,60 @@ int python_renderer_draw(renderer *const *r, int renderers, const renderer_scene
     return (int)renderer_draw(r, renderers, scene, pictures, count, stop);
 }
 
+/* ---- scenes of MuJoCo, of core/mjv.h --------------------------------------------------------- */
+
+NATIVE(mjv_texture)
+int python_mjv_texture(renderer_scene *scene, int number, const uint8_t *texels, int width,
+                       int height, int channels, int type);
+int python_mjv_texture(renderer_scene *scene, int number, const uint8_t *texels, int width,
+                       int height, int channels, int type)
+{
+    return mjv_texture(scene, number, texels, width, height, channels, type);
+}
+
+NATIVE(mjv_mesh)
+int python_mjv_mesh(renderer_scene *scene, int number, const mjv_part *part);
+int python_mjv_mesh(renderer_scene *scene, int number, const mjv_part *part)
+{
+    return mjv_mesh(scene, number, part);
+}
+
+NATIVE(mjv_records)
+int python_mjv_records(const double *geoms, int count, int solid, renderer_object *out,
+                       int32_t *pairs);
+int python_mjv_records(const double *geoms, int count, int solid, renderer_object *out,
+                       int32_t *pairs)
+{
+    return mjv_records(geoms, count, solid, out, pairs);
+}
+
+NATIVE(mjv_lights)
+int python_mjv_lights(core_refusal *r, renderer_scene *scene, const double *lamps, int count,
+                      int shadows);
+int python_mjv_lights(core_refusal *r, renderer_scene *scene, const double *lamps, int count,
+                      int shadows)
+{
+    return mjv_lights(r, scene, lamps, count, shadows);
+}
+
+NATIVE(mjv_aim) void python_mjv_aim(const double *cameras, double aspect, mjv_seen *out);
+void python_mjv_aim(const double *cameras, double aspect, mjv_seen *out)
+{
+    mjv_aim(cameras, aspect, out);
+}
+
 /* The sizes that the twins of these structs must have */
 SHADEDEF size_t python_size(int which);
 size_t python_size(int which)
 {
-    static const size_t size[] = { sizeof(shade_mesh),      sizeof(shade_draw_state),
-                                   sizeof(python_item),     sizeof(python_view),
-                                   sizeof(shade_lighting),  sizeof(shade_texture),
-                                   sizeof(shade_light),     sizeof(shade_chunk),
-                                   sizeof(python_part),     sizeof(renderer_image),
-                                   sizeof(renderer_object), sizeof(renderer_picture),
-                                   sizeof(python_picture),  sizeof(core_refusal),
-                                   sizeof(core_side),       sizeof(core_camera) };
+    static const size_t size[] = {
+        sizeof(shade_mesh),     sizeof(shade_draw_state), sizeof(python_item),
+        sizeof(python_view),    sizeof(shade_lighting),   sizeof(shade_texture),
+        sizeof(shade_light),    sizeof(shade_chunk),      sizeof(python_part),
+        sizeof(renderer_image), sizeof(renderer_object),  sizeof(renderer_picture),
+        sizeof(python_picture), sizeof(core_refusal),     sizeof(core_side),
+        sizeof(core_camera),    sizeof(build_asked),      sizeof(heights),
+        sizeof(mjv_part)
+    };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

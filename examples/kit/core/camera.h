@@ -446,6 +446,28 @@ static inline void core_origin(const double low[3], const double high[3], double
     for (int k = 0; k < 3; k++) origin[k] = nearbyint((low[k] + high[k]) / 2 / step) * step;
 }
 
+/* The eye of a camera in the space of a mesh, or where all see the same way the way toward it.
+   view and pose: by columns.  0: the pose flattens the mesh, and there is none */
+static inline int core_eye(const double *view, int parallel, const double *pose, double eye[3])
+{
+    const double *a = pose, *b = pose + 4, *c = pose + 8;
+    double row[3][3], p[3], det = 0;
+    for (int k = 0; k < 3; k++) {
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        row[0][k] = b[u] * c[v] - b[v] * c[u];
+        row[1][k] = c[u] * a[v] - c[v] * a[u];
+        row[2][k] = a[u] * b[v] - a[v] * b[u];
+        p[k] = -(view[4 * k] * view[12] + view[4 * k + 1] * view[13] + view[4 * k + 2] * view[14]);
+        p[k] = parallel ? view[4 * k + 2] : p[k] - pose[12 + k];
+    }
+    det = a[0] * row[0][0] + a[1] * row[0][1] + a[2] * row[0][2];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) row[i][k] /= det;
+        eye[i] = row[i][0] * p[0] + row[i][1] * p[1] + row[i][2] * p[2];
+    }
+    return det != 0;
+}
+
 /* A mesh in its place: its coordinates count from an origin, and reach so far from it. */
 typedef struct core_place {
     double pose[16], origin[3], reach; /* pose: by columns */

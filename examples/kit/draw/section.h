@@ -10,24 +10,13 @@
 #define MODEL_SECTION_H
 
 #include "../read/read.h"
+#include "cut.h"
 
 enum {
     SECTION_LINES = 24,         /* of the hatch across the model */
-    SECTION_CROSSINGS = 2000000 /* of outlines and rows; beyond, there are fewer rows */
+    SECTION_CROSSINGS = 2000000 /* as in cut_rows */
 };
 #define SECTION_DARK 0.28 /* the part of a row of the hatch that is drawn dark */
-
-/* A part of the outline in the plane, from low to high; along the hatch and across it */
-typedef struct section_edge {
-    double low[2], high[2];
-    int way; /* 1: it came from low to high; -1: from high to low */
-} section_edge;
-
-/* Where an edge crosses a row, at its lower and upper border */
-typedef struct section_crossing {
-    int row, way;
-    double low, high;
-} section_crossing;
 
 /* The model as it becomes; value: positions, normals, texture coordinates, colours */
 typedef struct section {
@@ -38,8 +27,8 @@ typedef struct section {
     mesh_floats value[4];
     mesh_uints index, object, fill[2]; /* fill: the triangles of the cut, plain and dark */
     uint32_t *place;                   /* the new number of each vertex, from 1 on; 0: none yet */
-    section_edge *edge;
-    size_t edges, edge_room;
+    cut_outline outline;               /* along the hatch and across it */
+    double spacing;                    /* of the lines of the hatch */
     model_part *part;
     int parts;
 } section;
@@ -106,20 +95,17 @@ static inline void section_flatten(const section *s, uint32_t i, double out[2])
 /* Adds a part of the outline, with the solid always on the same side. */
 static inline void section_outline(section *s, uint32_t from, uint32_t to)
 {
-    section_edge e = { .way = 1 }, *grown;
+    cut_outline *o = &s->outline;
+    cut_edge *grown;
+    double begin[2], end[2];
     if (s->failed) return;
-    section_flatten(s, from, e.low);
-    section_flatten(s, to, e.high);
-    if (e.low[1] > e.high[1]) {
-        e.way = -1;
-        section_flatten(s, to, e.low);
-        section_flatten(s, from, e.high);
-    }
-    grown = (section_edge *)mesh_grow(s->edge, s->edges, &s->edge_room, sizeof *grown);
+    section_flatten(s, from, begin);
+    section_flatten(s, to, end);
+    grown = (cut_edge *)mesh_grow(o->edge, o->edges, &o->room, sizeof *grown);
     s->failed |= !grown;
     if (!grown) return;
-    s->edge = grown;
-    grown[s->edges++] = e;
+    o->edge = grown;
+    cut_piece(&grown[o->edges++], begin, end);
 }
 
 /* Adds what stays of a triangle. */
@@ -178,131 +164,6 @@ static inline int section_clip(section *s)
 
 /* ---- filling --------------------------------------------------------------------------------- */
 
-static inline int section_number(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static inline int section_along(const void *a, const void *b)
-{
-    const section_crossing *x = (const section_crossing *)a, *y = (const section_crossing *)b;
-    const double p = x->low + x->high, q = y->low + y->high;
-    if (x->row != y->row) return x->row > y->row ? 1 : -1;
-    return (p > q) - (p < q);
-}
-
-/* The first of n sorted numbers that is not below x */
-static inline size_t section_find(const double *sorted, size_t n, double x)
-{
-    size_t low = 0;
-    while (low < n) {
-        const size_t middle = (low + n) / 2;
-        if (sorted[middle] < x)
-            low = middle + 1;
-        else
-            n = middle;
-    }
-    return low;
-}
-
-/* Where an edge is at a height; on itself, whatever the height */
-static inline double section_at(const section_edge *e, double height)
-{
-    const double t = (height - e->low[1]) / (e->high[1] - e->low[1]);
-    if (t >= 1) return e->high[0];
-    return t > 0 ? e->low[0] + (e->high[0] - e->low[0]) * t : e->low[0];
-}
-
-/* How far the outline is open along a line through the plane: where it is closed an even number of
-   its parts end in each point, and in the order of the line two and two ends are the same.  With
-   directed it is also wrong where parts do not begin where others end.  Huge: out of memory */
-static inline double section_gap(const section *s, double x, double y, int directed)
-{
-    const size_t n = s->edges, step = directed ? 1 : 2, apart = directed ? n : 1;
-    double *at = (double *)malloc((2 * n + 1) * sizeof *at), sum = 0;
-    if (!at) return HUGE_VAL;
-    for (size_t i = 0; i < n; i++) {
-        const section_edge *e = &s->edge[i];
-        const size_t low = e->way > 0 ? i : n + i, high = e->way > 0 ? n + i : i;
-        at[low] = x * e->low[0] + y * e->low[1];
-        at[high] = x * e->high[0] + y * e->high[1];
-    }
-    qsort(at, directed ? n : 2 * n, sizeof *at, section_number);
-    if (directed) qsort(at + n, n, sizeof *at, section_number);
-    for (size_t i = 0; i < n; i++) sum += fabs(at[step * i] - at[step * i + apart]);
-    free(at);
-    return sum;
-}
-
-/* The larger gap along two lines that few parts have sides along */
-static inline double section_gaps(const section *s, int directed)
-{
-    return fmax(section_gap(s, 1, 0.382, directed), section_gap(s, -0.382, 1, directed));
-}
-
-/* 0: the outline is closed; SECTION_TORN: it is open by more than a thousandth of the model, and
-   than what rounding makes of edges that meet in the middle of others, or turned both ways;
-   SECTION_OPEN: by so much of its length that it is one of sheets, which have no inside */
-enum { SECTION_TORN = 1, SECTION_OPEN };
-static inline int section_state(const section *s, double extent)
-{
-    const double least = (1e-3 + 3e-7 * (double)s->edges) * extent;
-    const double gap = section_gaps(s, 0);
-    double length = 0;
-    for (size_t i = 0; i < s->edges; i++)
-        length +=
-            hypot(s->edge[i].high[0] - s->edge[i].low[0], s->edge[i].high[1] - s->edge[i].low[1]);
-    if (gap > least && gap > 0.05 * length) return SECTION_OPEN;
-    return gap > least || section_gaps(s, 1) > least ? SECTION_TORN : 0;
-}
-
-/* How many rows the edges cross */
-static inline size_t section_spans(const section *s, const double *height, size_t n)
-{
-    size_t sum = 0;
-    for (size_t i = 0; i < s->edges; i++)
-        sum += section_find(height, n, s->edge[i].high[1]) -
-               section_find(height, n, s->edge[i].low[1]);
-    return sum;
-}
-
-/* The borders of rows, sorted: those of the hatch, whose lines are spacing apart, and the ends of
-   all edges or, where that would be too many, as many even ones as may be.  NULL: out of memory */
-static inline double *section_rows(const section *s, double spacing, size_t *count)
-{
-    double low = s->edge[0].low[1], high = low, *height;
-    size_t hatch = 0, n = 0, even;
-    for (size_t i = 0; i < s->edges; i++) {
-        low = fmin(low, s->edge[i].low[1]);
-        high = fmax(high, s->edge[i].high[1]);
-    }
-    hatch = (size_t)fmin(1000, ceil((high - low) / spacing));
-    even = SECTION_CROSSINGS / s->edges;
-    height = (double *)malloc((2 * s->edges + 2 * hatch + even + 8) * sizeof *height);
-    if (!height) return NULL;
-    for (int attempt = 0; attempt < 2; attempt++) {
-        n = 0;
-        for (size_t i = 0; i <= hatch; i++) {
-            height[n] = (floor(low / spacing) + (double)i) * spacing;
-            height[n + 1] = height[n] + SECTION_DARK * spacing;
-            n += 2;
-        }
-        for (size_t i = 0; i < s->edges && !attempt; i++) {
-            height[n++] = s->edge[i].low[1];
-            height[n++] = s->edge[i].high[1];
-        }
-        for (size_t i = 0; i <= even && attempt; i++)
-            height[n++] = low + (high - low) * (double)i / (double)(even + 1);
-        qsort(height, n, sizeof *height, section_number);
-        *count = 0;
-        for (size_t i = 0; i < n; i++)
-            if (!*count || height[i] > height[*count - 1]) height[(*count)++] = height[i];
-        if (section_spans(s, height, *count) <= SECTION_CROSSINGS) break;
-    }
-    return height;
-}
-
 /* Adds a point of the cut, whose place in the plane is along and across the hatch. */
 static inline uint32_t section_point(section *s, double along, double across)
 {
@@ -318,57 +179,30 @@ static inline uint32_t section_point(section *s, double along, double across)
     return section_count(s) - 1;
 }
 
-/* Adds the quadrangle between two crossings of a row from low to high. */
-static inline void section_between(section *s, const section_crossing *c, double low, double high,
-                                   int dark)
+/* Adds the quadrangle between two crossings of a row, dark or plain.  Rows reach a little over each
+   other, so that no pixel falls between them. */
+static inline int section_between(void *user, const cut_crossing *c, const double *height)
 {
+    section *s = (section *)user;
+    const double middle = (height[0] + height[1]) / 2 / s->spacing;
+    const double low = height[0] - 2e-4 * s->spacing, high = height[1];
     const uint32_t a = section_point(s, c[0].low, low), b = section_point(s, c[1].low, low);
     const uint32_t d = section_point(s, c[1].high, high), e = section_point(s, c[0].high, high);
-    mesh_uints *to = &s->fill[dark];
+    mesh_uints *to = &s->fill[middle - floor(middle) < SECTION_DARK];
     s->failed |= s->sign > 0 ? mesh_push_triangle(to, a, b, d) || mesh_push_triangle(to, a, d, e)
                              : mesh_push_triangle(to, a, d, b) || mesh_push_triangle(to, a, e, d);
+    return s->failed;
 }
 
-/* Fills a row of count crossings, sorted along it. */
-static inline void section_fill_row(section *s, const section_crossing *c, int count,
-                                    const double *height, double spacing)
+/* Fills the cut.  Non-zero: out of memory */
+static inline int section_fill(section *s)
 {
-    const double *at = height + c->row, middle = (at[0] + at[1]) / 2 / spacing;
-    const int dark = middle - floor(middle) < SECTION_DARK;
-    /* rows reach a little over each other, so that no pixel falls between them */
-    const double low = at[0] - 2e-4 * spacing;
-    int total = 0, winding = 0;
-    for (int i = 0; i < count; i++) total += c[i].way;
-    for (int i = 0; i + 1 < count && !s->failed; i++) {
-        winding = total ? i % 2 == 0 : winding + c[i].way;
-        if (winding) section_between(s, c + i, low, at[1], dark);
-    }
-}
-
-/* Finds all crossings and fills the rows between them.  Non-zero: out of memory */
-static inline int section_fill(section *s, double spacing)
-{
-    size_t n = 0, rows = 0, crossings = 0;
-    double *height = s->edges ? section_rows(s, spacing, &rows) : NULL;
-    section_crossing *list = NULL;
-    if (!s->edges) return 0;
-    if (height) n = section_spans(s, height, rows);
-    if (height) list = (section_crossing *)malloc((n + 1) * sizeof *list);
-    for (size_t i = 0; i < s->edges && list; i++) {
-        const section_edge *e = &s->edge[i];
-        const size_t end = section_find(height, rows, e->high[1]);
-        for (size_t k = section_find(height, rows, e->low[1]); k < end && k + 1 < rows; k++)
-            list[crossings++] = (section_crossing){ (int)k, e->way, section_at(e, height[k]),
-                                                    section_at(e, height[k + 1]) };
-    }
-    if (list) qsort(list, crossings, sizeof *list, section_along);
-    for (size_t i = 0, end; i < crossings && list && !s->failed; i = end) {
-        for (end = i; end < crossings && list[end].row == list[i].row;) end++;
-        section_fill_row(s, list + i, (int)(end - i), height, spacing);
-    }
-    s->failed |= !list;
+    size_t rows = 0;
+    double *height;
+    if (!s->outline.edges) return 0;
+    height = cut_rows(&s->outline, s->spacing, SECTION_DARK, SECTION_CROSSINGS, &rows);
+    s->failed |= !height || cut_fill(&s->outline, height, rows, 0, section_between, s);
     free(height);
-    free(list);
     return s->failed;
 }
 
@@ -459,7 +293,7 @@ static inline void section_free(section *s)
     free(s->index.v);
     free(s->object.v);
     free(s->place);
-    free(s->edge);
+    free(s->outline.edge);
     free(s->part);
 }
 
@@ -485,13 +319,13 @@ static inline int section_cut(section *s, model *m, const model_options *o)
     m->normals_given = 1;
     for (int i = 0; i < 3; i++) extent = fmax(extent, s->high[i] - s->low[i]);
     failed = failed || section_clip(s);
-    if (!failed) state = section_state(s, extent);
+    if (!failed) state = cut_state(&s->outline, extent);
     if (state && !o->quiet)
         complain("--section: the mesh is open%s where it is cut: the cut is %s",
-                 state == SECTION_OPEN ? "" : ", or turned both ways,",
-                 state == SECTION_OPEN ? "not filled"
-                                       : "filled between each second pair of its lines");
-    if (!failed && state != SECTION_OPEN) failed = section_fill(s, 2 * extent / SECTION_LINES);
+                 state == CUT_OPEN ? "" : ", or turned both ways,",
+                 state == CUT_OPEN ? "not filled" : "filled between each second pair of its lines");
+    s->spacing = 2 * extent / SECTION_LINES;
+    if (!failed && state != CUT_OPEN) failed = section_fill(s);
     failed = failed || section_join(s, m, o);
     if (!failed) section_lines(s, m);
     if (!failed) section_hand_over(s, m);

@@ -5,6 +5,7 @@
 #include "examples/kit/scene/renderer.h"
 #include "examples/kit/core/camera.h"
 #include "examples/kit/core/color.h"
+#include "examples/kit/core/mjv.h"
 #include "examples/kit/image/numbers.h"
 #include "examples/kit/read/json.h"
 
@@ -174,11 +175,16 @@ static int step_of(const asked *a, renderer_scene *s, uint32_t at)
     static const double still[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
     const renderer_object o = { .kind = RENDERER_SPHERE, .size = { 1, 1, 1 } };
     renderer_object all[MOST];
-    double n[MOST];
+    double n[MOST], m[16];
     const int count = numbers_at(a->j, at, n, MOST), number = count ? (int)n[0] : 0;
+    memcpy(m, still, sizeof m);
+    for (int k = 0; k < 3 && count == 4; k++) m[4 * k + 3] = n[k + 1];
     if (json_is(a->j, at + 1, "add")) return renderer_add(s, &o, 1) == number;
     if (json_is(a->j, at + 1, "remove")) return renderer_put_object(s, number, NULL, 0) == 1;
     if (json_is(a->j, at + 1, "pose")) return renderer_pose(s, &number, still, 1) == -1;
+    if (json_is(a->j, at + 1, "move")) return renderer_pose(s, &number, m, 1) == -1;
+    if (json_is(a->j, at + 1, "at"))
+        return renderer_records(s, number, all, MOST) == 1 && near(all->place, n + 1, 3, 0);
     if (json_is(a->j, at + 1, "clear")) return renderer_put_all(s, NULL, 0);
     if (json_is(a->j, at + 1, "stale"))
         return renderer_pose(s, &number, still, 1) == -2 &&
@@ -200,21 +206,54 @@ static int run_handles(asked *a)
     return same;
 }
 
+/* A square picture of ids or depth, by matrices by columns, of count objects or, where there are
+   none, of the scene's */
+static int draw(const renderer_scene *s, int size, const double *view, const double *projection,
+                const renderer_object *objects, int count, int32_t *ids, float *depth)
+{
+    renderer_picture p = { .width = size, .height = size, .samples = 1, .channels = 3 };
+    renderer *r = renderer_open();
+    int failed;
+    p.near_z = 0.01f;
+    p.far_z = 1000;
+    p.tolerance = 0.25f;
+    p.objects = objects;
+    p.object_count = count;
+    p.ids = ids;
+    p.depth = depth;
+    memcpy(p.view, view, sizeof p.view);
+    for (int k = 0; k < 16; k++) (&p.projection.col[k / 4].x)[k % 4] = (float)projection[k];
+    failed = !r || renderer_draw(&r, 1, s, &p, 1, NULL);
+    renderer_close(r);
+    return failed;
+}
+
+/* Whether the case wants as many pixels of each object.  Round shapes lie within a quarter of a
+   pixel of the true ones, along 3.545 roots of the area. */
+static int counted(const asked *a, const int32_t *ids, int size)
+{
+    double want[MOST];
+    const int count = numbers(a, "want", want, MOST);
+    int seen[MOST] = { 0 };
+    for (int i = 0; i < size * size; i++)
+        if (ids[2 * i] >= 0) seen[ids[2 * i]]++;
+    for (int i = 0; i < count; i++)
+        if (!(fabs(seen[i] - want[i]) <= 3 + 0.886 * sqrt(want[i]))) return 0;
+    return 1;
+}
+
 static int run_scene(asked *a)
 {
     static int32_t ids[2 * 64 * 64];
-    double balls[MOST], eye[3], target[3], far[3], want[MOST];
+    double balls[MOST], eye[3], target[3], far[3];
     const double up[3] = { 0, 0, 1 };
     const int count = numbers(a, "balls", balls, MOST) / 4, size = (int)number(a, "size");
-    renderer_picture p = { .width = size, .height = size, .samples = 1, .channels = 3 };
     renderer_scene *s = renderer_scene_open();
-    renderer *r = renderer_open();
     core_camera c;
-    int same = s && r, seen[MOST] = { 0 };
+    int same = s != NULL;
     numbers(a, "eye", eye, 3);
     numbers(a, "target", target, 3);
     numbers(a, "far", far, 3);
-    numbers(a, "want", want, MOST);
     for (int k = 0; k < 3; k++) {
         eye[k] += far[k];
         target[k] += far[k];
@@ -230,23 +269,94 @@ static int run_scene(asked *a)
         }
         same = renderer_add(s, &o, 1) == i;
     }
-    p.near_z = 0.01f;
-    p.far_z = 1000;
-    p.tolerance = 0.25f;
-    p.ids = ids;
-    if (same) memcpy(p.view, c.view, sizeof p.view);
-    for (int k = 0; k < 16 && same; k++)
-        (&p.projection.col[k / 4].x)[k % 4] = (float)c.projection[k];
-    same = same && !renderer_draw(&r, 1, s, &p, 1, NULL);
-    for (int i = 0; i < size * size && same; i++)
-        if (ids[2 * i] >= 0) seen[ids[2 * i]]++;
-    /* round shapes lie within a quarter of a pixel of the true ones, along 3.545 roots of the
-       area */
-    for (int i = 0; i < count && same; i++)
-        same = fabs(seen[i] - want[i]) <= 3 + 0.886 * sqrt(want[i]);
-    renderer_close(r);
+    same =
+        same && !draw(s, size, c.view, c.projection, NULL, 0, ids, NULL) && counted(a, ids, size);
     renderer_scene_close(s);
     return same;
+}
+
+static int run_mjv(asked *a)
+{
+    static const double plain[MJV_GEOM] = { 2,
+                                            -1,
+                                            -1,
+                                            0,
+                                            0,
+                                            0,
+                                            5,
+                                            [MJV_MAT] = 1,
+                                            [MJV_MAT + 4] = 1,
+                                            [MJV_MAT + 8] = 1,
+                                            [MJV_RGBA + 3] = 1 };
+    static int32_t ids[2 * 64 * 64];
+    double balls[MOST], cameras[MOST], lamps[MOST], geoms[MOST / 4 * MJV_GEOM];
+    const int count = numbers(a, "balls", balls, MOST) / 4, size = (int)number(a, "size");
+    const int lights = numbers(a, "lights", lamps, MOST) / MJV_LAMP;
+    renderer_object records[MOST / 4];
+    int32_t pairs[MOST];
+    renderer_scene *s = renderer_scene_open();
+    mjv_seen seen;
+    int same = s && numbers(a, "cameras", cameras, MOST) == 2 * MJV_CAMERA;
+    same = same && !mjv_lights(&a->why, s, lamps, lights, 1);
+    for (int i = 0; i < count; i++) {
+        double *g = geoms + MJV_GEOM * i;
+        memcpy(g, plain, sizeof plain);
+        memcpy(g + MJV_POS, balls + 4 * i, 3 * sizeof *g);
+        g[MJV_SIZE] = g[MJV_SIZE + 1] = g[MJV_SIZE + 2] = balls[4 * i + 3];
+        g[MJV_OBJECT] = 7 + i;
+    }
+    if (same) mjv_aim(cameras, 1, &seen);
+    same = same && mjv_records(geoms, count, 1, records, pairs) == count &&
+           !draw(s, size, seen.view, seen.projection, records, count, ids, NULL) &&
+           counted(a, ids, size);
+    for (int i = 0; i < count && same; i++)
+        same = pairs[2 * i + 2] == 7 + i && pairs[2 * i + 3] == 5;
+    renderer_scene_close(s);
+    return same;
+}
+
+static int run_ground(asked *a)
+{
+    const double up[3] = { 0, 1, 0 };
+    double z[MOST], half[2], eye[3] = { 0, 0, 10 }, target[3] = { 0, 0, 0 }, got;
+    float rows[MOST], depth[81];
+    const int count = numbers(a, "heights", z, MOST);
+    const int height = (int)a->j->value[member(a, "heights")].count;
+    renderer_object o = { .turn = { 1, 0, 0, 0, 1, 0, 0, 0, 1 },
+                          .size = { 1, 1, 1 },
+                          .rgba = { 1, 1, 1, 1 } };
+    heights h = { .z = rows, .rows = height, .columns = count / height, .scale = 1 };
+    renderer_scene *s = renderer_scene_open();
+    core_camera c;
+    int same = s != NULL;
+    for (int k = 0; k < count; k++) rows[k] = (float)z[k];
+    numbers(a, "half", half, 2);
+    numbers(a, "at", eye, 2);
+    memcpy(h.half, half, sizeof half);
+    memcpy(target, eye, 2 * sizeof *eye);
+    same = same && heights_set(s, 0, &h) == 2 * (h.rows - 1) * (h.columns - 1) &&
+           renderer_add(s, &o, 1) == 0 &&
+           !core_look_at(&a->why, eye, target, up, 45, 1, 0.01, 1000, &c) &&
+           !draw(s, 9, c.view, c.projection, NULL, 0, NULL, depth);
+    renderer_scene_close(s);
+    got = (double)depth[40];
+    z[0] = number(a, "want");
+    return same && near(&got, z, 1, 1e-5);
+}
+
+static int run_local(asked *a)
+{
+    double points[MOST], faces[MOST], want[MOST], wanted[3], origin[3], got[MOST];
+    float local[MOST];
+    uint32_t corner[MOST];
+    const int count = numbers(a, "points", points, MOST),
+              corners = numbers(a, "faces", faces, MOST);
+    for (int k = 0; k < corners; k++) corner[k] = (uint32_t)faces[k];
+    numbers(a, "origin", wanted, 3);
+    if (build_local(points, (size_t)count / 3, corner, (size_t)corners, local, origin)) return 0;
+    for (int k = 0; k < count; k++) got[k] = (double)local[k];
+    return numbers(a, "want", want, MOST) == count && near(got, want, count, 1e-7) &&
+           near(origin, wanted, 3, 0);
 }
 
 /* Numbers of 16 bits: of depth in a unit, or of objects */
@@ -287,6 +397,7 @@ static const runner runners[] = {
     { "opencv", run_opencv }, { "opengl", run_opengl }, { "fit", run_fit },
     { "faces", run_faces },   { "pose", run_pose },     { "handles", run_handles },
     { "scene", run_scene },   { "depth", run_depth },   { "ids", run_ids },
+    { "mjv", run_mjv },       { "ground", run_ground }, { "local", run_local },
 };
 
 /* Whether the core refuses just what the case says, if it says so */

@@ -260,6 +260,10 @@ handles(["stale", 0], ["add", 0], ["stale", 1], ["stale", 7])
 handles(["add", 0], ["add", 1], ["clear"], ["stale", 0], ["stale", 1], ["add", 2], ["objects", [2]])
 handles(*[["add", k] for k in range(5)], ["remove", 4], ["remove", 3], ["add", 5], ["objects", [0, 1, 2, 5]])
 handles(["add", 0], ["add", 1], ["add", 2], ["remove", 1], ["pose", 2], ["pose", 0], ["stale", 1], ["objects", [0, 2]])
+handles(["add", 0], ["add", 1], ["move", 1, [1, -2, 3]], ["at", 0, [0, 0, 0]], ["at", 1, [1, -2, 3]])
+handles(["add", 0], ["move", 0, [1e8, 0.125, -7]], ["pose", 0], ["at", 0, [0, 0, 0]], ["move", 0, [5, 6, 7]], ["at", 0, [5, 6, 7]])
+handles(["add", 0], ["add", 1], ["remove", 0], ["move", 1, [0, 0, 9]], ["add", 2], ["at", 2, [0, 0, 0]], ["at", 1, [0, 0, 9]],
+        ["stale", 0], ["objects", [1, 2]])
 live, steps, number = [], [], 0
 for _ in range(60):
     if live and rng.random() < 0.5:
@@ -299,6 +303,56 @@ for which in range(14):
     wanted = seen(balls, eye, [0, 0, 0], 50, 48)
     for far in ([0, 0, 0], [524288, 4194304, 128], [0, 0, 6400000], [2 ** 27, -2 ** 27, 2 ** 26], [-2 ** 20, 0, 2 ** 30]):
         case("scene", balls=[[*at, radius] for at, radius in balls], eye=eye, target=[0, 0, 0], fov=50, size=48, far=far, want=wanted)
+
+# ---- the same through MuJoCo's scenes: two cameras of stereo, lamps
+
+
+def lamp(kind=1, way=(0, 0, -1)):
+    """type, headlight, castshadow, cutoff, exponent; pos, dir, ambient, diffuse, specular, attenuation"""
+    return [kind, 0, 1, 45, 10, 0, 0, 5, *way, *[0.1] * 3, *[0.7] * 3, *[0.3] * 3, 1, 0, 0]
+
+
+def mjv(balls, eye, target, fov, size, lights, apart=4, **more):
+    toward = unit([a - b for a, b in zip(target, eye)])
+    side = unit([toward[1], -toward[0], 0])
+    top = 0.1 * math.tan(math.radians(fov) / 2)
+    cameras = [[0.1, 1000, top, -top, 0, 0, 0, *(e + s * apart * d for e, d in zip(eye, side)), *toward, 0, 0, 1] for s in (-1, 1)]
+    case("mjv", balls=[[*at, radius] for at, radius in balls], cameras=cameras, lights=lights, size=size, **more)
+
+
+for which in range(8):
+    balls = [([rng.randrange(-12, 12) / 8 for _ in range(3)], rng.randrange(2, 7) / 8) for _ in range(3)]
+    eye = [rng.randrange(-8, 8) / 8, -6.0, rng.randrange(0, 16) / 8]
+    mjv(balls, eye, [0, 0, 0], 50, 48, [lamp()] * (which % 3), want=seen(balls, eye, [0, 0, 0], 50, 48))
+mjv([], [0, -6, 0], [0, 0, 0], 50, 48, [lamp(0), lamp(1, (0, 0, 0))], refused=["lights[1]", "must have a direction"])
+mjv([], [0, -6, 0], [0, 0, 0], 50, 48, [lamp(0, (0, 1e39, 0))], refused=["lights[0]", "must hold finite numbers"])
+
+# ---- ground: the depth straight above a point of its rows
+
+for which in range(6):
+    rows, columns, half = rng.randrange(3, 7), rng.randrange(3, 7), [rng.randrange(2, 9) / 4, rng.randrange(2, 9) / 4]
+    heights = [[rng.randrange(-16, 16) / 8 for _ in range(columns)] for _ in range(rows)]
+    i, j = rng.randrange(1, rows - 1), rng.randrange(1, columns - 1)
+    case("ground", heights=heights, half=half, at=[2 * half[0] * j / (columns - 1) - half[0], 2 * half[1] * i / (rows - 1) - half[1]],
+         want=10 - heights[i][j])
+
+# ---- where meshes count from: 0, or a round number near what can be seen of them
+
+
+def local(points, rows, origin):
+    case("local", points=points, faces=rows, want=[[x - o for x, o in zip(p, origin)] for p in points], origin=origin)
+
+
+corner = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+four = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+for far in ([0, 0, 0], [4, -8, 2], [15, 0, 0]):
+    local([[a + b for a, b in zip(p, far)] for p in corner], four, [0, 0, 0])
+for far in ([1e6, 0, 0], [524288, -4194304, 128], [0, 6400000, 0]):
+    moved = [[a + b for a, b in zip(p, far)] for p in corner]
+    origin = [float(round(x + 0.5)) for x in far]    # the middle, in steps as large as the mesh; halves go to the even one
+    local(moved, four, origin)
+    local(moved + [[0, 0, 0]], four, origin)                                  # no face has the last one
+    local(moved + [[5, 5, 5]], four + [[4, 4, 4], [4, 4, 0]], origin)         # nor one that can be seen
 
 # ---- depth and numbers of objects in 16 bits
 

@@ -30,15 +30,6 @@ export function camerasOf({ library, withMemory, put, text, asked }) {
         for (let i = 0, at; (at = library.view_name(i, angles)); i++) VIEWS[text(at)] = [...doubles(angles, 2)];
     });
 
-    /** From where coordinates in a box are counted, so that floats keep their digits */
-    function originOf(low, high) {
-        return withMemory((room) => {
-            const out = room(24);
-            library.origin(put(room(24), Float64Array.from(low)), put(room(24), Float64Array.from(high)), out);
-            return [...doubles(out, 3)];
-        });
-    }
-
     /** Meshes in a world that counts from an origin: { origin, placed }. */
     function placed(meshes) {
         return withMemory((room) => {
@@ -155,36 +146,5 @@ export function camerasOf({ library, withMemory, put, text, asked }) {
         },
     };
 
-    return { Camera, originOf, placed, fitted, studio, rigid, rangeOf, given };
-}
-
-/** The box around the rows that are finite and fit floats */
-export function boxOf(rows) {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (let i = 0; i < rows.length; i += 3) {
-        const most = Math.max(Math.abs(rows[i]), Math.abs(rows[i + 1]), Math.abs(rows[i + 2]));
-        if (!(most <= 1e30)) continue;
-        for (let k = 0; k < 3; k++) {
-            low[k] = Math.min(low[k], rows[i + k]);
-            high[k] = Math.max(high[k], rows[i + k]);
-        }
-    }
-    return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
-}
-
-/** The eye of a camera in the space of a mesh, or the way toward it where all see the same way. */
-export function eyeOf({ view, projection }, pose) {
-    const parallel = projection[15] !== 0, inverse = inverted(pose);
-    if (!inverse) return null;
-    const eye = [0, 1, 2].map((k) => -(view[4 * k] * view[12] + view[4 * k + 1] * view[13] + view[4 * k + 2] * view[14]));
-    const p = parallel ? [view[2], view[6], view[10]] : eye.map((x, k) => x - pose[12 + k]);
-    return { eye: inverse.map((row) => row[0] * p[0] + row[1] * p[1] + row[2] * p[2]), parallel };
-}
-
-/** The rows of the inverse of the upper left 3 x 3, or null */
-function inverted(m) {
-    const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
-    const [a, b, c] = [0, 4, 8].map((k) => [m[k], m[k + 1], m[k + 2]]);
-    const rows = [cross(b, c), cross(c, a), cross(a, b)], det = a[0] * rows[0][0] + a[1] * rows[0][1] + a[2] * rows[0][2];
-    return det === 0 ? null : rows.map((row) => row.map((x) => x / det));
+    return { Camera, placed, fitted, studio, rigid, rangeOf, given };
 }

@@ -227,7 +227,8 @@ export const Camera: {
                                            ortho?: boolean; fov?: number; margin?: number }): CameraMatrices;
 };
 
-/** An object of a Renderer: every call that takes its number takes it. */
+/** An object of a Renderer, and its number wherever one is wanted but for ===, which needs number: every call that
+    takes its number takes it. */
 export interface Solid {
     readonly number: number;
     readonly renderer: Renderer;
@@ -252,18 +253,22 @@ export class Renderer {
         these, of which uv needs a texture in add(). */
     mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
                           uv?: Numbers; colors?: Numbers }): Shape;
+    /** Ground for add(): rows of heights along y, over x from -half[0] to half[0] and y from -half[1] to half[1]. */
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;
+    /** For add(); with faces 6 a cube, one below the other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made. */
     texture(picture: Texture & { faces?: 1 | 6 }): number;
+    /** A texture of 2 x 2 squares, which repeats. */
     checker(one?: Color, other?: Color): number;
     /** Size: half the sides of a plane (none: endless) and box, a radius, radii, or radius and half the
         length along z; of a shape its scale. */
-    add(shape: ShapeName | Shape, size?: number | Numbers, options?: Looks & { at?: Numbers; pose?: Numbers }): number;
+    add(shape: ShapeName | Shape, size?: number | Numbers, options?: Looks & { at?: Numbers; pose?: Numbers }): Solid;
     /** The numbers of all objects, in order. */
     readonly objects: number[];
-    /** An object by its number: ids hold numbers, and this has the rest. */
+    /** What add() gave, by its number, which ids hold. */
     object(number: number | Solid): Solid;
     /** What is not given stays; undefined is as if add() had not been given it. */
     change(number: number | Solid, options: Looks & { size?: number | Numbers }): void;
+    /** 4 x 4 by columns, a rotation and a translation */
     pose(number: number | Solid, pose: Numbers): void;
     /** A matrix for each of numbers, or for all objects in order; nothing moves where one is refused. */
     poses(poses: readonly Numbers[], numbers?: readonly (number | Solid)[]): void;
@@ -272,17 +277,23 @@ export class Renderer {
         word; or all, as mesh() takes it; or heights, as height_field() took them.  Its objects show it. */
     update(shape: Shape, source: Parameters<Renderer["mesh"]>[0] | Numbers,
            options?: { indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers; uv?: Numbers; colors?: Numbers }): void;
+    /** Objects and a sky that have the texture show the other picture. */
     update_texture(number: number, picture: Texture & { faces?: 1 | 6 }): void;
-    /** Takes away an object, whose number none is given again, or a shape that no object shows. */
+    /** Takes away an object, whose number none is given again, or a shape that no object shows, with the textures that
+        came with it. */
     remove(what: number | Solid | Shape): void;
+    /** Of a texture that no object, shape or sky shows */
     remove_texture(number: number): void;
-    /** Takes away all objects, shapes and textures. */
+    /** Takes away all objects, shapes and textures; lamps and a background of one colour stay. */
     clear(): void;
-    /** shadow: the lamps, directional or spots, that cast shadows. */
+    /** Up to 8 lamps.  shadow: those, directional or spots, that cast shadows. */
     light(lights: readonly Light[], ambient?: Numbers, shadow?: number | readonly number[]): void;
     background(color: Color): void;
+    /** From the colour straight below to that straight above, +z */
     sky(low?: Color, high?: Color): void;
+    /** A cube, whose +y is up (+z of the world), as in OpenGL */
     sky_texture(texture: number): void;
+    /** New arrays for render(), or for so many pictures of render_batch() */
     frame(wanted?: { color?: boolean; depth?: boolean; ids?: boolean; normals?: boolean; pictures?: number }): Frame;
     render(camera: Camera, out?: Frame, options?: { solid?: boolean; empty_depth?: number }): Frame;
     /** A picture for each camera, one after the other in each array.  poses has for each picture a matrix of each

@@ -1,6 +1,6 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
-import { boxOf, camerasOf, eyeOf } from "./camera.js";
+import { camerasOf } from "./camera.js";
 import encoded from "./module.js";
 import { readersOf } from "./model.js";
 import { mujocoOf } from "./mujoco.js";
@@ -24,16 +24,12 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary), {
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 27, ITEM = 50, VIEW = 67, LIGHT = 21;
+const MESH = 27, ITEM = 58, VIEW = 67, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
 
 const IDENTITY = Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
-// Three lamps that stay with the camera: the way their light travels, and its colour
-const QUICK = [[[0.55, -0.85, -0.75], [1.02, 0.99, 0.95]], [[-1.0, 0.05, -0.55], [0.20, 0.23, 0.28]],
-               [[-0.6, -0.5, 1.0], [0.35, 0.38, 0.42]]];
-const QUICK_AMBIENT = [0.17, 0.175, 0.19];
 const INFINITE_VIEWER = 32, INDEX = 7;
 
 // ---- memory of the module
@@ -235,15 +231,17 @@ function touch(one) {
 
 const forgotten = new FinalizationRegistry(putAway);
 
-/** Positions as floats that count from an origin: of numbers in double, near them. */
-function localOf(value) {
-    const exact = check.doubles("positions", value, 3);
-    const origin = exact instanceof Float64Array ? cameras.originOf(...boxOf(exact)) : [0, 0, 0];
-    const positions = Float32Array.from(exact);
-    if (origin.some((x) => x !== 0)) {
-        for (let i = 0; i < exact.length; i++) positions[i] = exact[i] - origin[i % 3];
-    }
-    return { positions, origin };
+/** Positions as floats that count from an origin: of numbers in double, near what of them can be seen. */
+function localOf(exact, indices) {
+    if (exact instanceof Float32Array) return { positions: exact.slice(), origin: [0, 0, 0] };
+    return withMemory((room) => {
+        const [at, corners] = [exact, indices].map((array) => put(room(array.byteLength + 8), array));
+        const local = room(4 * exact.length + 4), origin = room(24);
+        if (library.local(at, exact.length / 3, corners, indices.length, local, origin)) {
+            throw new RangeError("memory is not enough for the mesh");
+        }
+        return { positions: floats(local, exact.length).slice(), origin: [...new Float64Array(library.memory.buffer, origin, 3)] };
+    });
 }
 
 /** Indices of faces, rows of 3 or 4 corners */
@@ -273,10 +271,11 @@ export class Mesh {
         if (source === undefined) throw new ShadeError("mesh must be an object with positions");
         const got = check.record("mesh", source, MESH_OPTIONS);
         const { normals = "auto", color, colors, edges = false, twoSided = true } = got;
-        Object.assign(this, localOf(got.positions));
-        const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
+        const exact = check.doubles("positions", got.positions, 3);
+        const vertices = exact.length / 3, sentence = text(library.words(INDEX));
         this.indices = got.faces === undefined ? check.indices("indices", got.indices, vertices, sentence).slice()
             : triangles(got.faces, vertices);
+        Object.assign(this, localOf(exact, this.indices));
         warn(this);
         this.pose = got.pose === undefined ? IDENTITY : check.pose("pose", got.pose);
         this.edges = check.flag("edges", edges);
@@ -385,32 +384,16 @@ function prepared(source) {
 
 // ---- pictures
 
-/** Three lamps beside the camera. */
-function quick({ view }) {
-    const lights = QUICK.map(([way, color]) => {
-        const toward = [0, 1, 2].map((k) => -(way[0] * view[4 * k] + way[1] * view[4 * k + 1] +
-                                              way[2] * view[4 * k + 2]));
-        const row = new Float32Array(LIGHT);
-        row.set(toward);
-        row.set(color, 7);
-        row.set(color, 10);
-        return row;
-    });
-    return { lights, ambient: QUICK_AMBIENT, model: 0, flags: 0, bent: true };
-}
-
-function writeItems(at, meshes, camera, surface) {
+function writeItems(at, meshes, surface) {
     meshes.forEach(({ mesh, pose }, i) => {
-        const start = at + 4 * ITEM * i, from = eyeOf(camera, pose), { address } = mesh;
-        new Float64Array(library.memory.buffer, start, 3).set(from?.eye ?? [0, 0, 0]);
-        words(start + 24, 4).set([address, mesh.edges && from ? 1 : 0, mesh.twoSided ? 1 : 0,
-                                  from?.parallel ? 1 : 0]);
-        floats(start + 40, 13).set(surface ?? mesh.material);
-        floats(start + 92, 16).set(pose);
-        words(start + 156, 1)[0] = mesh.blend ? 1 : 0;
-        floats(start + 160, 8).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness, mesh.strength,
+        const start = at + 4 * ITEM * i, { address } = mesh;
+        new Float64Array(library.memory.buffer, start, 16).set(pose);
+        words(start + 128, 3).set([address, mesh.edges ? 1 : 0, mesh.twoSided ? 1 : 0]);
+        floats(start + 140, 13).set(surface ?? mesh.material);
+        words(start + 192, 1)[0] = mesh.blend ? 1 : 0;
+        floats(start + 196, 8).set([mesh.opacity, mesh.cutoff, mesh.metal, mesh.roughness, mesh.strength,
                                     ...mesh.glowFactor]);
-        words(start + 192, 1)[0] = mesh.unlit ? 1 : 0;
+        words(start + 228, 1)[0] = mesh.unlit ? 1 : 0;
     });
 }
 
@@ -423,7 +406,7 @@ function drawn(meshes, camera, { width, height, samples, background, depth, ligh
         const [depths, ids] = depth ? [room(4 * pixels), room(4 * pixels)] : [0, 0];
         const flags = light.flags | (camera.projection[15] !== 0 ? INFINITE_VIEWER : 0);
         light.lights.forEach((row, i) => floats(lights, light.lights.length * LIGHT).set(row, i * LIGHT));
-        writeItems(items, meshes, camera, surface);
+        writeItems(items, meshes, surface);
         words(view, 10).set([lights, rgba, depths, ids, light.lights.length, width, height, samples, flags,
                              light.model]);
         floats(view + 40, 3).set(light.ambient);
@@ -432,7 +415,7 @@ function drawn(meshes, camera, { width, height, samples, background, depth, ligh
         floats(view + 132, 16).set(camera.projection);
         words(view + 196, 1)[0] = toStudio ? 1 : 0;
         floats(view + 200, 16).set(toStudio ?? IDENTITY);
-        words(view + 264, 1)[0] = light.bent ? 1 : 0;
+        words(view + 264, 1)[0] = light.quick ? 1 : 0;
         succeed("mesh", library.draw(view, items, meshes.length));
         const data = new Uint8ClampedArray(library.memory.buffer, rgba, 4 * pixels).slice();
         return new Picture(width, height, data, depth ? floats(depths, pixels).slice() : null,
@@ -472,7 +455,7 @@ export function render(meshes, options) {
             row.set(origin.map((x, k) => row[k] - row[3] * x));
         });
         check.flag("depth", depth);
-        const lit = own ?? quick(camera);
+        const lit = own ?? { lights: [], ambient: [0, 0, 0], model: 0, flags: 0, quick: true };
         return drawn(near, camera, { width, height, samples, background: behind, depth, surface: seen?.material,
                                         light: seen ? { ...lit, model: seen.model, flags: seen.flags } : lit,
                                         toStudio: soft ? cameras.studio(near, camera, up) : null });
@@ -495,4 +478,4 @@ export const read3mf = readers.read3mf;
 export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared, localOf, cameras });
 
 /** MuJoCo's own class without OpenGL: new mujoco.Renderer(mj, model, height, width). */
-export const mujoco = mujocoOf(Renderer);
+export const mujoco = mujocoOf(Renderer, { library, withMemory, put, asked });

@@ -1,198 +1,136 @@
 // MuJoCo's own Renderer without OpenGL: the same calls, shapes and units, over @mujoco/mujoco.
 import * as check from "./arguments.js";
-import { AT, HIDDEN, PLACE, TURN, plainRecord } from "./renderer.js";
 
 const { ShadeError } = check;
 
-const HEIGHT_FIELD = 1, MESH = 7, KINDS = [1, 0, 2, 4, 3, 5, 6, 0, 0];    // of mjGEOM_..., as kinds here
-const CUBE = 1, SKYBOX = 2, SPOT = 0, DIRECTIONAL = 1;                    // mjTEXTURE_..., mjLIGHT_...
-const SHADOWS = 0, SKIES = 4, FIXED = 2, CAMERA = 7, LAMPS = 8;          // mjRND_..., mjCAMERA_FIXED, mjOBJ_CAMERA
+const HEIGHT_FIELD = 1, MESH = 7, SKYBOX = 2, SHADOWS = 0, SKIES = 4, FIXED = 2, CAMERA = 7;    // of MuJoCo's enums
+// What mjv.h knows of an mjvGeom, an mjvLight and an mjvGLCamera, in its order, and how many numbers that is
+const GEOM = ["type", "dataid", "texid", "texuniform", "segid", "objid", "objtype", "specular", "shininess", "emission",
+              "size", "pos", "mat", "rgba", "texrepeat"];
+const LAMP = ["type", "headlight", "castshadow", "cutoff", "exponent", "pos", "dir", "ambient", "diffuse", "specular",
+              "attenuation"];
+const EYE = ["frustum_near", "frustum_far", "frustum_top", "frustum_bottom", "frustum_center", "frustum_width",
+             "orthographic", "pos", "forward", "up"];
+const NUMBERS = { geoms: [GEOM, 31], lights: [LAMP, 23], cameras: [EYE, 16] }, RECORD = 58;
 
-/** Texels as RGBA. */
-function texels(model, i) {
-    const [width, height, n] = [model.tex_width[i], model.tex_height[i], model.tex_nchannel[i]];
-    const from = model.tex_data.subarray(model.tex_adr[i], model.tex_adr[i] + width * height * n);
-    const data = new Uint8Array(4 * width * height).fill(255);
-    for (let k = 0; k < width * height; k++) {
-        for (let c = 0; c < 4; c++) if (c < n || c < 3) data[4 * k + c] = from[n * k + Math.min(c, n - 1)];
-    }
-    const faces = model.tex_type[i] === CUBE || model.tex_type[i] === SKYBOX ? 6 : 1;
-    return { data, width, height, faces };
-}
-
-/** A mesh of the model, whose corners have numbers of their own for normals and texture coordinates. */
-function meshOf(model, i) {
-    const slice = (name, adr, num, width) => model[name].subarray(width * model[adr][i], width * (model[adr][i] + model[num][i]));
-    const vertices = slice("mesh_vert", "mesh_vertadr", "mesh_vertnum", 3);
-    const normals = slice("mesh_normal", "mesh_normaladr", "mesh_normalnum", 3);
-    const faces = slice("mesh_face", "mesh_faceadr", "mesh_facenum", 3);
-    const ofNormals = slice("mesh_facenormal", "mesh_faceadr", "mesh_facenum", 3);
-    const mapped = model.mesh_texcoordadr[i] >= 0 && model.mesh_texcoordnum[i] > 0;
-    const uv = mapped ? slice("mesh_texcoord", "mesh_texcoordadr", "mesh_texcoordnum", 2) : null;
-    const ofUv = mapped ? slice("mesh_facetexcoord", "mesh_faceadr", "mesh_facenum", 3) : null;
-    const made = { positions: [], normals: [], indices: [], ...(uv ? { uv: [] } : {}) }, known = new Map();
-    for (let k = 0; k < faces.length; k++) {
-        const [v, n, t] = [faces[k], ofNormals[k], ofUv ? ofUv[k] : 0], key = `${v} ${n} ${t}`;
-        if (!known.has(key)) {
-            known.set(key, known.size);
-            made.positions.push(...vertices.subarray(3 * v, 3 * v + 3));
-            made.normals.push(...normals.subarray(3 * n, 3 * n + 3));
-            if (uv) made.uv.push(...uv.subarray(2 * t, 2 * t + 2));
-        }
-        made.indices.push(known.get(key));
-    }
-    return made;
-}
-
-/** Ground with sides, down to its base. */
-function groundOf(model, i) {
-    const [rows, columns] = [model.hfield_nrow[i], model.hfield_ncol[i]];
-    const [a, b, high, base] = model.hfield_size.subarray(4 * i, 4 * i + 4);
-    const data = model.hfield_data.subarray(model.hfield_adr[i], model.hfield_adr[i] + rows * columns);
-    const positions = [], indices = [], top = (r, c) => r * columns + c;
-    for (let r = 0; r < rows; r++) {
-        for (let c = 0; c < columns; c++) {
-            positions.push(2 * a * c / (columns - 1) - a, 2 * b * r / (rows - 1) - b, high * data[top(r, c)]);
-        }
-    }
-    for (let r = 0; r + 1 < rows; r++) {
-        for (let c = 0; c + 1 < columns; c++) {
-            const k = top(r, c);
-            indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
-        }
-    }
-    const rim = [];
-    for (let c = 0; c < columns - 1; c++) rim.push(top(0, c));
-    for (let r = 0; r < rows - 1; r++) rim.push(top(r, columns - 1));
-    for (let c = columns - 1; c > 0; c--) rim.push(top(rows - 1, c));
-    for (let r = rows - 1; r > 0; r--) rim.push(top(r, 0));
-    rim.forEach((from, k) => {    // a wall has vertices of its own, so that its rim is sharp
-        const to = rim[(k + 1) % rim.length], first = positions.length / 3;
-        for (const [v, low] of [[from, 1], [to, 1], [to, 0], [from, 0]]) {
-            positions.push(positions[3 * v], positions[3 * v + 1], low ? -base : positions[3 * v + 2]);
-        }
-        indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
-    });
-    return { positions, indices, normals: "smooth" };
+/** The numbers of some of a scene, one row after the other */
+function rowsOf(name, all) {
+    const [fields, width] = NUMBERS[name];
+    const rows = Float64Array.from(all.flatMap((one) => fields.flatMap((field) => one[field])), Number);
+    if (rows.length !== width * all.length) throw new ShadeError(`${name} must have the fields of an mjvScene's`);
+    return rows;
 }
 
 /** What draws a model's scenes: geoms, lights and cameras of an mjvScene. */
 class Stage {
-    #renderer; #model; #meshes = new Map(); #textures = new Map(); #records = [];
-    #unnumbered = [];    // geoms that depth and segmentation leave out, as MuJoCo does
+    #base; #core; #model; #numbers = new Map(); #textures = new Set(); #geoms; #seen;
 
-    constructor(Renderer, model, height, width) {
-        this.#renderer = new Renderer(height, width, { srgb: false });
+    constructor(Renderer, core, model, height, width) {
+        this.#base = new Renderer(height, width, { srgb: false });
+        this.#core = core;
         this.#model = model;
-        const types = Array.from(model.tex_type ?? []), sky = types.indexOf(SKYBOX);
-        this.#renderer.background([0.0, 0.0, 0.0]);
-        this.sky = sky < 0 ? null : this.#texture(sky);
+        this.sky = Array.from(model.tex_type ?? []).indexOf(SKYBOX);
+    }
+
+    /** Calls a function of the core over copies of arrays */
+    #with(arrays, call) {
+        const { withMemory, put } = this.#core;
+        const done = withMemory((room) => {
+            const at = arrays.map((array) => (array ? put(room(array.byteLength + 8), array) : 0));
+            return call(room, ...at);
+        });
+        if (done === 0) throw new RangeError("memory is not enough for the model");
+        return done;
     }
 
     #texture(i) {
-        if (!this.#textures.has(i)) this.#textures.set(i, this.#renderer.texture(texels(this.#model, i)));
-        return this.#textures.get(i);
+        if (this.#textures.has(i)) return i;
+        const [first, width, height, n, type] = ["adr", "width", "height", "nchannel", "type"].map((k) => this.#model[`tex_${k}`][i]);
+        const texels = Uint8Array.from(this.#model.tex_data.subarray(first, first + width * height * n));
+        this.#with([texels], (room, at) => this.#core.library.mjv_texture(this.#base._at, i, at, width, height, n, type));
+        this.#textures.add(i);
+        return i;
     }
 
-    #mesh(type, id) {
-        const name = `${type} ${id}`, make = type === MESH ? meshOf : groundOf;
-        if (!this.#meshes.has(name)) this.#meshes.set(name, this.#renderer._mesh(make(this.#model, id)).mesh);
-        return this.#meshes.get(name);
-    }
-
-    /** The words of a geom's record; null for what is no surface here. */
-    #record(g) {
-        if (!(g.type >= 0 && g.type < KINDS.length - 1)) return null;
-        const { floats, ints, doubles } = plainRecord();
-        const shape = g.type === MESH || g.type === HEIGHT_FIELD;
-        const mapped = shape && g.type === MESH && g.texcoord;
-        ints[AT.kind] = KINDS[g.type];
-        if (shape) ints[AT.mesh] = this.#mesh(g.type, g.type === MESH ? g.dataid >> 1 : g.dataid);
-        ints[AT.texture] = g.texid >= 0 ? 1 + this.#renderer._slot(this.#texture(g.texid)) : 0;
-        floats.set(shape ? [1, 1, 1] : g.size, AT.size);
-        if (g.type === 0) floats[AT.size + 2] = 0;
-        doubles.set(g.mat, TURN);
-        doubles.set(g.pos, PLACE);
-        floats.set(g.rgba, AT.rgba);
-        floats.fill(g.specular, AT.specular, AT.specular + 3);
-        floats[AT.shininess] = 128 * g.shininess;
-        floats[AT.emission] = g.emission;
-        for (let k = 0; k < 2; k++) {
-            const across = g.texuniform || mapped || shape || !(g.size[k] > 0) ? 1 : 2 * g.size[k];
-            floats[AT.repeat + k] = g.texrepeat[k] / across;
+    /** The number of a mesh or ground of the model, which is made where it is wanted */
+    #mesh(type, i) {
+        const name = `${type} ${i}`;
+        if (!this.#numbers.has(name)) {
+            (type === MESH ? this.#part : this.#ground).call(this, i, this.#numbers.size);
+            this.#numbers.set(name, this.#numbers.size);
         }
-        return ints;
+        return this.#numbers.get(name);
+    }
+
+    #part(i, number) {
+        const model = this.#model, { library, put } = this.#core;
+        const mapped = model.mesh_texcoordadr[i] >= 0 && model.mesh_texcoordnum[i] > 0;
+        const part = (Kind, name, of, width) => {
+            const [first, count] = [model[`mesh_${of}adr`][i], model[`mesh_${of}num`][i]];
+            return Kind.from(model[`mesh_${name}`].subarray(width * first, width * (first + count)));
+        };
+        const [vertices, normals] = ["vert", "normal"].map((name) => part(Float32Array, name, name, 3));
+        const [vertex, normal] = ["face", "facenormal"].map((name) => part(Int32Array, name, "face", 3));
+        const uv = mapped ? part(Float32Array, "texcoord", "texcoord", 2) : null;
+        const texcoord = mapped ? part(Int32Array, "facetexcoord", "face", 3) : null;
+        const counts = [vertices.length / 3, normals.length / 3, mapped ? uv.length / 2 : 0, vertex.length];
+        const done = this.#with([vertices, normals, uv, vertex, normal, texcoord], (room, ...at) =>
+            library.mjv_mesh(this.#base._at, number, put(room(40), Uint32Array.of(...at, ...counts))));
+        if (done < 0) throw new ShadeError(`model: a face of mesh ${i} has no vertex, normal or texcoord`);
+    }
+
+    #ground(i, number) {
+        const [rows, columns, first] = ["nrow", "ncol", "adr"].map((k) => this.#model[`hfield_${k}`][i]);
+        const { hfield_data: data, hfield_size: sizes } = this.#model, heights = data.subarray(first, first + rows * columns);
+        this.#base._heights(number, heights, rows, columns, sizes.subarray(4 * i, 4 * i + 4));
     }
 
     /** Takes what an mjvScene holds: arrays of geoms, lights and the two cameras of stereo. */
     take({ geoms, lights, cameras, flags }) {
-        const pairs = [], records = [];
-        this.#unnumbered = [];
-        for (const g of geoms) {
-            const record = this.#record(g);
-            if (!record) continue;
-            if (g.segid < 0) this.#unnumbered.push(records.length);
-            record[AT.id] = records.length;
-            records.push(record);
-            pairs.push(g.objid, g.objtype);
+        const { library, asked } = this.#core, base = this.#base;
+        const rows = rowsOf("geoms", geoms), [, width] = NUMBERS.geoms;
+        for (let k = 0; k < rows.length; k += width) {
+            const [type, id, texture] = rows.subarray(k, k + 3);
+            if (type === MESH || type === HEIGHT_FIELD) rows[k + 1] = this.#mesh(type, type === MESH ? id >> 1 : id);
+            if (texture >= 0) this.#texture(texture);
         }
-        this.#records = records;
-        this.pairs = Int32Array.from([-1, -1, ...pairs]);
-        const used = lights.slice(0, LAMPS);
-        const casts = (l) => flags[SHADOWS] && l.castshadow && !l.headlight && l.type <= DIRECTIONAL;
-        this.#renderer.light(used.map((l) => ({
-            position: l.type === DIRECTIONAL ? [-l.dir[0], -l.dir[1], -l.dir[2], 0] : [...l.pos, 1],
-            ambient: l.ambient, diffuse: l.diffuse, specular: l.specular,
-            constant: l.attenuation[0], linear: l.attenuation[1], quadratic: l.attenuation[2],
-            ...(l.type === SPOT && l.cutoff < 90 ? { spotDirection: l.dir, spotExponent: l.exponent,
-                spotCosCutoff: Math.cos(l.cutoff * Math.PI / 180) } : {}),
-        })), [0, 0, 0], used.flatMap((l, k) => (casts(l) ? [k] : [])));
-        if (flags[SKIES] && this.sky !== null) this.#renderer.sky_texture(this.sky);
-        else this.#renderer.background([0.0, 0.0, 0.0]);
-        this.#aim(cameras);
+        this.#geoms = rows;
+        const sky = flags[SKIES] && this.sky >= 0 ? this.#texture(this.sky) : -1;
+        const black = Float32Array.of(0, 0, 0, 1, 0, 0, 0, 0, 0, 0);
+        this.#with([rowsOf("lights", lights), black], (room, lamps, behind) => {
+            asked(library.mjv_lights, base._at, lamps, lights.length, flags[SHADOWS] ? 1 : 0);
+            library.scene_behind(base._at, sky < 0 ? 0 : 2, sky, behind);
+        });
+        this.#seen = this.#with([rowsOf("cameras", cameras)], (room, at) => {
+            const out = room(8 * 35);
+            library.mjv_aim(at, base.width / base.height, out);
+            return new Float64Array(library.memory.buffer, out, 35).slice();
+        });
     }
 
-    #aim([one, two]) {
-        const mean = (a, b) => [0, 1, 2].map((k) => (a[k] + b[k]) / 2);
-        const unit = (v) => { const n = Math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); return v.map((x) => x / n); };
-        const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        const pos = mean(one.pos, two.pos), f = unit(mean(one.forward, two.forward));
-        const r = unit(cross(f, mean(one.up, two.up))), u = cross(r, f);
-        const dot = (a) => a[0] * pos[0] + a[1] * pos[1] + a[2] * pos[2];
-        const [n, far, t, b] = [one.frustum_near, one.frustum_far, one.frustum_top, one.frustum_bottom];
-        const half = one.frustum_width ? one.frustum_width : (t - b) / 2 * (this.#renderer.width / this.#renderer.height);
-        const center = (one.frustum_center + two.frustum_center) / 2, scale = one.orthographic ? 1 : n;
-        this.view = Float32Array.of(r[0], u[0], -f[0], 0, r[1], u[1], -f[1], 0, r[2], u[2], -f[2], 0,
-                                    -dot(r), -dot(u), dot(f), 1);
-        const p = new Float32Array(16);
-        p[0] = scale / half;
-        p[5] = 2 * scale / (t - b);
-        if (one.orthographic) {
-            p[12] = -center / half;
-            p[13] = -(t + b) / (t - b);
-            p[15] = 1;
-        } else {
-            p[8] = center / half;
-            p[9] = (t + b) / (t - b);
-            p[11] = -1;
-        }
-        this.projection = p;
-        this.range = { near: n, far, parallel: one.orthographic ? 1 : 0 };
-    }
-
+    /** Draws into out; of ids, object and type in place of object and triangle. */
     draw(out, solid) {
-        const count = this.#records[0]?.length ?? 0, words = new Int32Array(count * this.#records.length);
-        this.#records.forEach((record, i) => words.set(record, count * i));
-        if (solid) this.#unnumbered.forEach((i) => { words[count * i + AT.flags] |= HIDDEN; });
-        const shot = { view: this.view, projection: this.projection, ...this.range, records: words };
-        return this.#renderer._draw(out, [shot], { solid, empty_depth: this.range.far });
+        const { library } = this.#core, count = this.#geoms.length / NUMBERS.geoms[1];
+        const { records, pairs } = this.#with([this.#geoms], (room, at) => {
+            const [made, two] = [room(4 * RECORD * count + 8), room(8 * count + 8)];
+            const used = library.mjv_records(at, count, solid ? 1 : 0, made, two);
+            const ints = (from, n) => new Int32Array(library.memory.buffer, from, n).slice();
+            return { records: ints(made, RECORD * used), pairs: ints(two, 2 * used + 2) };
+        });
+        const view = this.#seen.subarray(0, 16), projection = this.#seen.subarray(16, 32);
+        const [near, far, parallel] = this.#seen.subarray(32);
+        this.#base._draw(out, [{ view, projection, near, far, parallel, records }], { solid, empty_depth: far });
+        for (let i = 0; out.ids && i < out.ids.length; i += 2) {
+            const k = 2 * (out.ids[i] + 1);
+            [out.ids[i], out.ids[i + 1]] = [pairs[k], pairs[k + 1]];
+        }
     }
 
-    free() { this.#renderer.free(); }
+    free() { this.#base.free(); }
 }
 
 /** The class of MuJoCo's name, over the Renderer of this package. */
-export function mujocoOf(Base) {
+export function mujocoOf(Base, core) {
     class Renderer {
         #mj; #stage; #depth = false; #segmentation = false; #own = []; #taken = false; #live = false; #closed = false;
 
@@ -207,7 +145,7 @@ export function mujocoOf(Base) {
             }
             this.#mj = mj;
             this.model = model;
-            this.#stage = new Stage(Base, model, height, width);
+            this.#stage = new Stage(Base, core, model, height, width);
             if (mj) this.#own = [new mj.MjvScene(model, max_geom), new mj.MjvOption(), new mj.MjvPerturb(), new mj.MjvCamera()];
         }
 
@@ -256,10 +194,6 @@ export function mujocoOf(Base) {
             const frame = { color: null, depth: null, ids: null, normals: null };
             frame[this.#depth ? "depth" : this.#segmentation ? "ids" : "color"] = to;
             this.#stage.draw(frame, this.#depth || this.#segmentation);
-            for (let i = 0; this.#segmentation && i < to.length; i += 2) {
-                const k = 2 * (to[i] + 1);
-                [to[i], to[i + 1]] = [this.#stage.pairs[k], this.#stage.pairs[k + 1]];
-            }
             return to;
         }
 
@@ -278,25 +212,22 @@ export function mujocoOf(Base) {
     return { Renderer };
 }
 
-const GEOM = ["type", "dataid", "objid", "objtype", "segid", "texid", "texcoord", "texuniform", "specular", "shininess", "emission"];
-const LAMP = ["type", "headlight", "castshadow", "cutoff", "exponent"];
-const EYE = ["frustum_near", "frustum_far", "frustum_top", "frustum_bottom", "frustum_center", "frustum_width", "orthographic"];
-
 /** Plain objects of the handles of @mujoco/mujoco, which must be deleted. */
-function copied(handle, plain, arrays) {
-    const out = Object.fromEntries(plain.map((name) => [name, Number(handle[name])]));
-    for (const name of arrays) out[name] = Array.from(handle[name]);
+function copied(handle, fields) {
+    const out = Object.fromEntries(fields.map((name) => {
+        const value = handle[name];
+        return [name, typeof value === "object" ? Array.from(value) : Number(value)];
+    }));
     handle.delete();
     return out;
 }
 
 function read(scene) {
-    const all = (vector, count, ...names) => {
-        const out = Array.from({ length: count }, (_, i) => copied(vector.get(i), ...names));
+    const all = (vector, count, fields) => {
+        const out = Array.from({ length: count }, (_, i) => copied(vector.get(i), fields));
         vector.delete?.();
         return out;
     };
-    return { geoms: all(scene.geoms, scene.ngeom, GEOM, ["size", "pos", "mat", "rgba", "texrepeat"]),
-             lights: all(scene.lights, scene.nlight, LAMP, ["pos", "dir", "ambient", "diffuse", "specular", "attenuation"]),
-             cameras: all(scene.camera, 2, EYE, ["pos", "forward", "up"]), flags: Array.from(scene.flags) };
+    return { geoms: all(scene.geoms, scene.ngeom, GEOM), lights: all(scene.lights, scene.nlight, LAMP),
+             cameras: all(scene.camera, 2, EYE), flags: Array.from(scene.flags) };
 }

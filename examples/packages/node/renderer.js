@@ -4,25 +4,19 @@ import * as check from "./arguments.js";
 
 const { ShadeError } = check;
 
-// Words of renderer_object, of renderer_picture and of shade_light; the fields of shade_mesh, a word each
-const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8, MOVED = 14;
-const MESH = ["positions", "position_stride", "normals", "normal_stride", "texcoords", "texcoord_stride",
-              "colors", "color_stride", "vertex_count", "indices", "index_count", "chunks", "chunk_count",
-              "indices16"];
+// Words of renderer_object, renderer_picture, shade_light, renderer_image, renderer_moved and heights
+const OBJECT = 58, SHOT = 68, LIGHT = 21, IMAGE = 8, MOVED = 14, GROUND = 14;
 const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
                 cylinder: [0, 0, 1], box: [0, 1, 2] };
-export const HIDDEN = 1;
-const TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS = 8;
+const HIDDEN = 1, TWO_SIDED = 2, NO_SHADOW = 4, BLENDED = 8, HEIGHTS = 16, UNLIT = 32, LAMPS = 8;
 // Where the fields of renderer_object begin, in words
-export const AT = { kind: 24, mesh: 25, texture: 26, flags: 27, id: 28, first: 29, count: 30, size: 31, rgba: 34,
-                    specular: 38, shininess: 41, emission: 42, glow: 43, repeat: 46, metal: 48, tint: 49,
-                    cutoff: 50, relief: 51, glow_map: 52, strength: 53, glow_factor: 54 };
+const AT = { kind: 24, mesh: 25, texture: 26, flags: 27, id: 28, first: 29, count: 30, size: 31, rgba: 34,
+             specular: 38, shininess: 41, emission: 42, glow: 43, repeat: 46, metal: 48, tint: 49,
+             cutoff: 50, relief: 51, glow_map: 52, strength: 53, glow_factor: 54 };
 // Place and turn are doubles, before all.
-export const PLACE = 0;
-export const TURN = 3;
-const POSE = 12;
+const PLACE = 0, TURN = 3, POSE = 12;
 const NOT_RIGID = "must be a rotation and a translation, without scale, by columns";
 const FRAME = ["color", "depth", "ids", "normals"];
 const LOOKS = ["color", "alpha", "specular", "shininess", "emission", "texture", "repeat", "two_sided", "casts_shadow"];
@@ -34,7 +28,7 @@ function pictured(value) {
 }
 
 /** An object without a texture, in white, at the origin; floats and ints are the same words. */
-export function plainRecord() {
+function plainRecord() {
     const floats = new Float32Array(OBJECT), ints = new Int32Array(floats.buffer);
     const doubles = new Float64Array(floats.buffer, 0, POSE);
     doubles.set([1, 0, 0, 0, 1, 0, 0, 0, 1], TURN);
@@ -52,7 +46,7 @@ function free(taken) {
     return number;
 }
 
-/** An object of a renderer: what add() gave the number of */
+/** An object of a renderer: what add() gives, and its number where a number is wanted */
 class Solid {
     #of; #number;
 
@@ -63,6 +57,7 @@ class Solid {
     valueOf() { return this.#number; }
     toString() { return `${this.#number}`; }
     toJSON() { return this.#number; }
+    [Symbol.for("nodejs.util.inspect.custom")]() { return `Solid ${this}`; }    // what console.log shows
 
     /** From the object to the world, 4 x 4 by columns.  Assigned, it moves: as a matrix or as a place. */
     get pose() { return this.#of._pose(this); }
@@ -96,7 +91,7 @@ function own(options) {
 
 /** The class, over the functions of index.js that know the module's memory. */
 export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared, localOf, cameras }) {
-    [[4, OBJECT], [5, SHOT], [3, LIGHT], [8, MESH.length], [9, IMAGE], [11, MOVED]].forEach(([i, words]) => {
+    [[4, OBJECT], [5, SHOT], [3, LIGHT], [9, IMAGE], [11, MOVED], [12, GROUND]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
     const forgotten = new FinalizationRegistry((scene) => library.scene_close(scene));
@@ -113,9 +108,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         return held[name].at;
     }
 
+    /** What each call does is said in index.d.ts. */
     return class Renderer {
         #made = library.scene_open();
-        #shown = new Map();    // object to { shape, options }, as add() took them
+        #shown = new Map();    // object to { shape, options, solid }: as add() took them, and what it gave
         #meshes = new Map();   // number to shape
         #textures = new Map(); // number to { slot, cube, owned }: whether it came with a shape
         #nextTexture = 0;
@@ -144,11 +140,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!this.#made) throw new ShadeError("renderer was freed");
             return this.#made;
         }
+        get _at() { return this.#scene; }
 
         // ---- what is drawn
 
-        /** A mesh for add(): a Mesh with its colour, pictures, transparency, holes and material, or positions,
-         *  indices, normals, uv and colors. */
         mesh(source) { return this.#taken(source, free(this.#meshes.keys())); }
 
         #taken(source, number) {
@@ -197,9 +192,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             floats[AT.cutoff] = cutoff;
         }
 
-        /** Gives a shape other vertices: positions alone, where options may have others of indices, normals, uv and
-         *  colors, and the rest stays; or all, as mesh() takes it; or heights as height_field() took them.  Its objects
-         *  show it. */
         update(shape, source, options = undefined) {
             this.#known(shape);
             const others = check.record("options", options, ["indices", "normals", "uv", "colors"]);
@@ -223,9 +215,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #moved(shape, value, { normals = shape.source.normals, ...others }) {
             const given = check.isArray(normals) ? 2 : ["flat", "smooth"].indexOf(normals), { indices } = shape;
             if (Object.keys(others).length || given < 0 || given !== shape.quick) return false;
-            const { positions, origin } = localOf(value), vertices = positions.length / 3;
+            const exact = check.doubles("positions", value, 3), vertices = exact.length / 3;
             const directions = given === 2 ? check.rows("normals", normals, 3) : null;
-            if (vertices !== shape.vertices || (directions && directions.length !== positions.length)) return false;
+            if (vertices !== shape.vertices || (directions && directions.length !== exact.length)) return false;
+            const { positions, origin } = localOf(exact, indices);
             const done = withMemory((room) => {
                 const at = [positions, directions, indices].map((array) => (array ? put(room(array.byteLength + 4), array) : 0));
                 const ask = new Float64Array(MOVED / 2);
@@ -239,33 +232,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return done > 0;
         }
 
-        /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
-        _mesh(source, number = free(this.#meshes.keys())) {
-            const got = check.record("mesh", source, ["positions", "indices", "normals", "uv"]);
-            const positions = check.rows("positions", got.positions, 3), vertices = positions.length / 3;
-            if (!positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
-            const indices = check.indices("indices", got.indices, vertices, "bad indices");
-            const given = check.isArray(got.normals);
-            const kind = given ? "flat" : check.choice("normals", got.normals ?? "flat", ["flat", "smooth"]);
-            const arrays = [positions, given ? check.rows("normals", got.normals, 3) : null,
-                            got.uv ? check.rows("uv", got.uv, 2) : null, indices];
-            [[1, 3, "normals"], [2, 2, "uv"]].forEach(([k, width, name]) => {
-                if (arrays[k] && arrays[k].length !== width * vertices) {
-                    throw new ShadeError(`${name} must have a row for each of ${vertices} vertices`);
-                }
-            });
-            const made = withMemory((room) => {
-                const at = arrays.map((array) => (array ? put(room(array.byteLength || 4), array) : 0));
-                const set = { positions: at[0], normals: at[1], texcoords: at[2], vertex_count: vertices,
-                              indices: at[3], index_count: indices.length };
-                const ask = Uint32Array.from(MESH, (name) => set[name] ?? 0);
-                return library.scene_mesh(this.#scene, number, put(room(4 * MESH.length), ask), kind === "smooth" ? 1 : 0, 0);
-            });
-            if (!made) throw new RangeError("memory is not enough for the mesh");
-            return this.#shape(number, indices.length / 3);
-        }
-
-        /** Ground for add(): rows of heights along y, over x from -half[0] to half[0]. */
         height_field(heights, rows, columns, half) {
             const shape = this.#ground(heights, rows, columns, half, free(this.#meshes.keys()));
             return Object.assign(shape, { ground: [rows, columns, Float64Array.from(half)] });
@@ -274,24 +240,25 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
         #ground(heights, rows, columns, half, number) {
             for (const [name, count] of Object.entries({ rows, columns })) check.integer(name, count, 2, 1e6);
             const z = check.vector("heights", heights, rows * columns);
-            const [a, b] = check.vector("half", half, 2), positions = new Float32Array(3 * rows * columns), indices = [];
-            if (!(a > 0 && b > 0)) throw new ShadeError("half must be positive");
-            for (let i = 0, k = 0; i < rows; i++) {
-                for (let j = 0; j < columns; j++, k++) {
-                    positions.set([2 * a * j / (columns - 1) - a, 2 * b * i / (rows - 1) - b, z[k]], 3 * k);
-                    if (i === rows - 1 || j === columns - 1) continue;
-                    indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
-                }
-            }
-            return this._mesh({ positions, indices, normals: "smooth" }, number);
+            if (!check.vector("half", half, 2).every((x) => x > 0)) throw new ShadeError("half must be positive");
+            return this.#shape(number, this._heights(number, z, rows, columns, [...half, 1]));
         }
 
-        /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
-         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it.  wrap and squares are those of
-         *  Texture. */
+        /** Puts ground in the place of a mesh, and returns its triangles; with a base it has sides down to that. */
+        _heights(number, heights, rows, columns, [a, b, scale, base = -1]) {
+            const triangles = withMemory((room) => {
+                const ask = new Float64Array(GROUND / 2), z = Float32Array.from(heights);
+                new Int32Array(ask.buffer).set([put(room(z.byteLength), z), rows, columns]);
+                ask.set([a, b, scale, base], 2);
+                new Int32Array(ask.buffer)[12] = base < 0 ? 0 : 1;
+                return library.scene_heights(this.#scene, number, put(room(4 * GROUND), ask));
+            });
+            if (!triangles) throw new RangeError("memory is not enough for the mesh");
+            return triangles;
+        }
+
         texture(picture) { return this.#texture(pictured(picture), null); }
 
-        /** Puts another picture in the place of a texture: objects and a sky that have it show it. */
         update_texture(number, picture) {
             const { cube } = this.#textureOf("number", number);
             if (cube !== (picture?.faces === 6)) {
@@ -305,9 +272,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             if (!this.#textures.has(number)) throw new ShadeError(`${name}: there is no texture ${number}`);
             return this.#textures.get(number);
         }
-
-        /** Where the module has a texture */
-        _slot(number) { return this.#textures.get(number).slot; }
 
         #texture(picture, number, wrap = check.wraps("", picture), colors = true) {
             const { data, width, height, faces = 1 } = picture;
@@ -332,7 +296,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return named;
         }
 
-        /** A texture of 2 x 2 squares, which repeats. */
         checker(one = "#5a6e82", other = "#8fa3b5") {
             const data = new Uint8Array(4 * 64 * 64).fill(255);
             const colors = Object.entries({ one, other }).map((c) => check.color(...c).map((x) => Math.round(255 * x)));
@@ -345,8 +308,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return this.srgb ? linear(rgb) : rgb;
         }
 
-        /** Adds an object, of "plane", "sphere", "ellipsoid", "capsule", "cylinder", "box" or what mesh()
-         *  and height_field() return, and gives its number, which ids have; object() has more of it. */
         add(shape, size, options) {
             const got = check.record("options", options, ["at", "pose", ...LOOKS]), { at = [0, 0, 0], pose, ...looks } = got;
             if (typeof shape === "string") check.choice("shape", shape, Object.keys(KINDS));
@@ -356,8 +317,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             floats.set(this.#size(shape, size), AT.size);
             doubles.set(check.place("at", at), PLACE);
             if (pose !== undefined) {
-                const m = rows("pose", pose);
-                if (!this.#rigid([m])) throw new ShadeError(`pose ${NOT_RIGID}`);
+                const m = this.#rigid(() => "pose", this.#matrices(() => "pose", 1, [pose]));
                 for (let k = 0; k < 3; k++) {
                     doubles[PLACE + k] = m[4 * k + 3];
                     doubles.set(m.slice(4 * k, 4 * k + 3), TURN + 3 * k);
@@ -365,23 +325,21 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             }
             const number = withMemory((room) => library.scene_add(this.#scene, put(room(4 * OBJECT), floats), 1));
             if (number < 0) throw new RangeError("memory is not enough for the object");
-            this.#shown.set(number, { shape, options: own(looks) });
-            return number;
+            const solid = new Solid(this, number);
+            this.#shown.set(number, { shape, options: own(looks), solid });
+            return solid;
         }
 
-        /** An object by its number, with number, pose, color, change(), show() and remove(); every call that takes
-         *  a number takes it, and it is one in arithmetic. */
-        object(number) { return new Solid(this, this.#number("number", number)); }
+        object(number) { return this.#shown.get(this.#number("number", number)).solid; }
 
-        /** Changes what is given of an object, as add() takes it; undefined is as without a word. */
         change(number, options) {
             const at = this.#number("number", number);
             const { size, ...looks } = check.record("options", options, ["size", ...LOOKS]);
-            const { shape, options: old } = this.#shown.get(at), all = { ...old, ...own(looks) };
+            const shown = this.#shown.get(at), { shape } = shown, all = { ...shown.options, ...own(looks) };
             const { floats, ints } = this.#dressed(at, shape, all);
             if (size !== undefined) floats.set(this.#size(shape, size), AT.size);
             this.#write(at, { floats, ints });
-            this.#shown.set(at, { shape, options: all });
+            shown.options = all;
         }
 
         /** The record of an object by now, where it is, with other looks */
@@ -462,10 +420,12 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             try { change(); } finally { library.scene_done(this.#scene); }
         }
 
-        /** 1: matrices, row by row, are rotations and translations. */
-        #rigid(matrices) {
-            const rows = Float64Array.from(matrices.flat());
-            return withMemory((room) => library.not_rigid(put(room(rows.byteLength + 8), rows), matrices.length)) < 0;
+        /** Matrices, row by row, that are rotations and translations */
+        #rigid(named, matrices) {
+            const at = (room) => put(room(matrices.byteLength + 8), matrices);
+            const bad = withMemory((room) => library.not_rigid(at(room), matrices.length / 16));
+            if (bad >= 0) throw new ShadeError(`${named(bad)} ${NOT_RIGID}`);
+            return matrices;
         }
 
         #size(shape, size) {
@@ -481,17 +441,13 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return SIZES[shape].map((k) => got[k]);
         }
 
-        /** The numbers of all objects, in order. */
         get objects() { return [...this.#shown.keys()].sort((a, b) => a - b); }
 
-        /** Moves an object: 4 x 4 by columns, a rotation and a translation. */
         pose(number, pose) {
             const at = this.#number("number", number);
             this.#move(() => `pose of object ${at}`, [at], [pose]);
         }
 
-        /** Moves the objects of numbers, or all in the order of their numbers: a matrix for each; nothing moves
-         *  where one is refused. */
         poses(poses, numbers = this.objects) {
             if (!check.isArray(numbers)) throw new ShadeError("numbers must be an array");
             this.#move((i) => `poses[${i}]`, Array.from(numbers, (number, i) => this.#number(`numbers[${i}]`, number)), poses);
@@ -513,7 +469,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return Float64Array.from(Array.from(poses, (pose, i) => rows(named(i), pose)).flat());
         }
 
-        /** Hides an object, or shows it again. */
         show(number, visible = true) {
             const at = this.#number("number", number), { ints } = this.#recordOf(at);
             check.flag("visible", visible);
@@ -521,8 +476,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#write(at, { ints });
         }
 
-        /** Takes away an object by its number, which none is given again, or a shape that no object shows, with the
-         *  textures that came with it.  Its memory is given back. */
         remove(what) {
             if (typeof what === "number" || what instanceof Solid) {
                 const number = this.#number("what", what);
@@ -539,7 +492,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             what.textures.forEach((texture) => this.#drop(texture));
         }
 
-        /** Gives back the memory of a texture that no object and no sky shows.  Those of a shape go with it. */
         remove_texture(number) {
             const { owned, slot } = this.#textureOf("number", number), { sky, texture } = this.#behind;
             const shown = this.objects.find((i) => this.#recordOf(i).ints[AT.texture] === 1 + slot);
@@ -554,8 +506,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#textures.delete(texture);
         }
 
-        /** Takes away all objects, shapes and textures, and gives back their memory; lamps and a background of
-         *  one colour stay. */
         clear() {
             this.#atOnce(() => {
                 library.scene_put_all(this.#scene, 0, 0);
@@ -569,8 +519,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- what it is lit by
 
-        /** Up to 8 lamps, ambient light, and the number or numbers of the lamps, directional or spots, that cast
-         *  shadows. */
         light(lights, ambient = [0, 0, 0], shadow = []) {
             void this.#scene;    // a renderer that was freed is refused
             if (!Array.isArray(lights)) throw new ShadeError("lights must be an array");
@@ -600,15 +548,12 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             this.#behind = { sky, texture, background };
         }
 
-        /** One colour behind all objects. */
         background(color) { this.#setBehind({ background: [...this.#color("color", color), 1] }); }
 
-        /** A sky from the colour straight below to that straight above, +z. */
         sky(low = "#dfe8f0", high = "#4a7ab0") {
             this.#setBehind({ sky: 1, low: this.#color("low", low), high: this.#color("high", high) });
         }
 
-        /** A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL. */
         sky_texture(texture) {
             if (!this.#textureOf("texture", texture).cube) throw new ShadeError(`texture ${texture} is no cube`);
             this.#setBehind({ sky: 2, texture });
@@ -616,7 +561,6 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
 
         // ---- pictures
 
-        /** New arrays for render(), or for so many pictures of render_batch(). */
         frame(wanted = undefined) {
             const { color = true, depth = true, ids = true, normals = false, pictures = 1 } =
                 check.record("wanted", wanted, [...FRAME, "pictures"]);
@@ -627,14 +571,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
                      ids: ids ? new Int32Array(2 * pixels) : null, normals: normals ? new Float32Array(3 * pixels) : null };
         }
 
-        /** Draws what a camera { view, projection }, matrices of WebGL, sees, into the arrays of out or new ones. */
         render(camera, out = this.frame(), options = undefined) {
             return this._draw(out, [this.#seen("camera", camera)], options);
         }
 
-        /** A picture for each camera, as render() draws it, one after the other in the arrays of out or new ones.
-         *  poses has for each picture matrices of all objects in the order of their numbers, which stay where they
-         *  were; one camera then serves all. */
         render_batch(cameras, poses = undefined, out = undefined, options = undefined) {
             const seen = check.isArray(cameras) ? Array.from(cameras) : Array(poses?.length ?? 1).fill(cameras);
             if (poses && poses.length !== seen.length) {
@@ -655,12 +595,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             return { view, projection, ...cameras.rangeOf(name, projection) };
         }
 
-        /** Matrices of all objects, row by row */
+        /** Matrices of all objects */
         #posed(name, poses) {
-            const named = (i) => `${name}[${i}]`, matrices = this.#matrices(named, this.#shown.size, poses);
-            const bad = withMemory((room) => library.not_rigid(put(room(matrices.byteLength + 8), matrices), this.#shown.size));
-            if (bad >= 0) throw new ShadeError(`${named(bad)} ${NOT_RIGID}`);
-            return matrices;
+            const named = (i) => `${name}[${i}]`;
+            return this.#rigid(named, this.#matrices(named, this.#shown.size, poses));
         }
 
         /** A picture for each of shots, whose records are objects, one after the other, in place of those that were

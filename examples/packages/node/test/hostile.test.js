@@ -670,7 +670,7 @@ test("objects, shapes and textures of a Renderer come, change and go", () => {
     made.remove(two);
     made.change(one, { size: 0.6, color: "red", texture: undefined });
     made.update(shape, new Mesh({ ...mapped, texture: { ...texture, data: [250, 20, 90] } }));
-    assert.equal(made.add("box", [0.2, 0.2, 0.2], { at: [-1, 0, 0], texture: own }), two + 1);    // no number is given twice
+    assert.equal(made.add("box", [0.2, 0.2, 0.2], { at: [-1, 0, 0], texture: own }).number, two + 1);    // no number is given twice
     const fresh = new Renderer(24, 32), map = fresh.texture(picture(200));
     fresh.sky_texture(fresh.texture(picture(90, 6)));
     fresh.add(fresh.mesh(new Mesh({ ...mapped, texture: { ...texture, data: [250, 20, 90] } })), 0.6, { color: "red" });

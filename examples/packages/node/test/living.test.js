@@ -52,7 +52,7 @@ function life(seed) {
         () => {
             const kind = r.one(Object.keys(SIZES)), shape = shapes.size && r.random() < 0.5 ? r.one([...shapes.keys()]) : kind;
             const own = looks(), size = shape === kind ? SIZES[kind] : 0.4, pose = turned(r);
-            const number = made.add(shape, size, { pose, ...own });
+            const { number } = made.add(shape, size, { pose, ...own });
             assert.ok(!objects.has(number));
             objects.set(number, { shape, size, pose, own, visible: true });
         },
@@ -107,7 +107,7 @@ function life(seed) {
         for (const [number, picture] of pictures) maps.set(number, other.texture(picture));
         for (const [shape, arrays] of shapes) meshes.set(shape, other.mesh(arrays));
         for (const [number, { shape, size, pose, own, visible }] of objects) {
-            const there = other.add(meshes.get(shape) ?? shape, size, { pose, ...own, texture: maps.get(own.texture) });
+            const { number: there } = other.add(meshes.get(shape) ?? shape, size, { pose, ...own, texture: maps.get(own.texture) });
             other.show(there, visible);
             numbers.set(there, number);
         }
@@ -148,6 +148,20 @@ function torus(n) {
     }
     return { positions, indices };
 }
+
+test("ground has the bits of a mesh whose positions are computed in double", () => {
+    const r = dice(9), [rows, columns, half] = [6, 8, [1.1, 0.7]], heights = Float64Array.from({ length: 48 }, () => r.below(16) / 16);
+    const positions = [], indices = [];
+    heights.forEach((z, k) => {
+        const [i, j] = [Math.floor(k / columns), k % columns];
+        positions.push(2 * half[0] * j / (columns - 1) - half[0], 2 * half[1] * i / (rows - 1) - half[1], z);
+        if (i < rows - 1 && j < columns - 1) indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
+    });
+    const [one, two] = [0, 1].map(() => lit(new Renderer(96, 128)));
+    one.add(one.height_field(heights, rows, columns, half), 1, { two_sided: true });
+    two.add(two.mesh({ positions, indices, normals: "smooth" }), 1, { two_sided: true });
+    assert.deepEqual(...[one, two].map((made) => made.render(EYE, made.frame({ normals: true }))));
+});
 
 test("an update of positions has the bits of a new mesh", () => {
     const { positions, indices } = torus(16), r = dice(1);

@@ -27,18 +27,19 @@ const bytes: Uint8ClampedArray = picture.data, depth: Float32Array | null = pict
 const ids: Int32Array | null = picture.ids, file: Promise<Uint8Array> = picture.png();
 const names: readonly string[] = PRESETS, wrong: TypeError = new ShadeError("size");
 mesh.free();
-const sim = new Renderer(8, 8, { samples: 2 }), ball: number = sim.add("sphere", 1, { color: "red" });
+const sim = new Renderer(8, 8, { samples: 2 }), ball = sim.add("sphere", 1, { color: "red" }), which: number = ball.number;
 sim.light([lamp], [0, 0, 0], 0);
 const pairs: Int32Array | null = sim.render(camera, sim.frame({ normals: true })).ids;
 const batch: Frame = sim.render_batch([camera], [[new Float32Array(16)]], sim.frame({ pictures: 1 }), { solid: true });
 const robot = new mujoco.Renderer({}, {}, 8, 8), rgb: Uint8Array = robot.render();
 const parts: Promise<MeshSource[]> = read3mf(new Uint8Array(9), { picture: () => null });
 const read: Promise<MeshSource[]> = readModel(new Uint8Array(9), { format: "obj", beside: (name) => (name ? null : new Uint8Array(1)) });
-const solid = sim.object(ball);
+const solid = sim.object(which);
+ball.pose = [1, 2, 3];
 solid.pose = [1, 2, 3];
 solid.color = "tomato";
 sim.pose(solid, solid.pose);
-void [solid.number, ball, batch, pairs, parts, read, rgb];
+void [solid === ball, batch, pairs, parts, read, rgb];
 const shown = new ImageData(picture.data, picture.width, picture.height);
 const kept = async () => [new Blob([await picture.png()]), new Response(await picture.png()), new Blob([picture.data])];
 void [shown, kept, readModel(new Uint8Array(9), { color: "red" })];
@@ -46,7 +47,8 @@ export { bytes, depth, file, ids, names, wrong };
 `;
 const mistakes = ['render({})', 'render({ positions: "0" })', 'render({ positions: [], edges: 1 })',
                   'render({ positions: [] }, { veiw: "top" })', 'render({ positions: [] }, { up: "x" })',
-                  'new Mesh()', 'render({ positions: [] }).data = null'];
+                  'new Mesh()', 'render({ positions: [] }).data = null',
+                  'new Renderer(8, 8).add("sphere", 1) === 0'];
 
 function compile(name, text) {
     writeFileSync(join(folder, name), text);
@@ -60,7 +62,7 @@ for (const name of ["right.mts", "right.cts"]) {
     catch (error) { console.log(`${error.stdout}`); process.exit(1); }
 }
 for (const [i, line] of mistakes.entries()) {
-    try { compile(`wrong${i}.mts`, `import { Mesh, render } from "shade-h";\n${line};\nvoid Mesh;\n`); }
+    try { compile(`wrong${i}.mts`, `import { Mesh, Renderer, render } from "shade-h";\n${line};\nvoid [Mesh, Renderer];\n`); }
     catch (error) {
         if (/wrong\d\.mts\(2,/.test(`${error.stdout}`)) continue;
         console.log(`${error.stdout}`);

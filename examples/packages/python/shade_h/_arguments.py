@@ -12,7 +12,6 @@ import numpy as np
 from ._native import Array, Bytes, Doubles, Error, Floats, Indices, asked, library, pointer
 
 Color = Union[str, Sequence[float], Array]
-MATERIALS = [library.shade_preset_name(i).decode().replace(" ", "_") for i in range(24)]
 MOST = 2**31 - 1
 WRAPS = ["repeat", "clamp", "mirror"]
 NOT_RIGID = "must be a rotation and a translation, without scale, with 0, 0, 0, 1 in the last row"
@@ -191,11 +190,6 @@ def affine(name: str, value: object, shape: tuple[int | None, ...] = (4, 4)) -> 
     if got.size and np.abs(got[..., 3, :] - (0, 0, 0, 1)).max() > 1e-3:
         raise Error(f"{name} must have 0, 0, 0, 1 in the last row: a translation stands in the last column")
     return got
-
-
-def matrix(name: str, value: object) -> Floats:
-    """A matrix of 4 x 4 by its columns, as the library has it."""
-    return np.ascontiguousarray(floats(name, value, (4, 4), finite=True).T)
 
 
 def into(name: str, value: object, shape: tuple[int, ...], kind: type) -> Array:

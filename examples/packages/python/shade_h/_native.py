@@ -28,11 +28,6 @@ class Error(ValueError):
     """A refused argument: its name, and the words of the library or what was wanted."""
 
 
-class Vec3(Structure):
-    """shade_vec3"""
-    _fields_ = [("x", c_float), ("y", c_float), ("z", c_float)]
-
-
 class Mesh(Structure):
     """shade_mesh"""
     _fields_ = [("positions", c_void_p), ("position_stride", c_int), ("normals", c_void_p),
@@ -102,7 +97,7 @@ class View(Structure):
                 ("view", c_float * 16), ("projection", c_float * 16),
                 ("background", c_float * 4), ("lighting", Lighting), ("poses", c_void_p),
                 ("rgba", c_void_p), ("depth", c_void_p), ("normals", c_void_p),
-                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("bent", c_int)]
+                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16), ("quick", c_int)]
 
 
 #: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count, pose_count;
@@ -148,11 +143,6 @@ class FilePicture(Structure):
                 ("wrap", c_int * 2), ("squares", c_int), ("colors", c_int)]
 
 
-class Edge(Structure):
-    """shade_edge"""
-    _fields_ = [("a", c_uint), ("b", c_uint), ("triangle", c_int * 2)]
-
-
 class OwnedMesh(Structure):
     """owned_mesh, with which a model begins; its view has the counts"""
     _fields_ = [("view", Mesh), ("positions", c_void_p), ("normals", c_void_p),
@@ -188,6 +178,24 @@ class Moved(Structure):
                 ("index_count", c_int), ("normals", c_int), ("unused", c_int), ("origin", c_double * 3)]
 
 
+class Asked(Structure):
+    """build_asked"""
+    _fields_ = [(name, c_void_p) for name in ("positions", "normals", "colors", "uv", "indices")] + \
+        [(name, c_int) for name in ("vertices", "corners", "color_count", "normals_kind")]
+
+
+class Heights(Structure):
+    """heights"""
+    _fields_ = [("z", c_void_p), ("rows", c_int), ("columns", c_int), ("half", c_double * 2), ("scale", c_double),
+                ("base", c_double), ("sides", c_int), ("unused", c_int)]
+
+
+class MeshPart(Structure):
+    """mjv_part"""
+    _fields_ = [(name, c_void_p) for name in ("vertices", "normals", "uv", "vertex", "normal", "texcoord")] + \
+        [(name, c_int) for name in ("vertex_count", "normal_count", "uv_count", "corners")]
+
+
 #: zip_inflate
 INFLATE = ctypes.CFUNCTYPE(c_int, c_void_p, c_size_t, c_void_p, c_size_t)
 
@@ -202,11 +210,15 @@ def _open() -> Any:
             ("python_draw", c_int, [c_void_p, c_int, c_void_p, c_int, c_int, c_void_p]),
             ("python_lit", None, [c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
             ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
-            ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
+            ("python_build", POINTER(Mesh), 2 * [c_void_p]),
+            ("python_build_free", None, [POINTER(Mesh)]),
+            ("python_local", c_int, 2 * [c_void_p, c_size_t] + 2 * [c_void_p]),
+            ("python_seen", None, 2 * [c_void_p, c_size_t] + 2 * [c_void_p]),
+            ("python_edges", c_int, 4 * [c_void_p]),
+            ("python_drawn_edges", c_int, 2 * [c_void_p] + [c_int, c_void_p, c_void_p, c_int, c_double, c_void_p]),
+            ("python_fill", c_void_p, [c_void_p, c_size_t, c_double, c_void_p, c_void_p]),
+            ("python_give", None, [c_void_p]),
             ("python_has_letter", c_int, [c_int]),
-            ("python_seen", None, [c_void_p, c_void_p, c_size_t, c_void_p]),
-            ("python_face_normals", None, [c_void_p, c_void_p]),
-            ("python_direct_normals", c_int, [c_void_p, c_void_p]),
             ("python_text", c_float, [c_char_p] + 3 * [c_float] + [c_void_p, c_int, c_int]),
             ("python_png_open", c_char_p, [c_void_p, c_char_p, c_size_t, c_void_p]),
             ("python_png_gather", None, [c_void_p, c_void_p]),
@@ -245,11 +257,13 @@ def _open() -> Any:
             ("python_view_name", c_char_p, [c_int, c_void_p]),
             ("python_direction", None, [c_double, c_double, c_int, c_void_p]),
             ("python_fit", c_int, [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
+            ("python_eye", c_int, [c_void_p, c_int, c_void_p, c_void_p]),
             ("python_studio", None, [c_void_p, c_size_t, c_void_p, c_int, c_void_p]),
-            ("python_origin_of", None, 3 * [c_void_p]),
+            ("python_place_all", None, [c_void_p, c_int, c_void_p]),
             ("python_scene_open", c_void_p, []),
             ("python_scene_close", None, [c_void_p]),
             ("python_scene_mesh", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
+            ("python_scene_heights", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_deform", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_texture", c_int, [c_void_p, c_int, c_void_p]),
             ("python_scene_add", c_int, [c_void_p, c_void_p, c_int]),
@@ -268,13 +282,13 @@ def _open() -> Any:
             ("python_renderer_draw", c_int, [c_void_p, c_int, c_void_p, c_void_p, c_int, c_void_p]),
             ("python_size", c_size_t, [c_int]),
             ("shade_result_string", c_char_p, [c_int]),
-            ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),
-            ("shade_mesh_corner_normals_bytes", c_size_t, [c_void_p]),
-            ("shade_mesh_corner_normals", c_int,
-             [c_void_p, c_float, c_void_p, c_void_p, c_size_t]),
+            ("python_mjv_texture", c_int, [c_void_p, c_int, c_void_p] + 4 * [c_int]),
+            ("python_mjv_mesh", c_int, [c_void_p, c_int, c_void_p]),
+            ("python_mjv_records", c_int, [c_void_p, c_int, c_int, c_void_p, c_void_p]),
+            ("python_mjv_lights", c_int, 3 * [c_void_p] + 2 * [c_int]),
+            ("python_mjv_aim", None, [c_void_p, c_double, c_void_p]),
             ("shade_chunk_count", c_int, [c_int, c_int]),
             ("shade_mesh_chunks", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
-            ("shade_mesh_edges", c_int, [c_void_p, c_void_p, c_int, c_void_p]),
             ("shade_mipmap_count", c_int, [c_int, c_int]),
             ("shade_mipmap_bytes", c_size_t, [c_int, c_int, c_int]),
             ("python_look_name", c_char_p, [c_int, c_void_p]),
@@ -290,7 +304,7 @@ def _open() -> Any:
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     if (library.python_size(10), library.python_size(11)) != (SOLID.itemsize, SHOT.size):
         raise ImportError(f"{path} does not belong to this version: renderer_object")
-    for i, twin in enumerate((FilePicture, Refusal, Side, CameraOf)):
+    for i, twin in enumerate((FilePicture, Refusal, Side, CameraOf, Asked, Heights, MeshPart)):
         if library.python_size(12 + i) != ctypes.sizeof(twin):
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
     return library
@@ -347,5 +361,13 @@ def interruptible(call: Callable[[c_int], Any], late: Callable[[Any], object] = 
 def pointer(array: Array | None) -> int | None:
     """The address of an array's first element, or None."""
     return None if array is None else int(array.ctypes.data)
+
+
+def copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
+    """Rows that the library holds; None where it has none."""
+    if not address or not count:
+        return None
+    made = (kind * (count * columns)).from_address(address)
+    return np.frombuffer(made, kind).reshape(count, columns).copy()
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _arguments as arguments, cloud
-from ._native import INFLATE, Bytes, Error, FilePicture, Run, interruptible, library, pointer
+from ._native import INFLATE, Bytes, Error, FilePicture, Run, copied, interruptible, library, pointer
 from .annotate import display as _display
 from .light import Material
 from .mesh import Mesh, Surface
@@ -20,13 +20,6 @@ from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
 MODEL_BYTES = 4_000_000_000
 AXES = ("x", "y", "z", "-x", "-y", "-z")
-
-
-def _copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
-    if not address or not count:
-        return None
-    made = (kind * (count * columns)).from_address(address)
-    return np.frombuffer(made, kind).reshape(count, columns).copy()
 
 
 # ---- pictures on surfaces ------------------------------------------------------------------------
@@ -169,16 +162,16 @@ def _read(data: bytes, name: str, path: bytes | None, outside: bool = False) -> 
         raise Error(words.value.decode("utf-8", "replace") or "out of memory")
     try:
         view, own = owned.contents.view, owned.contents
-        vertices = _copied(own.positions, view.vertex_count, 3, ctypes.c_float)
-        faces = _copied(own.indices, view.index_count // 3, 3, ctypes.c_uint)
+        vertices = copied(own.positions, view.vertex_count, 3, ctypes.c_float)
+        faces = copied(own.indices, view.index_count // 3, 3, ctypes.c_uint)
         origin = np.array(library.python_origin(owned)[:3])
         if origin.any():
             vertices = vertices + origin
-        colors = _copied(own.colors, view.vertex_count, 3, ctypes.c_float)
-        uv = _copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
+        colors = copied(own.colors, view.vertex_count, 3, ctypes.c_float)
+        uv = copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
         found = {"up": None} if faces is None else _surfaces(owned, name, len(faces), uv, outside)
         if library.python_normals(owned):
-            found["normals"] = _copied(own.normals, view.vertex_count, 3, ctypes.c_float)
+            found["normals"] = copied(own.normals, view.vertex_count, 3, ctypes.c_float)
         if faces is not None:
             found["up"] = AXES[library.python_upright(owned)]
         if library.python_warning(owned):

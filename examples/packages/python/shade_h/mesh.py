@@ -10,8 +10,7 @@ from typing import Any, Iterable, Sequence, Union
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import (Array, Bytes, Chunk, Doubles, Edge, Error, Floats, Indices, Texture, check,
-                      library, pointer)
+from ._native import Array, Asked, Bytes, Chunk, Doubles, Error, Floats, Texture, check, copied, library, pointer
 from ._native import Mesh as NativeMesh
 from .annotate import NONE, Bar, bar_of, sampled
 from .camera import UPRIGHT
@@ -19,45 +18,19 @@ from .others import parts_of
 from .cloud import balls
 from .light import Material
 
-CREASE_TRIANGLES = 200_000
-COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
+NORMALS = ["flat", "auto", "smooth"]    # BUILD_FLAT, ...
 
 
-def origin_of(low: Doubles, high: Doubles) -> Doubles:
-    """From where coordinates in a box are counted, so that floats keep their digits: zero, or for a
-    box far away a round number near it, of which doubles subtract without rounding."""
-    out = np.empty(3)
-    box = np.array([low, high], float)
-    library.python_origin_of(pointer(box[0]), pointer(box[1]), pointer(out))
-    return out
-
-
-def _box(points: Doubles) -> tuple[Doubles, Doubles]:
-    """The box around the points that are finite and fit floats."""
-    with np.errstate(invalid="ignore"):
-        good = (np.abs(points) <= 1e30).all(1)
-    some = points if good.all() else points[good]
-    return (some.min(0), some.max(0)) if len(some) else (np.zeros(3), np.zeros(3))
-
-
-def used_of(rows: Array, faces: Array) -> Array:
-    """The rows that faces have; not of those alone that have two corners at one place, which cannot
-    be seen."""
-    used = np.zeros(len(rows), bool)
-    at = np.ascontiguousarray(rows, np.float64)
-    library.python_seen(pointer(at), pointer(faces), faces.size, pointer(used))
-    out: Array = rows if used.all() else rows[used]
-    return out
-
-
-def counted(exact: Array, faces: Array) -> tuple[Array, Doubles]:
-    """Vertices as they count from an origin, and that: zero but for doubles far away."""
-    origin = np.zeros(3)
-    if exact.dtype.itemsize > 4 and len(exact):
-        exact = exact.astype(np.float64)
-        origin = origin_of(*_box(used_of(exact, faces) if len(faces) else exact))
-        exact = exact - origin if origin.any() else exact
-    return exact, origin
+def counted(exact: Array, faces: Array) -> tuple[Floats, Doubles]:
+    """Vertices as floats that count from an origin, and that: zero but for doubles far away."""
+    origin, local = np.zeros(3), np.empty(exact.shape, np.float32)
+    if exact.dtype.itemsize <= 4 or not len(exact):
+        local[:] = exact
+        return local, origin
+    at = np.ascontiguousarray(exact, np.float64)
+    if library.python_local(pointer(at), len(at), pointer(faces), faces.size, pointer(local), pointer(origin)):
+        raise MemoryError("memory is not enough for the mesh")
+    return local, origin
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,8 +169,7 @@ class Mesh:
         self.faces = arguments.faces("faces", _listed(faces), len(exact))
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
-        exact, self.origin = counted(exact, self.faces)
-        self.local = arguments.floats("vertices", exact, (None, 3))
+        self.local, self.origin = counted(exact, self.faces)
         lost = _not_finite(self.local)[self.faces].any(1).sum()
         if lost:
             warnings.warn(f"vertices: {lost} triangles have corners that are no finite numbers (left out)",
@@ -227,9 +199,9 @@ class Mesh:
         self.uv: Floats | None = None
         self.texture: Bytes | None = None
         self._edges: tuple[Array, Doubles] | None = None
-        self._radius: float | None = None
+        self._seen: tuple[Array, Doubles] | None = None
         self.edged = len(self.faces)    # faces from here on have no edges: those of a cap
-        by_face = self._take_color(color)
+        self._take_color(color)
         if surfaces is None and (uv is None) != (texture is None):
             raise Error("uv and texture belong together: one of them is missing")
         if uv is not None:
@@ -247,7 +219,7 @@ class Mesh:
         if self.uv is None and any(look.mapped for look in looks):
             raise Error("uv is missing: a surface has a texture")
         self.texture = maps[0] if len(maps) == 1 else None
-        self._take_normals(normals, by_face)
+        self._take_normals(normals)
         self.pieces = [Piece(self, look, first, count, picture)
                        for look, (first, count), picture in zip(looks, runs, maps)]
 
@@ -315,107 +287,72 @@ class Mesh:
         number = np.isnan(at)[self.faces].any(1).astype(int)
         return None, uv, (number, [Surface(None, texture), plain])
 
-    def _take_color(self, color: object) -> bool:
-        """Returns whether there is a colour by face."""
-        if color is None or isinstance(color, str):
-            self.color = None if color is None else arguments.color("color", color)
-            return False
-        if arguments.dimensions("color", color) == 1:
+    def _take_color(self, color: object) -> None:
+        if color is None:
+            return
+        if isinstance(color, str) or arguments.dimensions("color", color) == 1:
             self.color = arguments.color("color", color)
-            return False
+            return
         self.colors = arguments.linear("color", color)
-        if len(self.colors) == len(self.local):
-            return False
-        if len(self.colors) == len(self.faces):
-            return True
-        raise Error(f"color must have a row for each of {len(self.local)} vertices or "
-                    f"{len(self.faces)} faces, not {len(self.colors)}")
+        if len(self.colors) not in (len(self.local), len(self.faces)):
+            raise Error(f"color must have a row for each of {len(self.local)} vertices or "
+                        f"{len(self.faces)} faces, not {len(self.colors)}")
 
-    def _take_normals(self, normals: object, by_face: bool) -> None:
-        own = None
+    def _take_normals(self, normals: object) -> None:
+        """Corners with a normal or a face's colour of their own become vertices."""
+        given, kind = None, "flat"
         if isinstance(normals, str):
             kind = arguments.choice("normals", normals, ("auto", "smooth", "flat"))
-            if kind == "auto" and 0 < len(self.faces) <= CREASE_TRIANGLES:
-                own = self._creased()
-            if kind == "smooth" and len(self.faces):
-                self.normals = np.empty_like(self.local)
-                native = ctypes.byref(self.native())
-                check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
-            given = arguments.floats("normals", normals, self.local.shape).copy()
-            check(library.python_direct_normals(ctypes.byref(self.native()), pointer(given)), "normals")
-            self.normals = given
-        flat = own is None and self.normals is None
-        if flat:
-            own = self._flat()
-        if own is not None or by_face:
-            self._take_corners(own, by_face, not flat)
+            given = arguments.floats("normals", normals, self.local.shape)
+        own = {"positions": self.local, "normals": given, "colors": self.colors, "texcoords": self.uv,
+               "indices": self.faces}
+        why = ctypes.c_int()
+        asked = Asked(*map(pointer, own.values()), len(self.local), self.faces.size,
+                      0 if self.colors is None else len(self.colors), NORMALS.index(kind))
+        made = library.python_build(ctypes.byref(asked), ctypes.byref(why))
+        check(why.value, "normals")
+        mesh = made.contents
 
-    def _flat(self) -> Floats:
-        """The normal of each corner's face."""
-        out = np.empty((3 * len(self.faces), 3), np.float32)
-        library.python_face_normals(ctypes.byref(self.native()), pointer(out))
-        return out
+        def row(name: str, columns: int) -> Any:
+            address, array = getattr(mesh, name), own[name]
+            if array is not None and address == pointer(array):
+                return array
+            rows = copied(address, mesh.vertex_count, columns, ctypes.c_float)
+            return rows if mesh.vertex_count or not address else np.empty((0, columns), np.float32)
 
-    def _take_corners(self, own: Floats | None, by_face: bool, weld: bool) -> None:
-        """Gives corners with a normal or a colour of their own a vertex for each of these; without
-        weld, which then would find little, one for each corner."""
-        corner = self.faces.reshape(-1)
-        made = index = np.arange(len(corner), dtype=np.uint32)
-        if weld:
-            index, made = self._welded(corner, own, by_face)
-            own = None if own is None else own[made]
-        vertex = corner[made]
-        self.positions, self.indices = self.local.take(vertex, 0), index.reshape(-1, 3)
-        self.normals = own if own is not None else None if self.normals is None \
-            else self.normals.take(vertex, 0)
-        self.uv = None if self.uv is None else self.uv.take(vertex, 0)
-        if self.colors is not None:
-            self.colors = self.colors.take(made // 3 if by_face else vertex, 0)
+        try:
+            self.positions, self.normals, self.colors, self.uv = (
+                row(name, columns) for name, columns in
+                (("positions", 3), ("normals", 3), ("colors", 3), ("texcoords", 2)))
+            if len(self.faces) and mesh.indices != pointer(self.faces):
+                self.indices = copied(mesh.indices, len(self.faces), 3, ctypes.c_uint)
+        finally:
+            library.python_build_free(made)
 
-    def _welded(self, corner: Indices, own: Floats | None,
-                by_face: bool) -> tuple[Indices, Indices]:
-        """The vertex of each corner, and a corner of each vertex."""
-        values = [v for v in (own, np.repeat(self.colors, 3, 0)
-                              if by_face and self.colors is not None else None) if v is not None]
-        value = np.ascontiguousarray(np.concatenate(values, 1) if len(values) > 1 else values[0])
-        index, made, link = (np.empty(len(corner), np.uint32) for _ in range(3))
-        first = np.full(len(self.local), -1, np.int32)
-        count = library.python_weld(pointer(corner), len(corner), pointer(value), value.shape[1],
-                                    pointer(index), pointer(made), pointer(first), pointer(link))
-        return index, made[:count]
-
-    def _creased(self) -> Floats | None:
-        """One normal for each corner, or None where many faces around a point would cost much."""
-        if np.bincount(self.faces.reshape(-1)).max() > 2000:
-            return None
-        native = ctypes.byref(self.native())
-        memory = np.empty(library.shade_mesh_corner_normals_bytes(native), np.uint8)
-        out = np.empty((3 * len(self.faces), 3), np.float32)
-        check(library.shade_mesh_corner_normals(native, COS_CREASE, pointer(out), pointer(memory),
-                                                memory.size), "normals")
-        return out
+    def _seen_of(self) -> tuple[Array, Doubles]:
+        """Which vertices can be seen, those of faces but of such whose corners meet, and the box around them."""
+        if self._seen is None:
+            used, box = np.zeros(len(self.local), bool), np.zeros((2, 3))
+            library.python_seen(pointer(self.local), len(used), pointer(self.faces), self.faces.size,
+                                pointer(used), pointer(box))
+            self._seen = used, box
+        return self._seen
 
     def box(self) -> tuple[Doubles, Doubles]:
         """The least and greatest coordinates of the vertices of faces that can be seen."""
-        low, high = _box(self.drawn_vertices().astype(np.float64))
-        return low + self.origin, high + self.origin
+        low, high = self._seen_of()[1] + self.origin
+        return low, high
 
     @property
     def radius(self) -> float:
         """How far from the mesh's origin its box reaches."""
-        if self._radius is None:
-            sides = np.abs(_box(self.drawn_vertices().astype(np.float64)))
-            self._radius = float(sides.max()) * 3**0.5
-        return self._radius
+        return float(np.abs(self._seen_of()[1]).max()) * 3**0.5
 
     def drawn_vertices(self) -> Floats:
         """The vertices of faces that can be seen, which count from the mesh's origin."""
-        out: Floats = self._used(self.local)
-        return out
-
-    def _used(self, rows: Array) -> Array:
-        return used_of(rows, self.faces)
+        used = self._seen_of()[0]
+        return self.local if used.all() else self.local[used]
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what points into this mesh."""
@@ -442,45 +379,25 @@ class Mesh:
         """Each edge once, with its faces, where vertices of one position count as one, and the
         normals of faces.  Threads may compute them twice, but see them whole or not at all."""
         if self._edges is None:
-            bits = np.ascontiguousarray(self.local + np.float32(0)).view(np.uint32)
-            _, first, place = np.unique(bits, axis=0, return_index=True, return_inverse=True)
-            welded = np.ascontiguousarray(
-                first[place.reshape(-1)][self.faces[:self.edged]], np.uint32)
-            good = (welded[:, 0] != welded[:, 1]) & (welded[:, 1] != welded[:, 2]) & \
-                (welded[:, 0] != welded[:, 2])
-            welded = np.ascontiguousarray(welded[good])
+            faces, count = self.faces[:self.edged], ctypes.c_int()
+            edges, normals = np.empty((faces.size, 4), np.int32), np.empty(faces.shape)
             mesh = NativeMesh(positions=pointer(self.local), vertex_count=len(self.local),
-                              indices=pointer(welded), index_count=welded.size)
-            room, count = (Edge * max(1, welded.size))(), ctypes.c_int()
-            if welded.size:
-                check(library.shade_mesh_edges(ctypes.byref(mesh), room, welded.size,
-                                               ctypes.byref(count)), "faces")
-            edges = np.ctypeslib.as_array(room).view(np.int32).reshape(-1, 4)[:count.value]
-            self._edges = edges, self._face_normals(welded)
+                              indices=pointer(faces), index_count=faces.size)
+            check(library.python_edges(ctypes.byref(mesh), pointer(edges), pointer(normals), ctypes.byref(count)),
+                  "faces")
+            self._edges = edges[:count.value], normals
         return self._edges
 
-    def _face_normals(self, welded: Indices) -> Doubles:
-        p = self.local[welded].astype(np.float64)
-        with np.errstate(all="ignore"):
-            normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.asarray(normals)
-
-    def drawn_edges(self, eye: Floats, ortho_back: Floats | None, angle: float = 30.0) -> Floats:
+    def drawn_edges(self, eye: Doubles, ortho_back: Doubles | None, angle: float = 30.0) -> Floats:
         """Pairs of points of the edges that an illustrator draws from an eye: silhouettes, creases
         sharper than the angle, and boundaries.  Eye and points count from the mesh's origin."""
         edges, normals = self.edges()
-        if not len(edges):
-            return np.empty((0, 3), np.float32)
-        a, b, f, g = edges.T
-        n0, n1 = normals[f], normals[g]
-        to_eye = eye - self.local[a] if ortho_back is None else ortho_back
-        with np.errstate(all="ignore"):
-            outline = (n0 * to_eye).sum(1) * (n1 * to_eye).sum(1) <= 0
-            crease = (n0 * n1).sum(1) <= np.cos(np.radians(angle))
-        keep = (g < 0) | outline | crease
-        pairs = self.local[np.stack([a[keep], b[keep]], 1)].reshape(-1, 3)
-        return np.ascontiguousarray(pairs, np.float32)
+        points = np.empty((2 * len(edges), 3), np.float32)
+        way = np.ascontiguousarray(eye if ortho_back is None else ortho_back, np.float64)
+        count = library.python_drawn_edges(
+            pointer(self.local), pointer(edges), len(edges), pointer(normals), pointer(way),
+            ortho_back is not None, np.cos(np.radians(angle)), pointer(points))
+        return points[:count]
 
 
 Like = Union[Mesh, "os.PathLike[str]", str, bytes, Any]

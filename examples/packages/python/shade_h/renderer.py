@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Sequence
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Image, Integers,
+from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Heights, Image, Integers,
                       Light as NativeLight, Mesh as NativeMesh, Moved, check, interruptible, library, pointer)
 from .annotate import display
 from .camera import Camera
@@ -347,7 +347,7 @@ class Renderer:
         record["flags"] |= (_HEIGHTS if piece.heights else 0) | (_UNLIT if surface.unlit else 0)
 
     def _keep_mesh(self, number: int | None, positions: Any, normals: Any, uv: Any, colors: Any,
-                   indices: Any, smooth: bool = False, origin: Any = (0.0, 0.0, 0.0)) -> Shape:
+                   indices: Any, origin: Any = (0.0, 0.0, 0.0)) -> Shape:
         """Gives the library a mesh whose positions count from an origin, and keeps copies."""
         kept: list[Any] = [None if a is None else np.array(a, np.float32, order="C")
                            for a in (positions, normals, uv, colors)]
@@ -359,13 +359,15 @@ class Renderer:
         mesh.vertex_count, mesh.index_count = len(kept[0]), corners.size
         if number is None:
             number = _free(self._meshes)
-        if not library.python_scene_mesh(self._scene.handle, number, ctypes.byref(mesh), int(smooth),
-                                         pointer(origin)):
+        if not library.python_scene_mesh(self._scene.handle, number, ctypes.byref(mesh), 0, pointer(origin)):
             raise MemoryError("memory is not enough for the mesh")
-        self._meshes[number] = *kept, corners, smooth, origin
+        return self._shape_of(number, corners.size // 3, (*kept, corners, origin))
+
+    def _shape_of(self, number: int, triangles: int, kept: tuple[Any, ...]) -> Shape:
+        self._meshes[number] = kept
         self._moved.pop(number, None)
         records = _PLAIN.copy()
-        records["mesh"], records["count"] = number, corners.size // 3
+        records["mesh"], records["count"] = number, triangles
         return Shape(number, records, self._world)
 
     @_changes
@@ -381,15 +383,18 @@ class Renderer:
             raise Error(f"heights must have two rows and columns at least, not {z.shape}")
         a, b = (arguments.number(f"half[{i}]", x, 1e-30, 1e30)
                 for i, x in enumerate(arguments.doubles("half", half, (2,))))
-        y, x = np.meshgrid(2 * b * np.arange(rows) / (rows - 1) - b,
-                           2 * a * np.arange(columns) / (columns - 1) - a, indexing="ij")
-        i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
-        k = (i * columns + j).ravel()
-        faces = np.stack([k, k + 1, k + columns + 1, k, k + columns + 1, k + columns], 1)
-        shape = self._keep_mesh(number, np.stack([x, y, z], -1).reshape(-1, 3), None, None, None,
-                                np.ascontiguousarray(faces.reshape(-1, 3), np.uint32), smooth=True)
+        number = _free(self._meshes) if number is None else number
+        shape = self._shape_of(number, self._heights(number, z, a, b), (z, (a, b)))
         shape.source = (_own(half),)
         return shape
+
+    def _heights(self, number: int, z: Floats, a: float, b: float, scale: float = 1.0, base: float = -1.0) -> int:
+        """Puts ground in the place of a mesh, and returns its triangles; with a base it has sides down to that."""
+        h = Heights(pointer(z), *z.shape, (ctypes.c_double * 2)(a, b), scale, base, int(base >= 0), 0)
+        count: int = library.python_scene_heights(self._scene.handle, number, ctypes.byref(h))
+        if not count:
+            raise MemoryError("memory is not enough for the mesh")
+        return count
 
     @_changes
     def update(self, shape: Shape, vertices: object, faces: object = None, *, normals: object = None,
@@ -947,7 +952,8 @@ class Renderer:
         self.__dict__.update(state)
         self._open()
         for number, mesh in list(self._meshes.items()):
-            self._keep_mesh(number, *mesh)
+            put: Any = self._keep_mesh if len(mesh) > 2 else self._ground
+            put(number, *mesh)
         for number, texture in list(self._textures.items()):
             self._keep_texture(number, *texture[1:])
         self._set_records(records)

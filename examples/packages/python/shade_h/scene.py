@@ -16,17 +16,13 @@ from ._native import interruptible, library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
 from .camera import UPRIGHT, Camera, Viewpoint, at, direction, fitted, studio
 from .light import PRESETS, Flag, Light, Lighting, Material, Model, preset
-from .mesh import Like, Mesh, is_file, mesh as as_mesh, origin_of
+from .mesh import Like, Mesh, is_file, mesh as as_mesh
 from .picture import Picture, png_path
 
 Color = Union[str, Sequence[float], Array]
 CLAY = arguments.color("color", "clay")
 INK = arguments.color("color", "#20242a")
 IDENTITY = np.eye(4)
-#: The three quick lamps, which stay with the camera: the way their light travels, and its colour.
-QUICK = (((0.55, -0.85, -0.75), (1.02, 0.99, 0.95)), ((-1.0, 0.05, -0.55), (0.20, 0.23, 0.28)),
-         ((-0.6, -0.5, 1.0), (0.35, 0.38, 0.42)))
-QUICK_AMBIENT = (0.17, 0.175, 0.19)
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,19 +250,14 @@ class Scene:
         the matrices from each mesh's own coordinates to those, (N, parts, 4, 4)."""
         if poses is None:
             poses = np.array([[part.pose for part in self.parts]]).reshape(1, -1, 4, 4)
-        out = np.array(poses, np.float64)
-        if not out.size:
-            return np.zeros(3), out
-        own = np.array([part.mesh.origin for part in self.parts])
-        reach = np.array([part.mesh.radius for part in self.parts])
-        with np.errstate(all="ignore"):
-            if own.any():
-                out[..., :3, 3] += np.einsum("npij,pj->npi", out[..., :3, :3], own)
-            middle = out[..., :3, 3]
-            radius = (np.abs(out[..., :3, :3]).max((2, 3)) * reach)[..., None]
-            origin = origin_of((middle - radius).min((0, 1)), (middle + radius).max((0, 1)))
-        out[..., :3, 3] -= origin
-        return origin, out
+        out, origin = np.array(poses, np.float64), np.zeros(3)
+        rows = np.empty((*out.shape[:2], 20))    # core_place: pose by columns, origin, reach
+        rows[..., :16] = out.swapaxes(2, 3).reshape(*out.shape[:2], 16)
+        for i, part in enumerate(self.parts):
+            rows[:, i, 16:] = *part.mesh.origin, part.mesh.radius
+        if out.size:
+            library.python_place_all(pointer(rows), out.shape[0] * out.shape[1], pointer(origin))
+        return origin, rows[..., :16].reshape(out.shape).swapaxes(2, 3)
 
     def _points(self, places: Doubles) -> Floats:
         """Every vertex of a face, counted from the origin of the places."""
@@ -433,24 +424,19 @@ class Scene:
         view.view = tuple(local.T.reshape(-1))
         view.projection = tuple(camera.projection.T.reshape(-1))
         view.background = background
-        lights, ambient = self.lights, self.ambient
-        view.bent = int(lights is None)
-        if lights is None:
-            turn = local[:3, :3]
-            lights = [Light.directional(tuple(np.asarray(way) @ turn), color)
-                      for way, color in QUICK]
-            ambient = QUICK_AMBIENT if ambient is None else ambient
-        elif origin.any():
-            lights = [_moved(lamp, origin) for lamp in lights]
+        view.quick = 0 if self.lights is not None else 1 if self.ambient is None else 2    # QUICK, QUICK_LAMPS
+        lights = [_moved(lamp, origin) for lamp in self.lights or ()]
         flags = self.flags
         if camera.projection[3, 3] != 0:
             flags |= Flag.INFINITE_VIEWER
-        light = (0.0, 0.0, 0.0) if ambient is None else ambient
-        view.lighting = Lighting(lights, light, self.model, flags).native()
+        ambient = (0.0, 0.0, 0.0) if self.ambient is None else self.ambient
+        view.lighting = Lighting(lights, ambient, self.model, flags).native()
 
 
 def _moved(lamp: Light, origin: Doubles) -> Light:
     """A lamp whose position counts from an origin."""
+    if not origin.any():
+        return lamp
     x, y, z, w = (float(k) for k in lamp.position)
     near = np.array([x, y, z]) - w * origin
     return replace(lamp, position=(*near.tolist(), w))
@@ -458,15 +444,11 @@ def _moved(lamp: Light, origin: Doubles) -> Light:
 
 def _lines(part: Part, camera: Camera, place: Doubles, origin: Doubles) -> Floats:
     """The edges to draw of a part in a place, as seen by a camera."""
-    with np.errstate(all="ignore"):
-        if abs(np.linalg.det(place)) < 1e-30:
-            return np.empty((0, 3), np.float32)
-        back = np.linalg.inv(place)
-    view = camera.view_from(origin).astype(np.float32).astype(np.float64)
-    ortho = camera.projection[3, 3] != 0
-    way = back[:3, :3] @ view[2, :3] if ortho else None
-    eye = back[:3, :3] @ (-view[:3, :3].T @ view[:3, 3]) + back[:3, 3]
-    return part.mesh.drawn_edges(np.asarray(eye, np.float64), way)
+    view = np.array(camera.view_from(origin).astype(np.float32).T, np.float64, order="C")
+    pose, eye, ortho = np.array(place.T, np.float64, order="C"), np.empty(3), camera.projection[3, 3] != 0
+    if not library.python_eye(pointer(view), bool(ortho), pointer(pose), pointer(eye)):
+        return np.empty((0, 3), np.float32)
+    return part.mesh.drawn_edges(eye, eye if ortho else None)
 
 
 def _gloss(made: Mesh) -> Material:

@@ -1,6 +1,7 @@
 """Meshes cut open by a plane, the cut filled and hatched."""
 from __future__ import annotations
 
+import ctypes
 import warnings
 from dataclasses import replace
 from typing import Any
@@ -8,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import Array, Bytes, Doubles, Error
+from ._native import Array, Bytes, Doubles, Error, copied, library, pointer
 from .annotate import display
 from .light import Material
 from .mesh import Mesh, Surface
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-PIECES = 4_000_000    # of a cap; beyond, it is filled by fewer rows
 LINES = 24            # of the hatch across a mesh
+_OPEN = 2             # CUT_OPEN: sheets, which have no inside
 
 
 def _facing(normal: Doubles, ways: tuple[Doubles, Doubles]) -> Doubles:
@@ -90,53 +91,22 @@ def _between(c: Doubles, s: Doubles, k: int) -> Doubles:
     return np.asarray(a + (b - a) * (-low / (high - low))[:, None])
 
 
-def _state(cuts: Doubles, extent: float) -> str:
-    """"" of closed outlines (m, 2, 2), "torn" or "open", as section_state in section.h says."""
-    least = (1e-3 + 3e-7 * len(cuts)) * extent
-    ends = [cuts @ np.array(way) for way in ((1, 0.382), (-0.382, 1))]
-    pairs = [np.sort(at, axis=None).reshape(-1, 2) for at in ends]
-    gap, turned = (max(float(np.abs(at[:, 0] - at[:, 1]).sum()) for at in of)
-                   for of in (pairs, [np.sort(at, axis=0) for at in ends]))
-    if gap > max(least, 0.05 * float(np.linalg.norm(cuts[:, 1] - cuts[:, 0], axis=1).sum())):
-        return "open"
-    return "torn" if max(gap, turned) > least else ""
-
-
-def _filled(cuts: Doubles) -> Doubles:
-    """Quadrangles, (n, 4, 2), that fill the outlines (m, 2, 2): rows between the heights of all
-    ends, cut where an outline crosses them, and filled where the outlines wind around."""
-    cuts = cuts[cuts[:, 0, 1] != cuts[:, 1, 1]]
-    if not len(cuts):
-        return np.zeros((0, 4, 2))
-    rising = cuts[:, 1, 1] > cuts[:, 0, 1]
-    low = np.where(rising[:, None], cuts[:, 0], cuts[:, 1])
-    high = np.where(rising[:, None], cuts[:, 1], cuts[:, 0])
-    levels = np.unique(cuts[:, :, 1])
-    spans = np.searchsorted(levels, high[:, 1]) - np.searchsorted(levels, low[:, 1])
-    if spans.sum() > PIECES:
-        levels = np.linspace(levels[0], levels[-1], 1 + max(2, PIECES // len(cuts)))
-        spans = np.searchsorted(levels, high[:, 1]) - np.searchsorted(levels, low[:, 1])
-    first = np.searchsorted(levels, low[:, 1])
-    which = np.repeat(np.arange(len(cuts)), spans)
-    row = np.arange(len(which)) - np.repeat(np.cumsum(spans) - spans, spans) + first[which]
-    slope = ((high - low)[:, 0] / (high - low)[:, 1])[which]
-    x0 = low[which, 0] + slope * (levels[row] - low[which, 1])
-    x1 = low[which, 0] + slope * (levels[row + 1] - low[which, 1])
-    order = np.lexsort((x0 + x1, row))
-    row, x0, x1 = row[order], x0[order], x1[order]
-    way = np.where(rising, 1, -1)[which][order]
-    winding = np.cumsum(way)
-    total = np.add.reduceat(way, np.flatnonzero(np.r_[True, row[1:] != row[:-1]]))
-    if total.any():    # an open or ill-turned mesh: between each second pair of crossings
-        rank = np.arange(len(row)) - np.searchsorted(row, row)
-        winding = (rank + 1) % 2
-    fill = np.flatnonzero((winding[:-1] != 0) & (row[1:] == row[:-1]))
-    y0, y1 = levels[row[fill]], levels[row[fill] + 1]
-    # rows reach a little over each other, so that no pixel falls between them
-    more = 2e-5 * (levels[-1] - levels[0])
-    y0 = np.maximum(y0 - more, levels[0])    # and not over the part
-    return np.stack([np.stack([x0[fill], y0], 1), np.stack([x0[fill + 1], y0], 1),
-                     np.stack([x1[fill + 1], y1], 1), np.stack([x1[fill], y1], 1)], 1)
+def _filled(cuts: Doubles, extent: float) -> Doubles:
+    """Quadrangles, (n, 4, 2), that fill the outlines (m, 2, 2); told where these are not closed."""
+    flat, state, count = np.ascontiguousarray(cuts), ctypes.c_int(), ctypes.c_size_t()
+    made = library.python_fill(pointer(flat), len(flat), extent, ctypes.byref(state), ctypes.byref(count))
+    if not made:
+        raise MemoryError("memory is not enough for the section")
+    if state.value:
+        warnings.warn("section: the mesh is open" + (
+            " where it is cut: the cut is not filled" if state.value == _OPEN else
+            ", or turned both ways, where it is cut: the cut is filled between each second pair of its lines"),
+            stacklevel=6)
+    try:
+        quads = copied(made, count.value, 8, ctypes.c_double)
+    finally:
+        library.python_give(made)
+    return np.zeros((0, 4, 2)) if quads is None else np.asarray(quads.reshape(-1, 4, 2))
 
 
 def hatch() -> Bytes:
@@ -164,13 +134,7 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     v = np.cross(normal, u)
     flat = np.stack([(cuts - point) @ u, (cuts - point) @ v], 2)
     extent = float(np.ptp(corners[:, :, :3].reshape(-1, 3), 0).max()) if len(corners) else 1.0
-    state = _state(flat, extent)
-    if state:
-        warnings.warn("section: the mesh is open" + (
-            " where it is cut: the cut is not filled" if state == "open" else
-            ", or turned both ways, where it is cut: the cut is filled between each second pair of its lines"),
-            stacklevel=5)
-    quads = _filled(flat if state != "open" else flat[:0])
+    quads = _filled(flat, extent)
     cap = (quads[..., :1] * u + quads[..., 1:] * v + point)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3)
     size = (extent or 1.0) / LINES
     at = [3]

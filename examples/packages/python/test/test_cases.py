@@ -2,11 +2,13 @@
 import io
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import shade_h as shade
 from shade_h import _arguments as arguments
+from shade_h import mujoco
 
 HERE = Path(__file__).resolve()
 TABLE = next((top / "examples/kit/test/cases.json" for top in HERE.parents
@@ -89,12 +91,19 @@ def ids(case):
 
 
 def handles(case):
-    made = shade.Renderer(8, 8)
+    made, balls = shade.Renderer(8, 8), []
     for step, *given in case["steps"]:
         if step == "add":
-            assert made.add("sphere", 1) == given[0]
+            balls.append(made.add("sphere", 1))
+            assert balls[-1] == given[0]
+        elif step == "move":
+            balls[given[0]].pose = given[1]
+        elif step == "at":
+            near(balls[given[0]].pose[:3, 3], given[1], 0)
         elif step == "stale":
-            for call in (lambda: made.pose(given[0], np.eye(4)), lambda: made.remove(given[0])):
+            old = balls[given[0]] if given[0] < len(balls) else given[0]
+            for call in (lambda: made.pose(given[0], np.eye(4)), lambda: made.remove(given[0]),
+                         lambda: made.remove(old), lambda: made.pose(old, np.eye(4))):
                 with pytest.raises(shade.Error, match=f"there is no object {given[0]}"):
                     call()
         elif step == "objects":
@@ -108,10 +117,52 @@ def scene(case):
     for *at, radius in case["balls"]:
         made.add("sphere", radius, at=far + at)
     eye = shade.Camera.look_at(far + case["eye"], far + case["target"], fov=case["fov"])
-    ids = made.render(eye).ids[..., 0]
-    for i, want in enumerate(case["want"]):
+    counted(made.render(eye).ids[..., 0], case["want"])
+
+
+def counted(ids, wanted):
+    for i, want in enumerate(wanted):
         # round shapes lie within a quarter of a pixel of the true ones, along 3.545 roots of the area
         assert abs((ids == i).sum() - want) <= 3 + 0.886 * want ** 0.5
+
+
+GEOM = {"type": 2, "dataid": -1, "texid": -1, "texuniform": 0, "objtype": 5, "specular": 0, "shininess": 0, "emission": 0,
+        "mat": np.eye(3), "rgba": [1, 1, 1, 1], "texrepeat": [1, 1]}
+LAMP = ("type headlight castshadow cutoff exponent pos dir ambient diffuse specular attenuation").split()
+EYE = [f"frustum_{name}" for name in ("near", "far", "top", "bottom", "center", "width")] + ["orthographic", "pos", "forward", "up"]
+
+
+def spelled(names, row):
+    """An object of single numbers, then of arrays of three."""
+    single = len(names) - (len(row) - len(names)) // 2
+    arrays = [row[k:k + 3] for k in range(single, len(row), 3)]
+    return SimpleNamespace(**dict(zip(names, [*row[:single], *arrays])))
+
+
+def mjv(case):
+    geoms = [SimpleNamespace(**GEOM, objid=7 + i, pos=ball[:3], size=[ball[3]] * 3) for i, ball in enumerate(case["balls"])]
+    lights, cameras = ([spelled(names, row) for row in case[key]] for names, key in ((LAMP, "lights"), (EYE, "cameras")))
+    made = mujoco.Renderer(SimpleNamespace(), case["size"], case["size"])
+    made.take(SimpleNamespace(ngeom=len(geoms), geoms=geoms, nlight=len(lights), lights=lights, camera=cameras, flags=[1] * 10))
+    made.enable_segmentation_rendering()
+    pairs = made.render()
+    counted(pairs[..., 0] - 7, case["want"])
+    assert set(pairs[..., 1].ravel()) == {-1, 5}
+
+
+def ground(case):
+    made = shade.Renderer(9, 9)
+    shape = made.height_field(case["heights"], case["half"])
+    assert shape.count == 2 * (len(case["heights"]) - 1) * (len(case["heights"][0]) - 1)
+    made.add(shape)
+    x, y = case["at"]
+    near(made.render(shade.Camera.look_at((x, y, 10), (x, y, 0), (0, 1, 0))).depth[4, 4], case["want"], 1e-5)
+
+
+def local(case):
+    made = shade.Mesh(np.array(case["points"], float), case["faces"])
+    near(made.origin, case["origin"], 0)
+    near(made.local, case["want"], 1e-7)
 
 
 @pytest.mark.skipif(TABLE is None, reason="the table is beside the tree")
@@ -122,7 +173,8 @@ def test_the_table_is_whole():
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["call"])
 def test_a_case(case):
     run = {"color": color, "colors": colors, "look_at": look_at, "opencv": opencv, "opengl": opengl, "fit": fit,
-           "faces": faces, "pose": pose, "handles": handles, "scene": scene, "depth": depth, "ids": ids}[case["call"]]
+           "faces": faces, "pose": pose, "handles": handles, "scene": scene, "depth": depth, "ids": ids,
+           "mjv": mjv, "ground": ground, "local": local}[case["call"]]
     if "refused" not in case:
         run(case)
         return

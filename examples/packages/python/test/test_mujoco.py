@@ -2,6 +2,7 @@
 what the real engine steps, made robots.json with the hashes of its pictures."""
 import hashlib
 import json
+import pickle
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -83,6 +84,23 @@ def test_what_is_changed_before_render_is_drawn():
     assert not (renderer.render()[..., 0] == 77).any()
     renderer.disable_segmentation_rendering()
     assert np.array_equal(renderer.render(), more)
+
+
+def test_a_copy_draws_the_same():
+    renderer = Renderer(model(), 60, 80)
+    renderer.take(scene())
+    first = renderer.render()
+    assert np.array_equal(pickle.loads(pickle.dumps(renderer)).render(), first)
+
+
+def test_a_mesh_whose_faces_name_what_is_not_there_is_refused():
+    for name in ("mesh_face", "mesh_facenormal"):
+        broken = model()
+        setattr(broken, name, getattr(broken, name) + 99)
+        renderer = Renderer(broken, 60, 80)
+        renderer.take(scene())
+        with pytest.raises(shade.Error, match="model: a face of mesh 0 has no vertex"):
+            renderer.render()
 
 
 class Engine:

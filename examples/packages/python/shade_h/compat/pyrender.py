@@ -20,7 +20,7 @@ import numpy as np
 from .. import _arguments as arguments
 from .._native import SOLID, Array, Error
 from ..light import Light as _Lamp
-from ..mesh import _box, origin_of
+from ..mesh import counted
 from ..renderer import _KINDS, _NO_SHADOW, Frame, Renderer as _Renderer
 
 _BALL = _KINDS["sphere"]
@@ -905,9 +905,8 @@ class OffscreenRenderer:
                        for name, picture in pictures.items() if picture is not None and uv is not None}
             if uv is not None:
                 uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
-            at = primitive.positions
-            origin = origin_of(*_box(at)) if len(at) else np.zeros(3)
-            shape = base._keep_mesh(None, at - origin, primitive.normals, uv,
+            at, origin = counted(primitive.positions, np.empty((0, 3), np.uint32))
+            shape = base._keep_mesh(None, at, primitive.normals, uv,
                                     None if primitive.color_0 is None else primitive.color_0[:, :3],
                                     primitive.indices, origin=origin)
             known = self._shapes[id(primitive)] = (primitive, shape.number, numbers)
