@@ -133,8 +133,9 @@ CHANGES = [  # of a whole picture, with what they say
 def why(task, case, scene_list, got, want, right):
     """Returns a sentence for pictures of which some are wrong."""
     bad = [k for k in range(len(got)) if not same(got[k], want[k])]
+    about = f"This case is about: {case[3]}"
     if all(empty(got[k]) for k in bad):
-        return f"Your picture is empty: all is outside of the window, or behind you. {case[3]}"
+        return f"Your picture is empty: all is outside of the window, or behind you. {about}"
     if any(-1 in got[k] for k in bad):
         return "There is a colour that is no number: 0 / 0, or a root or a power of a negative number."
     for name, (where, says) in MISTAKES.items():
@@ -146,7 +147,7 @@ def why(task, case, scene_list, got, want, right):
     for change, says in CHANGES:
         if all(same(got[k], change(want[k])) for k in bad):
             return says
-    return case[3]
+    return f"No known mistake draws this. {about}"
 
 
 def judge_case(task, case, seed, renderer, right):

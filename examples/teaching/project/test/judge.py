@@ -62,6 +62,17 @@ for name, (where, says) in MISTAKES.items():
                 told.append((case[1], check.why(task, case, made, got, want, right)))
     good = told and any(text == says for _, text in told)
     count(good, f"{name}: {told}")
+# what no known mistake draws is told what a case is about, not that it is wrong
+for task, cases in CASES.items():
+    for case in cases:
+        made = scenes(task, case, "7")
+        want = right.pictures(made)
+        noise = [[(c + 97 * k) % 256 for k, c in enumerate(w)] for w in want]
+        ground = [w[0:3] * (check.WIDTH * check.HEIGHT) for w in want]
+        text = check.why(task, case, made, noise, want, right)
+        count(text == f"No known mistake draws this. This case is about: {case[3]}", f"{task}, noise: {text}")
+        text = check.why(task, case, made, ground, want, right)
+        count(text.startswith("Your picture is empty:") and "This case is about:" in text, f"{task}, empty: {text}")
 # changes of a whole picture
 for change, says in check.CHANGES:
     case = CASES["1"][1]
