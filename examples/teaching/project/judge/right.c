@@ -29,6 +29,7 @@ enum {
     WHOLE_WIDTH,
     VIEW_NOT_INVERTED,
     UP_AS_IS,
+    NOT_CUT,
     NEXT_COLOR,
     FLAT_COLOR,
     MEAN_COLOR,
@@ -72,6 +73,7 @@ enum {
     NO_MAP,
     NOT_DECODED,
     GREEN_DOWN,
+    T_AS_IS,
     TB_SWAPPED,
     MAP_ALONE,
     DROPPED,
@@ -182,7 +184,7 @@ static shade_vec3 bumpy(const drawing *d, shade_vec3 P, shade_vec3 N, shade_vec3
     const shade_vec4 t = shade_sample(&d->map, u, v, 0);
     shade_vec3 n = shade_v3(2 * t.x - 1, 2 * t.y - 1, 2 * t.z - 1), B;
     N = shade_normalize(N);
-    T = shade_normalize(shade_madd(T, -shade_dot(N, T), N));
+    T = shade_normalize(is(d, T_AS_IS) ? T : shade_madd(T, -shade_dot(N, T), N));
     B = shade_cross(N, T);
     if (is(d, NO_MAP)) n = shade_v3(0, 0, 1);
     if (is(d, NOT_DECODED)) n = shade_v3(t.x, t.y, t.z);
@@ -300,7 +302,7 @@ static void dot_at(const drawing *d, float (*pixels)[4], shade_vec3 world, shade
     shade_vec4 c = shade_mat4_transform(d->world_to_clip, shade_v4(world.x, world.y, world.z, 1));
     int x, y;
     if (is(d, NOT_DIVIDED)) c.w = 1;
-    if (!(c.z >= -c.w && c.z <= c.w) || c.w <= 0) return;
+    if (c.w <= 0 || (!(c.z >= -c.w && c.z <= c.w) && !is(d, NOT_CUT))) return;
     if (is(d, WHOLE_WIDTH)) c = shade_v4(2 * c.x + c.w, 2 * c.y - c.w, c.z, c.w);
     x = (int)floorf((c.x / c.w + 1) / 2 * WIDTH);
     y = (int)floorf((1 - c.y / c.w) / 2 * HEIGHT);
