@@ -29,6 +29,9 @@ enum {
     WHOLE_WIDTH,
     VIEW_NOT_INVERTED,
     UP_AS_IS,
+    AXES_AS_COLUMNS,
+    ROWS_TIMES,
+    ASPECT_TURNED,
     NOT_CUT,
     NEXT_COLOR,
     FLAT_COLOR,
@@ -339,13 +342,21 @@ static void silhouettes(const drawing *d, float (*pixels)[4])
 static shade_mat4 camera(drawing *d)
 {
     const scene *s = &d->s;
-    const float aspect = is(d, NO_ASPECT) ? 1 : WIDTH / (float)HEIGHT;
+    const float aspect = is(d, NO_ASPECT)       ? 1
+                         : is(d, ASPECT_TURNED) ? HEIGHT / (float)WIDTH
+                                                : WIDTH / (float)HEIGHT;
     const shade_mat4 projection = shade_mat4_perspective(
         is(d, WHOLE_ANGLE) ? fminf(2 * s->fovy, 3.1f) : s->fovy, aspect, s->near_z, s->far_z);
     const shade_vec3 at = s->at;
     d->view = shade_mat4_look_at(s->eye, at, s->up);
     if (is(d, NO_TRANSLATION)) d->view.col[3] = shade_v4(0, 0, 0, 1);
     if (is(d, VIEW_NOT_INVERTED)) d->view = shade_mat4_inverse(d->view);
+    if (is(d, AXES_AS_COLUMNS)) {
+        const shade_vec4 eye = d->view.col[3];
+        d->view.col[3] = shade_v4(0, 0, 0, 1);
+        d->view = shade_mat4_transpose(d->view);
+        d->view.col[3] = eye;
+    }
     if (is(d, UP_AS_IS)) {
         const shade_vec3 z = shade_normalize(shade_sub(s->eye, at)), y = shade_normalize(s->up);
         const shade_vec3 x = shade_normalize(shade_cross(y, z));
@@ -484,7 +495,9 @@ int main(void)
         d.s = given;
         d.mistake = (int)mistake;
         d.world_to_clip = camera(&d);
-        if (is(&d, NO_MODEL)) d.s.model = shade_mat4_identity();
+        if (is(&d, ROWS_TIMES))
+            d.world_to_clip = shade_mat4_transpose(shade_mat4_mul(d.world_to_clip, d.s.model));
+        if (is(&d, NO_MODEL) || is(&d, ROWS_TIMES)) d.s.model = shade_mat4_identity();
         d.normals = shade_normal_matrix(d.s.model);
         change_light(&d);
         make_map(&d);

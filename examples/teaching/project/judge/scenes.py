@@ -325,6 +325,9 @@ MISTAKES = {
     "VIEW_NOT_INVERTED": ("1", "V has the camera's axes as columns: this takes the camera to the world. "
                                "It must take the world to the camera: axes as rows."),
     "UP_AS_IS": ("1", "y of the camera is `up` itself: it is z x x, at a right angle to both."),
+    "AXES_AS_COLUMNS": ("1", "The camera's axes are the columns of V: they are its rows."),
+    "ROWS_TIMES": ("1", "Points go through the transposed matrix: it is M @ p, or p @ M.T."),
+    "ASPECT_TURNED": ("1", "The aspect is turned round: width / height."),
     "NOT_CUT": ("1", "What is nearer than near or beyond far is drawn: leave it out."),
     "NEXT_COLOR": ("2", "Each colour has gone to the wrong corner: alpha is the edge function of the "
                         "corners 1 and 2."),
