@@ -93,6 +93,16 @@ def same(got, want):
     return len(wrong_pixels(got, want)) <= max(2, drawn // PIXELS)
 
 
+def shows(got, drawn, want):
+    """Tells whether a picture is that of a mistake: the same, or up to twice as many pixels are off,
+    and at least four times as many of the right one."""
+    if same(got, drawn):
+        return True
+    off, ground = len(wrong_pixels(got, drawn)), want[0:3]
+    covered = sum(drawn[k:k + 3] != ground for k in range(0, len(drawn), 3))
+    return off <= 2 * covered // PIXELS and 4 * off <= len(wrong_pixels(got, want))
+
+
 def empty(picture):
     """Tells whether a picture has one colour."""
     return picture == picture[0:3] * (WIDTH * HEIGHT)
@@ -142,7 +152,7 @@ def why(task, case, scene_list, got, want, right):
         if task != where and (len(where) > 2 or task[0] not in where):
             continue
         drawn = right.pictures(scene_list, name)
-        if all(same(got[k], drawn[k]) for k in range(len(got))):
+        if all(shows(got[k], drawn[k], want[k]) for k in range(len(got))):
             return says
     for change, says in CHANGES:
         if all(same(got[k], change(want[k])) for k in bad):

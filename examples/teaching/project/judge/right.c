@@ -38,6 +38,7 @@ enum {
     MEAN_COLOR,
     CORNERS,
     ONE_WINDING,
+    OTHER_WINDING,
     WHOLE_PIXELS,
     NO_DEPTH,
     REVERSED_DEPTH,
@@ -453,7 +454,9 @@ static void draw(drawing *d, shade_target *target)
     p.raster.depth_test = d->s.checkpoint < 3 || is(d, NO_DEPTH) ? SHADE_COMPARE_ALWAYS
                           : is(d, REVERSED_DEPTH)                ? SHADE_COMPARE_GREATER
                                                                  : SHADE_COMPARE_LESS;
-    p.raster.cull = is(d, ONE_WINDING) ? SHADE_CULL_BACK : SHADE_CULL_NONE;
+    p.raster.cull = is(d, ONE_WINDING)     ? SHADE_CULL_BACK
+                    : is(d, OTHER_WINDING) ? SHADE_CULL_FRONT
+                                           : SHADE_CULL_NONE;
     for (unsigned k = 0; k < (unsigned)d->s.triangles; k++) {
         int behind = 0;
         for (unsigned j = 0; j < 3; j++) {

@@ -336,6 +336,8 @@ MISTAKES = {
     "CORNERS": ("2", "Pixels are tested at their corners: the centre of (i, j) is (i + .5, j + .5)."),
     "ONE_WINDING": ("2", "Triangles with corners clockwise are missing: divide by the area with its "
                          "sign, or turn them round."),
+    "OTHER_WINDING": ("2", "Triangles with corners counter-clockwise are missing: with y down their e is "
+                           "negative, so divide by it with its sign."),
     "WHOLE_PIXELS": ("2", "Vertices are cut to whole pixels: keep X and Y as they are."),
     "NO_DEPTH": ("3", "What is drawn last covers all: keep depths, and draw where the new one is less."),
     "REVERSED_DEPTH": ("3", "The farthest wins: nearer is less."),

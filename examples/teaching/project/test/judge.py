@@ -60,6 +60,20 @@ with tempfile.TemporaryDirectory() as folder:
         path.write_text(text.replace(old, new), encoding="utf-8")
         got = points(path, "1", [task])[task]
         count(sum(score for score, _ in got) < 10, f"{task} without {what}: {got}")
+# a student's picture is named where it is near to that of right.c, as where edges meet centres
+MADE = (
+    ("2", "    whole = (X[1]", "    for (int k = 0; k < 3; k++) X[k] = floorf(X[k]), Y[k] = floorf(Y[k]);\n    whole = (X[1]",
+     "WHOLE_PIXELS"),
+    ("2", "    if (whole == 0) return;", "    if (whole <= 0) return;", "OTHER_WINDING"),
+    ("2", "    if (whole == 0) return;", "    if (whole >= 0) return;", "ONE_WINDING"),
+)
+with tempfile.TemporaryDirectory() as folder:
+    text = (HERE / "solution.c").read_text(encoding="utf-8")
+    for task, old, new, name in MADE:
+        path = Path(folder) / "renderer.c"
+        path.write_text(text.replace(old, new), encoding="utf-8")
+        got = points(path, "1", [task])[task]
+        count(any(MISTAKES[name][1] in says for _, says in got), f"{name}, by hand: {got}")
 for task, cases in CASES.items():
     page = next(p for p in HERE.parent.glob("*.md") if p.name.startswith(task)
                 and (task == p.stem or task[1:2] != "_"))
