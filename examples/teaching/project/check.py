@@ -93,6 +93,16 @@ def same(got, want):
     return len(wrong_pixels(got, want)) <= max(2, drawn // PIXELS)
 
 
+def shows(got, drawn, want):
+    """Tells whether a picture is that of a mistake: the same, or up to twice as many pixels are off,
+    and at least four times as many of the right one."""
+    if same(got, drawn):
+        return True
+    off, ground = len(wrong_pixels(got, drawn)), want[0:3]
+    covered = sum(drawn[k:k + 3] != ground for k in range(0, len(drawn), 3))
+    return off <= 2 * covered // PIXELS and 4 * off <= len(wrong_pixels(got, want))
+
+
 def empty(picture):
     """Tells whether a picture has one colour."""
     return picture == picture[0:3] * (WIDTH * HEIGHT)
@@ -133,20 +143,21 @@ CHANGES = [  # of a whole picture, with what they say
 def why(task, case, scene_list, got, want, right):
     """Returns a sentence for pictures of which some are wrong."""
     bad = [k for k in range(len(got)) if not same(got[k], want[k])]
+    about = f"This case is about: {case[3]}"
     if all(empty(got[k]) for k in bad):
-        return f"Your picture is empty: all is outside of the window, or behind you. {case[3]}"
+        return f"Your picture is empty: all is outside of the window, or behind you. {about}"
     if any(-1 in got[k] for k in bad):
         return "There is a colour that is no number: 0 / 0, or a root or a power of a negative number."
     for name, (where, says) in MISTAKES.items():
         if task != where and (len(where) > 2 or task[0] not in where):
             continue
         drawn = right.pictures(scene_list, name)
-        if all(same(got[k], drawn[k]) for k in range(len(got))):
+        if all(shows(got[k], drawn[k], want[k]) for k in range(len(got))):
             return says
     for change, says in CHANGES:
         if all(same(got[k], change(want[k])) for k in bad):
             return says
-    return case[3]
+    return f"No known mistake draws this. {about}"
 
 
 def judge_case(task, case, seed, renderer, right):

@@ -29,11 +29,16 @@ enum {
     WHOLE_WIDTH,
     VIEW_NOT_INVERTED,
     UP_AS_IS,
+    AXES_AS_COLUMNS,
+    ROWS_TIMES,
+    ASPECT_TURNED,
+    NOT_CUT,
     NEXT_COLOR,
     FLAT_COLOR,
     MEAN_COLOR,
     CORNERS,
     ONE_WINDING,
+    OTHER_WINDING,
     WHOLE_PIXELS,
     NO_DEPTH,
     REVERSED_DEPTH,
@@ -72,6 +77,7 @@ enum {
     NO_MAP,
     NOT_DECODED,
     GREEN_DOWN,
+    T_AS_IS,
     TB_SWAPPED,
     MAP_ALONE,
     DROPPED,
@@ -182,7 +188,7 @@ static shade_vec3 bumpy(const drawing *d, shade_vec3 P, shade_vec3 N, shade_vec3
     const shade_vec4 t = shade_sample(&d->map, u, v, 0);
     shade_vec3 n = shade_v3(2 * t.x - 1, 2 * t.y - 1, 2 * t.z - 1), B;
     N = shade_normalize(N);
-    T = shade_normalize(shade_madd(T, -shade_dot(N, T), N));
+    T = shade_normalize(is(d, T_AS_IS) ? T : shade_madd(T, -shade_dot(N, T), N));
     B = shade_cross(N, T);
     if (is(d, NO_MAP)) n = shade_v3(0, 0, 1);
     if (is(d, NOT_DECODED)) n = shade_v3(t.x, t.y, t.z);
@@ -300,7 +306,7 @@ static void dot_at(const drawing *d, float (*pixels)[4], shade_vec3 world, shade
     shade_vec4 c = shade_mat4_transform(d->world_to_clip, shade_v4(world.x, world.y, world.z, 1));
     int x, y;
     if (is(d, NOT_DIVIDED)) c.w = 1;
-    if (!(c.z >= -c.w && c.z <= c.w) || c.w <= 0) return;
+    if (c.w <= 0 || (!(c.z >= -c.w && c.z <= c.w) && !is(d, NOT_CUT))) return;
     if (is(d, WHOLE_WIDTH)) c = shade_v4(2 * c.x + c.w, 2 * c.y - c.w, c.z, c.w);
     x = (int)floorf((c.x / c.w + 1) / 2 * WIDTH);
     y = (int)floorf((1 - c.y / c.w) / 2 * HEIGHT);
@@ -337,13 +343,21 @@ static void silhouettes(const drawing *d, float (*pixels)[4])
 static shade_mat4 camera(drawing *d)
 {
     const scene *s = &d->s;
-    const float aspect = is(d, NO_ASPECT) ? 1 : WIDTH / (float)HEIGHT;
+    const float aspect = is(d, NO_ASPECT)       ? 1
+                         : is(d, ASPECT_TURNED) ? HEIGHT / (float)WIDTH
+                                                : WIDTH / (float)HEIGHT;
     const shade_mat4 projection = shade_mat4_perspective(
         is(d, WHOLE_ANGLE) ? fminf(2 * s->fovy, 3.1f) : s->fovy, aspect, s->near_z, s->far_z);
     const shade_vec3 at = s->at;
     d->view = shade_mat4_look_at(s->eye, at, s->up);
     if (is(d, NO_TRANSLATION)) d->view.col[3] = shade_v4(0, 0, 0, 1);
     if (is(d, VIEW_NOT_INVERTED)) d->view = shade_mat4_inverse(d->view);
+    if (is(d, AXES_AS_COLUMNS)) {
+        const shade_vec4 eye = d->view.col[3];
+        d->view.col[3] = shade_v4(0, 0, 0, 1);
+        d->view = shade_mat4_transpose(d->view);
+        d->view.col[3] = eye;
+    }
     if (is(d, UP_AS_IS)) {
         const shade_vec3 z = shade_normalize(shade_sub(s->eye, at)), y = shade_normalize(s->up);
         const shade_vec3 x = shade_normalize(shade_cross(y, z));
@@ -440,7 +454,9 @@ static void draw(drawing *d, shade_target *target)
     p.raster.depth_test = d->s.checkpoint < 3 || is(d, NO_DEPTH) ? SHADE_COMPARE_ALWAYS
                           : is(d, REVERSED_DEPTH)                ? SHADE_COMPARE_GREATER
                                                                  : SHADE_COMPARE_LESS;
-    p.raster.cull = is(d, ONE_WINDING) ? SHADE_CULL_BACK : SHADE_CULL_NONE;
+    p.raster.cull = is(d, ONE_WINDING)     ? SHADE_CULL_BACK
+                    : is(d, OTHER_WINDING) ? SHADE_CULL_FRONT
+                                           : SHADE_CULL_NONE;
     for (unsigned k = 0; k < (unsigned)d->s.triangles; k++) {
         int behind = 0;
         for (unsigned j = 0; j < 3; j++) {
@@ -482,7 +498,9 @@ int main(void)
         d.s = given;
         d.mistake = (int)mistake;
         d.world_to_clip = camera(&d);
-        if (is(&d, NO_MODEL)) d.s.model = shade_mat4_identity();
+        if (is(&d, ROWS_TIMES))
+            d.world_to_clip = shade_mat4_transpose(shade_mat4_mul(d.world_to_clip, d.s.model));
+        if (is(&d, NO_MODEL) || is(&d, ROWS_TIMES)) d.s.model = shade_mat4_identity();
         d.normals = shade_normal_matrix(d.s.model);
         change_light(&d);
         make_map(&d);

@@ -52,6 +52,7 @@ def sphere(draw, columns=10, rows=7):
         for i in range(columns + 1):
             theta, phi = math.pi * j / rows, 2 * math.pi * i / columns
             n = [math.sin(theta) * math.cos(phi), math.cos(theta), -math.sin(theta) * math.sin(phi)]
+            n = [round(c, 6) + 0.0 for c in n]  # one place has the same numbers, also at seam and poles
             vertices.append(vertex(draw, n, n, (2 * i / columns, j / rows),
                                    (-math.sin(phi), 0, -math.cos(phi))))
     for j in range(rows):
@@ -89,6 +90,13 @@ def grid(draw, turned):
                 if draw.random() < 0.75:
                     triangles.append(t[::-1] if turned and draw.random() < 0.5 else t)
     return vertices, triangles
+
+
+def apart(mesh):
+    """Returns a mesh whose faces share no vertex."""
+    vertices, triangles = mesh
+    return ([vertices[k] for face in triangles for k in face],
+            [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(len(triangles))])
 
 
 def joined(*meshes):
@@ -222,7 +230,10 @@ def bumped(draw, flat):
     bumps = []
     for _ in range(MAP * MAP):
         bumps += [c / 2 + 0.5 for c in unit([*draw.some(-0.5, 0.5, 2), 1])]
-    mesh = sheet(draw, square(1)) if flat else sphere(draw)
+    vertices, triangles = sheet(draw, square(1)) if flat else sphere(draw)
+    for v in vertices:  # tangents lean toward N
+        v[11:14] = unit(add(v[11:14], scale(0.5, v[3:6])))
+    mesh = vertices, triangles
     return scene(draw, 6, mesh, front(draw) if flat else None, None if flat else turned(draw),
                  option=BUMP, map=bumps)
 
@@ -241,9 +252,9 @@ def clipped(draw, few):
                  option=CLIP)
 
 
-def outlined(draw, columns):
+def outlined(draw, mesh):
     """A ball in tones from cool to warm, with the ends of its silhouette marked."""
-    return scene(draw, 6, sphere(draw, columns, 6), model=turned(draw), option=SILHOUETTES)
+    return scene(draw, 6, mesh, model=turned(draw), option=SILHOUETTES)
 
 
 CASES = {  # points, name, what makes a scene, what to look at
@@ -253,7 +264,7 @@ CASES = {  # points, name, what makes a scene, what to look at
           (4, "a camera anywhere", lambda d: scene(d, 1, sphere(d), camera(d)),
            "The camera's axes are the rows of its matrix, and it takes the eye to the origin."),
           (4, "a model that is turned, scaled and moved",
-           lambda d: scene(d, 1, sphere(d), camera(d), turned(d)),
+           lambda d: scene(d, 1, sphere(d), camera(d), turned(d), near=2.6, far=3.6),
            "The model's matrix comes first: P V M p.")],
     "2": [(5, "triangles", lambda d: scene(d, 2, grid(d, False), front(d)),
            "A pixel belongs to a triangle where its centre, (i + .5, j + .5), is inside of all edges; "
@@ -295,10 +306,10 @@ CASES = {  # points, name, what makes a scene, what to look at
                (5, "a floor and a wall", lambda d: clipped(d, False),
                 "One corner in front leaves a triangle, two leave a polygon of four, which is two "
                 "triangles.")],
-    "6_silhouettes": [(5, "a coarse ball", lambda d: outlined(d, 6),
+    "6_silhouettes": [(5, "a coarse ball", lambda d: outlined(d, apart(sphere(d, 5, 4))),
                        "The tone is cool + (1 + N.L)/2 (warm - cool), and k_e is added. Both ends of an "
                        "edge are marked where (e.n_0)(e.n_1) <= 0."),
-                      (5, "a finer ball", lambda d: outlined(d, 10),
+                      (5, "a finer ball", lambda d: outlined(d, sphere(d, 10, 6)),
                        "Faces share an edge where both its ends are in one place.")],
 }
 # What right.c can draw on purpose: the checkpoint, the sentence
@@ -314,6 +325,10 @@ MISTAKES = {
     "VIEW_NOT_INVERTED": ("1", "V has the camera's axes as columns: this takes the camera to the world. "
                                "It must take the world to the camera: axes as rows."),
     "UP_AS_IS": ("1", "y of the camera is `up` itself: it is z x x, at a right angle to both."),
+    "AXES_AS_COLUMNS": ("1", "The camera's axes are the columns of V: they are its rows."),
+    "ROWS_TIMES": ("1", "Points go through the transposed matrix: it is M @ p, or p @ M.T."),
+    "ASPECT_TURNED": ("1", "The aspect is turned round: width / height."),
+    "NOT_CUT": ("1", "What is nearer than near or beyond far is drawn: leave it out."),
     "NEXT_COLOR": ("2", "Each colour has gone to the wrong corner: alpha is the edge function of the "
                         "corners 1 and 2."),
     "FLAT_COLOR": ("2", "Each triangle has the colour of its first corner: weigh the three."),
@@ -321,6 +336,8 @@ MISTAKES = {
     "CORNERS": ("2", "Pixels are tested at their corners: the centre of (i, j) is (i + .5, j + .5)."),
     "ONE_WINDING": ("2", "Triangles with corners clockwise are missing: divide by the area with its "
                          "sign, or turn them round."),
+    "OTHER_WINDING": ("2", "Triangles with corners counter-clockwise are missing: with y down their e is "
+                           "negative, so divide by it with its sign."),
     "WHOLE_PIXELS": ("2", "Vertices are cut to whole pixels: keep X and Y as they are."),
     "NO_DEPTH": ("3", "What is drawn last covers all: keep depths, and draw where the new one is less."),
     "REVERSED_DEPTH": ("3", "The farthest wins: nearer is less."),
@@ -361,12 +378,14 @@ MISTAKES = {
     "NO_MAP": ("6_bump", "The map is not used."),
     "NOT_DECODED": ("6_bump", "Texels are taken as they are: n = 2 texel - 1."),
     "GREEN_DOWN": ("6_bump", "B points the other way: B = N x T."),
+    "T_AS_IS": ("6_bump", "T leans toward N: take T - (N.T) N, made unit."),
     "TB_SWAPPED": ("6_bump", "T and B are exchanged: red goes along T."),
     "MAP_ALONE": ("6_bump", "N is that of the map: turn it into T, B and N."),
     "DROPPED": ("6_clip", "Triangles that cross the near plane are dropped: a part of them is left."),
     "NO_TONES": ("6_silhouettes", "This is the light of iteration four: tones go from cool to warm."),
     "TONES_SWAPPED": ("6_silhouettes", "Warm and cool are exchanged: toward lamp 0 it is warm."),
-    "NO_LINES": ("6_silhouettes", "The silhouette is not marked."),
+    "NO_LINES": ("6_silhouettes", "The silhouette is not marked. Faces share an edge by its places, not by "
+                                  "the numbers of its vertices."),
     "OTHER_EDGES": ("6_silhouettes", "All other edges are marked: (e.n_0)(e.n_1) <= 0."),
 }
 

@@ -110,6 +110,10 @@ static void lamp(shade_light *l, float x, float y, float z)
 }
 static void fill(scene *s, int checkpoint, int option)
 {
+    static const shade_mat4 from_lamp = { { { -0.7479f, -0.9616f, -1.102f, -0.8571f },
+                                            { 0, 2.137f, -0.551f, -0.4286f },
+                                            { -2.2438f, 0.3205f, 0.3673f, 0.2857f },
+                                            { 0, 0, 2.2143f, 3.5f } } };
     memset(s, 0, sizeof *s);
     s->checkpoint = (float)checkpoint;
     s->option = (float)option;
@@ -117,21 +121,26 @@ static void fill(scene *s, int checkpoint, int option)
     s->iteration = 4;
     s->lamps = LAMPS;
     s->fovy = 0.9f;
-    s->near_z = 0.5f;
+    s->near_z = checkpoint == 6 && option == CLIP ? 2.4f : 0.5f; /* cuts the torus open */
     s->far_z = 12;
-    s->bias = 0.012f;
+    s->bias = 0.03f;
     s->eye = shade_v3(1, 1.8f, 2.6f);
     s->up = shade_v3(0, 1, 0);
     s->ambient = shade_v3(0.2f, 0.2f, 0.2f);
-    s->model = s->lamp_camera = shade_mat4_identity();
+    s->model = shade_mat4_identity();
+    s->lamp_camera = from_lamp; /* from (3, 1.5, -1) to the middle, fovy 0.8, near 1, far 8 */
     s->material.ambient = s->material.diffuse = shade_v3(0.6f, 0.35f, 0.2f);
     s->material.specular = shade_v3(0.4f, 0.4f, 0.4f);
     s->material.shininess = 20;
-    lamp(&s->lamp[0], 2, 3, 2);
+    if (checkpoint == 6 && option == SHADOW)
+        lamp(&s->lamp[0], 3, 1.5f, -1); /* low, so that the torus is in its own shadow */
+    else
+        lamp(&s->lamp[0], 2, 3, 2);
     lamp(&s->lamp[1], -3, 1, 1);
     for (int k = 0; k < MAP * MAP; k++) {
         const float light = (k / MAP / 4 + k % MAP / 4) % 2 ? 0.9f : 0.3f;
-        s->map[k] = shade_v3(light, light, 0.5f);
+        s->map[k] = checkpoint == 6 ? shade_v3(light, 0.5f, 0.9f) /* a normal */
+                                    : shade_v3(light, light, 0.5f);
     }
     torus(s, 15, 5);
 }

@@ -1,4 +1,5 @@
 """main.py - draws a scene of its own for each checkpoint into a PNG: python3 main.py 4 writes 4.png.
+Of 6 there are four: python3 main.py 6 0 draws the shadow, 1 bumps, 2 clipping, 3 silhouettes.
 The judge does not use it; change it as you like."""
 import struct
 import sys
@@ -7,7 +8,8 @@ import zlib
 import numpy as np
 
 import renderer
-from scene import BACKGROUND, HEIGHT, LAMPS, MAP, PHONG, TRIANGLES, VERTICES, WIDTH, scene
+from scene import (BACKGROUND, CLIP, HEIGHT, LAMPS, MAP, PHONG, SHADOW, TRIANGLES, VERTICES, WIDTH,
+                   scene)
 
 ENLARGED = 8
 
@@ -51,11 +53,17 @@ def main():
     option = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     vertices, triangles = torus()
     unit = list(np.eye(4).ravel())
-    checks = [c for k in range(MAP * MAP) for c in (
-        [.9, .9, .5] if (k // MAP // 4 + k % MAP // 4) % 2 else [.3, .3, .5])]
-    numbers = [checkpoint, option, PHONG, 4, 0, LAMPS, len(vertices) // 14, len(triangles) // 3, .9, .5,
-               12, .012, 1, 1.8, 2.6, 0, 0, 0, 0, 1, 0, .2, .2, .2, *unit, *unit, 0, 0, 0, .6, .35, .2,
-               .6, .35, .2, .4, .4, .4, 20, *lamp(2, 3, 2), *lamp(-3, 1, 1), *checks]
+    # column after column: from (3, 1.5, -1) to the middle, fovy .8, near 1, far 8
+    from_lamp = [-.7479, -.9616, -1.102, -.8571, 0, 2.137, -.551, -.4286, -2.2438, .3205, .3673,
+                 .2857, 0, 0, 2.2143, 3.5]
+    # low for the shadow, so that the torus is in its own
+    place = (3, 1.5, -1) if checkpoint == 6 and option == SHADOW else (2, 3, 2)
+    near = 2.4 if checkpoint == 6 and option == CLIP else .5  # cuts the torus open
+    checks = [c for k in range(MAP * MAP) for x in [.9 if (k // MAP // 4 + k % MAP // 4) % 2 else .3]
+              for c in ([x, .5, .9] if checkpoint == 6 else [x, x, .5])]  # normals in 6
+    numbers = [checkpoint, option, PHONG, 4, 0, LAMPS, len(vertices) // 14, len(triangles) // 3, .9,
+               near, 12, .03, 1, 1.8, 2.6, 0, 0, 0, 0, 1, 0, .2, .2, .2, *unit, *from_lamp, 0, 0, 0,
+               .6, .35, .2, .6, .35, .2, .4, .4, .4, 20, *lamp(*place), *lamp(-3, 1, 1), *checks]
     numbers += vertices + [0] * (14 * VERTICES - len(vertices))
     numbers += triangles + [0] * (3 * TRIANGLES - len(triangles))
     picture = np.tile(np.array(BACKGROUND), (HEIGHT, WIDTH, 1))

@@ -32,7 +32,7 @@ typedef struct scene {
     float iteration;                  /* 0 to 4 */
     float mipmaps;                    /* checkpoint 5: 1 to choose a level, 0 for level 0 */
     float lamps, vertices, triangles; /* how many there are of each */
-    float fovy, near_z, far_z;        /* of the camera: the whole vertical angle, distances */
+    float fovy, near_z, far_z;        /* camera: whole vertical angle in radians, distances */
     float bias;                       /* of the shadow map */
     shade_vec3 eye, at, up;           /* of the camera */
     shade_vec3 ambient;               /* I_a */

@@ -3,7 +3,7 @@ its own.
 
 s.checkpoint, s.option, s.shading, s.iteration     whole numbers, see scene.h
 s.mipmaps                                          True to choose a level
-s.fovy, s.near_z, s.far_z, s.bias                  floats
+s.fovy, s.near_z, s.far_z, s.bias                  floats; fovy in radians
 s.eye, s.at, s.up, s.ambient                       arrays of 3
 s.model, s.lamp_camera                             arrays of 4 x 4, for M @ p
 s.material                                         emission, ambient, diffuse, specular, shininess

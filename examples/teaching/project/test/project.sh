@@ -28,6 +28,8 @@ assert name == b'IEND' and len(zlib.decompress(rows)) == 384 * (3 * 512 + 1)" "$
     check "with a picture of what differs" test -s "$T/got/$P/starter/difference.png"
     cp $P/test/solution.c "$T/got/$P/starter/renderer.c"
     (cd "$T/got/$P/starter" && python3 ../check.py 1 renderer.c --json r.json) >"$T/said"
+    (cd "$T/got/$P/starter" && ${MAKE:-make} -s renderer CC="${CC:-cc}" && ./renderer 3 && ./renderer 6 2) >/dev/null
+    check "its own scene of clipping is cut" sh -c "! cmp -s '$T/got/$P/starter/3.png' '$T/got/$P/starter/6.png'"
     check "a right one gets full points" grep -q '^checkpoint 1: 10 of 10 points$' "$T/said"
     check "results are those of Gradescope" python3 -c "
 import json, sys
