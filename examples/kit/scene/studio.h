@@ -577,10 +577,15 @@ static int studio_is_closed(const model *m)
     uint32_t *root = (uint32_t *)malloc((n + 1) * sizeof *root);
     double *volume = (double *)calloc(n + 1, sizeof *volume);
     uint64_t sum = 0;
-    int closed = root && volume;
+    int closed = 1;
+    if (!root || !volume) {
+        free(root);
+        free(volume);
+        return 0;
+    }
     for (int i = 0; i < m->surface_count; i++) closed &= !(m->surface[i].alpha_cutoff > 0);
-    for (size_t i = 0; i < n && closed; i++) root[i] = (uint32_t)i;
-    for (int i = 0; i < m->part_count && closed; i++)
+    for (size_t i = 0; i < n; i++) root[i] = (uint32_t)i;
+    for (int i = 0; i < m->part_count; i++)
         if (studio_casts(m, i)) sum += studio_join(&m->mesh, &m->part[i], root);
     closed = closed && sum == 0;
     for (int i = 0; i < m->part_count && closed; i++) {
