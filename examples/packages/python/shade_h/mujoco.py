@@ -23,27 +23,31 @@ from ._native import SOLID, Array, Error, MeshPart, asked, library, pointer
 from .renderer import Frame, Renderer as _Base
 
 _HEIGHT_FIELD, _MESH, _SKYBOX, _SHADOWS, _SKIES = 1, 7, 2, 0, 4    # of MuJoCo's enums
-# What mjv.h knows of an mjvGeom, an mjvLight and an mjvGLCamera, in its order: numbers, arrays, how many numbers in all
-_GEOM = ("type", "dataid", "texid", "texuniform", "segid", "objid", "objtype", "specular", "shininess", "emission"), \
-    ("size", "pos", "mat", "rgba", "texrepeat"), 31
-_LAMP = ("type", "headlight", "castshadow", "cutoff", "exponent"), \
-    ("pos", "dir", "ambient", "diffuse", "specular", "attenuation"), 23
-_EYE = (*(f"frustum_{name}" for name in ("near", "far", "top", "bottom", "center", "width")), "orthographic"), \
-    ("pos", "forward", "up"), 16
+# What mjv.h knows of an mjvGeom, an mjvLight and an mjvGLCamera, in its order, and how many numbers that is
+_NUMBERS = {
+    "geoms": ("type dataid texid texuniform segid objid objtype specular shininess emission size pos mat rgba texrepeat", 31),
+    "lights": ("type headlight castshadow cutoff exponent pos dir ambient diffuse specular attenuation", 23),
+    "camera": ("frustum_near frustum_far frustum_top frustum_bottom frustum_center frustum_width orthographic pos "
+               "forward up", 16),
+}
 
 
-def _rows(objects: Any, count: int, part: tuple[tuple[str, ...], tuple[str, ...], int]) -> Array:
+def _rows(name: str, scene: Any, count: int) -> Array:
     """The numbers of the first objects of a scene, a row for each."""
-    numbers, arrays, width = part
+    fields, width = _NUMBERS[name]
     if not count:
         return np.zeros((0, width))
+    objects = getattr(scene, name)
     some = [objects[i] for i in range(count)]
-    plain: list[Any] = [[getattr(one, name, 0) if name == "segid" else getattr(one, name) for one in some]
-                        for name in numbers]
-    # column by column: a row at a time takes twice as long
-    columns = [np.array(values, np.float64).reshape(count, -1)
-               for values in plain + [[getattr(one, name) for one in some] for name in arrays]]
-    return np.concatenate(columns, axis=1)
+    try:  # column by column: a row at a time takes twice as long
+        rows = np.concatenate([
+            np.array([getattr(one, field, 0) if field == "segid" else getattr(one, field) for one in some],
+                     np.float64).reshape(count, -1) for field in fields.split()], axis=1)
+    except ValueError:
+        rows = np.zeros((0, 0))
+    if rows.shape[1] != width:
+        raise Error(f"{name} must have the fields of an mjvScene's")
+    return rows
 
 
 class _Kind(Error, TypeError):
@@ -155,7 +159,7 @@ class Renderer:
     def _read(self, scene: Any, solid: bool) -> tuple[Array, Array, Array]:
         """Records of the geoms, object and type of each after (-1, -1), and what they are seen by; lamps and
         sky are set."""
-        geoms = _rows(scene.geoms, int(scene.ngeom), _GEOM)
+        geoms = _rows("geoms", scene, int(scene.ngeom))
         for row, (kind, i, texture) in zip(geoms, geoms[:, :3].astype(int).tolist()):
             if kind in (_MESH, _HEIGHT_FIELD):
                 row[1] = self._shape(kind, i >> 1 if kind == _MESH else i)
@@ -163,10 +167,10 @@ class Renderer:
                 self._texture(texture)
         records, pairs = np.zeros(len(geoms), SOLID), np.zeros((len(geoms) + 1, 2), np.int32)
         count = library.python_mjv_records(pointer(geoms), len(geoms), solid, pointer(records), pointer(pairs))
-        lamps = _rows(scene.lights, int(scene.nlight), _LAMP)
+        lamps = _rows("lights", scene, int(scene.nlight))
         asked(library.python_mjv_lights, self._at, lamps, len(lamps), int(scene.flags[_SHADOWS]))
         sky = self._texture(self._sky) if scene.flags[_SKIES] and self._sky >= 0 else -1
-        black, cameras, seen = np.array([0, 0, 0, 1] + 6 * [0], np.float32), _rows(scene.camera, 2, _EYE), np.empty(35)
+        black, cameras, seen = np.array([0, 0, 0, 1] + 6 * [0], np.float32), _rows("camera", scene, 2), np.empty(35)
         library.python_scene_behind(self._at, 0 if sky < 0 else 2, sky, pointer(black))
         library.python_mjv_aim(pointer(cameras), self.width / self.height, pointer(seen))
         return records[:count], pairs, seen

@@ -103,6 +103,19 @@ def test_a_mesh_whose_faces_name_what_is_not_there_is_refused():
             renderer.render()
 
 
+def test_rows_of_other_lengths_are_refused():
+    for name, field in (("geoms", "rgba"), ("geoms", "mat"), ("lights", "pos"), ("camera", "up")):
+        for length in (1, 2, 12):
+            for everywhere in (False, True):
+                taken = scene()
+                for one in getattr(taken, name)[:None if everywhere else 1]:
+                    setattr(one, field, np.ones(length))
+                renderer = Renderer(model(), 60, 80)
+                renderer.take(taken)
+                with pytest.raises(shade.Error, match=f"{name} must have the fields of an mjvScene's"):
+                    renderer.render()
+
+
 class Engine:
     """What update_scene asks of the mujoco module."""
 
