@@ -451,19 +451,16 @@ static inline void core_origin(const double low[3], const double high[3], double
 static inline int core_eye(const double *view, int parallel, const double *pose, double eye[3])
 {
     const double *a = pose, *b = pose + 4, *c = pose + 8;
-    double row[3][3], p[3], det = 0;
-    for (int k = 0; k < 3; k++) {
-        const int u = (k + 1) % 3, v = (k + 2) % 3;
-        row[0][k] = b[u] * c[v] - b[v] * c[u];
-        row[1][k] = c[u] * a[v] - c[v] * a[u];
-        row[2][k] = a[u] * b[v] - a[v] * b[u];
-        p[k] = -(view[4 * k] * view[12] + view[4 * k + 1] * view[13] + view[4 * k + 2] * view[14]);
-        p[k] = parallel ? view[4 * k + 2] : p[k] - pose[12 + k];
-    }
-    det = a[0] * row[0][0] + a[1] * row[0][1] + a[2] * row[0][2];
+    double row[3][3], p[3], det;
+    core_cross(b, c, row[0]);
+    core_cross(c, a, row[1]);
+    core_cross(a, b, row[2]);
+    det = core_dot(a, row[0]);
+    for (int k = 0; k < 3; k++)
+        p[k] = parallel ? view[4 * k + 2] : -core_dot(view + 4 * k, view + 12) - pose[12 + k];
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) row[i][k] /= det;
-        eye[i] = row[i][0] * p[0] + row[i][1] * p[1] + row[i][2] * p[2];
+        eye[i] = core_dot(row[i], p);
     }
     return det != 0;
 }

@@ -184,7 +184,7 @@ static inline int mjv_lights(core_refusal *r, renderer_scene *s, const double *l
         char name[32];
         snprintf(name, sizeof name, "lights[%d]", i);
         if (core_numbers(r, name, from, MJV_LAMP)) return r->code;
-        if (distant && !(way[0] * way[0] + way[1] * way[1] + way[2] * way[2] > 1e-36))
+        if (distant && !(core_dot(way, way) > 1e-36))
             return core_refuse(r, CORE_RANGE, name, "must have a direction");
         for (int k = 0; k < 3; k++) places[i][k] = distant ? -way[k] : from[MJV_AT + k];
         places[i][3] = !distant;
@@ -211,18 +211,6 @@ typedef struct mjv_seen {
     double view[16], projection[16], near_z, far_z, parallel;
 } mjv_seen;
 
-static inline void mjv_cross(const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static inline void mjv_unit(double *v)
-{
-    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int k = 0; k < 3; k++) v[k] /= length;
-}
-
 /* The mean of the two cameras of stereo, for a picture of that aspect, width by height */
 static inline void mjv_aim(const double *cameras, double aspect, mjv_seen *out)
 {
@@ -239,12 +227,12 @@ static inline void mjv_aim(const double *cameras, double aspect, mjv_seen *out)
         row[1][k] = (c[MJV_UP + k] + d[MJV_UP + k]) / 2;
         row[2][k] = (c[MJV_FORWARD + k] + d[MJV_FORWARD + k]) / 2;
     }
-    mjv_unit(row[2]);
-    mjv_cross(row[2], row[1], row[0]);
-    mjv_unit(row[0]);
-    mjv_cross(row[0], row[2], row[1]);
+    core_unit(row[2]);
+    core_cross(row[2], row[1], row[0]);
+    core_unit(row[0]);
+    core_cross(row[0], row[2], row[1]);
     for (int i = 0; i < 3; i++) {
-        const double dot = row[i][0] * at[0] + row[i][1] * at[1] + row[i][2] * at[2];
+        const double dot = core_dot(row[i], at);
         for (int k = 0; k < 3; k++) out->view[4 * k + i] = i < 2 ? row[i][k] : -row[i][k];
         out->view[12 + i] = i < 2 ? -dot : dot;
     }

@@ -351,15 +351,14 @@ static inline uint32_t *build_lowest(const float *positions, int count)
 /* In double; NaN for a face without area. */
 static inline void build_face_normal(const float *positions, const uint32_t *corner, double *n)
 {
-    double a[3], b[3], length;
+    double a[3], b[3];
     for (size_t k = 0; k < 3; k++) {
         const double p = (double)positions[3 * (size_t)corner[0] + k];
         a[k] = (double)positions[3 * (size_t)corner[1] + k] - p;
         b[k] = (double)positions[3 * (size_t)corner[2] + k] - p;
     }
-    for (int k = 0; k < 3; k++)
-        n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    core_cross(a, b, n);
+    const double length = core_length(n);
     for (int k = 0; k < 3; k++) n[k] /= length;
 }
 
@@ -388,11 +387,6 @@ static inline shade_result build_edges(const shade_mesh *mesh, shade_edge *edges
     return result;
 }
 
-static inline double build_dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Pairs of points of the edges that an illustrator draws from an eye, which counts from the origin
    of the mesh: silhouettes, boundaries, and creases whose normals have no larger cosine.  parallel:
    eye is the way toward it.  Returns how many points there are, two for each edge at most. */
@@ -408,8 +402,8 @@ static inline int build_drawn_edges(const float *positions, const shade_edge *ed
         for (int k = 0; k < 3; k++) to_eye[k] = parallel ? eye[k] : eye[k] - (double)p[k];
         if (e->triangle[1] >= 0) {
             n1 = normals + 3 * (size_t)e->triangle[1];
-            if (!(build_dot(n0, to_eye) * build_dot(n1, to_eye) <= 0) &&
-                !(build_dot(n0, n1) <= cosine))
+            if (!(core_dot(n0, to_eye) * core_dot(n1, to_eye) <= 0) &&
+                !(core_dot(n0, n1) <= cosine))
                 continue;
         }
         memcpy(&points[n++], p, sizeof *points);
