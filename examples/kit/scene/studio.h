@@ -178,6 +178,14 @@ static void studio_find_drawn(studio_map *map)
     }
 }
 
+/* Do maps cut holes?  Then casters are drawn with them, and may show their backs. */
+static int studio_has_holes(const model *m)
+{
+    for (int i = 0; i < m->surface_count; i++)
+        if (m->surface[i].alpha_cutoff > 0) return 1;
+    return 0;
+}
+
 /* Parts that throw a shadow: those that nothing shows through */
 static int studio_casts(const model *m, int part)
 {
@@ -439,9 +447,7 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
 enum { STUDIO_THIN = 10000 }; /* triangles of models that are worth it */
 static int studio_may_thin(const model *m)
 {
-    for (int i = 0; i < m->surface_count; i++)
-        if (m->surface[i].alpha_cutoff > 0) return 0; /* its map would be needed */
-    return !STUDIO_WHOLE && m->mesh.view.index_count / 3 > STUDIO_THIN;
+    return !STUDIO_WHOLE && m->mesh.view.index_count / 3 > STUDIO_THIN && !studio_has_holes(m);
 }
 
 /* The cell of a coordinate, of so many */
@@ -539,19 +545,23 @@ static uint64_t studio_edge(uint32_t a, uint32_t b)
     return a < b ? x : 0 - x;
 }
 
-/* Adds up the edges of a part, and joins the vertices of each triangle: *root of them leads to one
-   of their piece. */
+/* The vertex that stands for the piece of another one */
+static uint32_t studio_piece(uint32_t *root, uint32_t a)
+{
+    while (root[a] != a) a = root[a] = root[root[a]];
+    return a;
+}
+
+/* Adds up the edges of a part, and joins the vertices of each triangle to one piece. */
 static uint64_t studio_join(const owned_mesh *m, const model_part *part, uint32_t *root)
 {
     uint64_t sum = 0;
     for (int t = part->first; t < part->first + part->count; t += 3) {
         const uint32_t *corner = m->indices + t;
         for (int k = 0; k < 3; k++) {
-            uint32_t a = corner[k], b = corner[(k + 1) % 3];
+            const uint32_t a = corner[k], b = corner[(k + 1) % 3];
             if (a != b) sum += studio_edge(a, b);
-            while (root[a] != a) a = root[a] = root[root[a]];
-            while (root[b] != b) b = root[b] = root[root[b]];
-            root[a < b ? b : a] = a < b ? a : b;
+            root[studio_piece(root, a)] = studio_piece(root, b);
         }
     }
     return sum;
@@ -570,34 +580,33 @@ static double studio_volume(const float *a, const float *b, const float *c)
    outside each point shows a front before a back: without backs the maps are the same but for
    roundings, in .83 of a thumbnail's time at 100,000 triangles.  Each edge must be gone through as
    often one way as the other: the numbers of all edges add up to 0 then, and otherwise once in
-   2^64.  Pieces of less volume than a texel's cube do not count.  0 where memory is out. */
+   2^64.  Pieces of next to no volume, as sheets with two faces, are neither.  0 where memory is
+   out. */
 static int studio_is_closed(const model *m)
 {
     const size_t n = (size_t)m->mesh.view.vertex_count;
     uint32_t *root = (uint32_t *)malloc((n + 1) * sizeof *root);
     double *volume = (double *)calloc(n + 1, sizeof *volume);
     uint64_t sum = 0;
-    int closed = 1;
-    if (!root || !volume) {
+    int closed;
+    if (!root || !volume || studio_has_holes(m)) {
         free(root);
         free(volume);
         return 0;
     }
-    for (int i = 0; i < m->surface_count; i++) closed &= !(m->surface[i].alpha_cutoff > 0);
     for (size_t i = 0; i < n; i++) root[i] = (uint32_t)i;
     for (int i = 0; i < m->part_count; i++)
         if (studio_casts(m, i)) sum += studio_join(&m->mesh, &m->part[i], root);
-    closed = closed && sum == 0;
+    closed = sum == 0;
     for (int i = 0; i < m->part_count && closed; i++) {
         const model_part *part = &m->part[i];
         if (!studio_casts(m, i)) continue;
         for (int t = part->first; t < part->first + part->count; t += 3) {
             const uint32_t *corner = m->mesh.indices + t;
             const float *at = m->mesh.positions;
-            uint32_t a = corner[0];
-            while (root[a] != a) a = root[a];
-            volume[a] += studio_volume(at + 3 * (size_t)corner[0], at + 3 * (size_t)corner[1],
-                                       at + 3 * (size_t)corner[2]);
+            volume[studio_piece(root, corner[0])] +=
+                studio_volume(at + 3 * (size_t)corner[0], at + 3 * (size_t)corner[1],
+                              at + 3 * (size_t)corner[2]);
         }
     }
     for (size_t i = 0; i < n && closed; i++) closed = volume[i] > -1e-8;
