@@ -604,9 +604,8 @@ static int studio_is_closed(const model *m)
         for (int t = part->first; t < part->first + part->count; t += 3) {
             const uint32_t *corner = m->mesh.indices + t;
             const float *at = m->mesh.positions;
-            volume[studio_piece(root, corner[0])] +=
-                studio_volume(at + 3 * (size_t)corner[0], at + 3 * (size_t)corner[1],
-                              at + 3 * (size_t)corner[2]);
+            volume[studio_piece(root, corner[0])] += studio_volume(
+                at + 3 * (size_t)corner[0], at + 3 * (size_t)corner[1], at + 3 * (size_t)corner[2]);
         }
     }
     for (size_t i = 0; i < n && closed; i++) closed = volume[i] > -1e-8;
