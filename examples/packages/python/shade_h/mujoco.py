@@ -40,7 +40,7 @@ def _rows(name: str, scene: Any, count: int) -> Array:
     objects = getattr(scene, name)
     some = [objects[i] for i in range(count)]
     try:  # column by column: a row at a time takes twice as long
-        rows = np.concatenate([
+        rows: Array = np.concatenate([
             np.array([getattr(one, field, 0) if field == "segid" else getattr(one, field) for one in some],
                      np.float64).reshape(count, -1) for field in fields.split()], axis=1)
     except ValueError:
