@@ -4,8 +4,9 @@
 # each draw, and is run, with one sample a pixel.  Bands, strips, samples and pictures of many meshes
 # are among them.
 #   What it says of states is judged by tests/fuzz/explained.h, of 20,000 of each kind, or with a
-# number of as many, and of as many lines and pipelines, and then the programs are left out.  Nothing
-# false is said, and fewer than one black picture in a thousand has no sentence.
+# number of as many, and by the runner's sections, with more rounds than make test has, or with as many
+# lines and pipelines; with a number the programs are left out.  Nothing false is said, and fewer than
+# one black picture in a thousand has no sentence.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc} CXX=${CXX:-c++}
@@ -34,14 +35,15 @@ for kind in random ordinary; do
     check "what is said of $kind states is true, and something is said of black ones" \
         true_of $kind "$@"
 done
-if [ $# -gt 0 ]; then
-    check "the judge of lines and pipelines builds" "$CC" -std=c99 -D_DEFAULT_SOURCE -O2 -I. \
-        -Itests/unit -DSHADE__IMPLEMENTED -DEXPLAIN_DRAWS="$1" tests/unit/main.c tests/unit/scene.c \
-        tests/unit/explain_pipelines.c build/shade.o -lm -o "$T/pipelines"
-    check "what is said of lines and pipelines is true" "$T/pipelines" explain_pipelines
+# the runner's sections that explain, with five times the rounds of make test, or as many as states
+times=$((${1:-10000} / 2000))
+check "sections that explain build" "$CC" -std=c99 -w -O1 -I. -DSHADE__IMPLEMENTED -DTEST_TIMES=$((times + !times)) \
+    tests/unit/main.c tests/unit/scene.c tests/unit/explain*.c tests/unit/camera.c build/shade.o -lm -o "$T/sections"
+for section in explain explain_pipelines camera; do
+    check "the section $section, with many rounds" "$T/sections" $section
     cat "$T/log"
-    finish
-fi
+done
+[ $# -eq 0 ] || finish
 
 # Runs a program that draws a mesh; fails where a draw was explained.
 silent() {

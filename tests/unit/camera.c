@@ -231,7 +231,7 @@ TEST(camera, every_camera_that_draws_picks_what_it_draws)
     static picked_screen screen;
     for (int kind = 0; kind < DRAWS_KINDS; kind++) {
         long hits = 0, misses = 0;
-        for (int i = 0; i < test_rounds(kind == DRAWS_WITHOUT_DEPTH ? 60 : 12) * SPLITS;) {
+        for (int i = 0; i < test_rounds(kind == DRAWS_WITHOUT_DEPTH ? 24 : 4) * SPLITS;) {
             drawing_camera camera = random_drawing_camera(kind);
             const int split = i % SPLITS;
             int reversed = 0;
@@ -366,7 +366,7 @@ TEST(camera, what_is_explained_does_not_change_where_a_camera_is_split)
     int said_something = 0;
     memset(&s, 0, sizeof s);
     ray_ball(&s, d3_of(0, 0, 0), 1, 12, 8);
-    for (int i = 0; i < test_rounds(600); i++) {
+    for (int i = 0; i < test_rounds(120); i++) {
         const int mistake = i % 10, split = 1 + i / 10 % (SPLITS - 1);
         const float n = mistake == 1 ? 9 : 0.5f, f = mistake == 2 ? 1.5f : 40;
         shade_mat4 view = shade_mat4_look_at(shade_v3(rnd_float(-1, 1), rnd_float(-1, 1), 5),
@@ -400,7 +400,7 @@ TEST(camera, what_is_explained_does_not_change_where_a_camera_is_split)
                   mistake, split, said[0], said[1]);
         CHECK(!blamed || split != SPLIT_ALL_IN_PROJECTION);
     }
-    CHECK_SAY(said_something > test_rounds(200), "%d", said_something);
+    CHECK_SAY(said_something > test_rounds(40), "%d", said_something);
 }
 
 /* A shiny ball before a camera that is split: explained where the eye of view is another one, and
@@ -411,7 +411,7 @@ TEST(camera, highlights_of_another_eye_are_explained)
     static ray_scene s;
     memset(&s, 0, sizeof s);
     ray_ball(&s, d3_of(0, 0, 0), 1, 24, 16);
-    for (int i = 0; i < test_rounds(240); i++) {
+    for (int i = 0; i < test_rounds(48); i++) {
         const int infinite = i & 1, astray = i >> 1 & 1, shiny = i % 3 != 0;
         const shade_material gold = { { 0, 0, 0 }, { 0, 0, 0 }, { 0.5f, 0.4f, 0.1f },
                                       { 0.5f * (float)shiny, 0, 0 }, 8 };

@@ -150,7 +150,7 @@ static void stage_random_mesh(stage *s)
 /* Whole, in bands of rows, of columns and in strips; some of them do not touch the mesh. */
 TEST(explain, random_good_scenes_get_none)
 {
-    for (int k = 0; k < test_rounds(150); k++) {
+    for (int k = 0; k < test_rounds(30); k++) {
         stage *s = stage_open();
         shade_target good;
         const int y = rnd_int(0, STAGE_HEIGHT - 1), high = rnd_int(1, STAGE_HEIGHT - y);
@@ -720,7 +720,7 @@ TEST(explain, a_pass_over_stored_depth_hides_nothing)
 TEST(explain, no_sentence_about_a_random_draw_is_false)
 {
     static explained e;
-    for (int k = 0; k < test_rounds(6000); k++) {
+    for (int k = 0; k < test_rounds(1200); k++) {
         const char *said;
         if (k % 2) ex_ordinary(&e);
         else ex_random(&e);
@@ -733,7 +733,7 @@ TEST(explain, no_sentence_about_a_random_draw_is_false)
 TEST(explain, nothing_is_said_of_sensible_scenes)
 {
     static explained e;
-    for (int k = 0; k < test_rounds(2000); k++) {
+    for (int k = 0; k < test_rounds(400); k++) {
         const char *said;
         ex_sensible(&e);
         ex_explain(&e, k % 2, &said);

@@ -926,13 +926,10 @@ static void piped_spoil(piped *p)
     }
 }
 
-#ifndef EXPLAIN_DRAWS            /* of lines, and as many of triangles */
-#define EXPLAIN_DRAWS test_rounds(10000)
-#endif
 TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
 {
     long said_something = 0, nothing_seen = 0;
-    const int draws = 2 * EXPLAIN_DRAWS;
+    const int draws = 2 * test_rounds(2000); /* half of them of lines */
     for (int i = 0; i < draws; i++) {
         const int lines = i % 2;
         int exchanged = 0, by_rows = 0;

@@ -72,12 +72,15 @@ extern struct test_run {
 
 #define TEST_MAX_PRINTED 6 /* failures shown per case */
 
-/* Loops that only try other numbers run 1 / TEST_SHARE of their rounds: for sanitizers and
-   coverage, which take ten times as long. */
+/* Loops that only try other numbers run TEST_TIMES as many rounds in scripts that have the time, and
+   1 / TEST_SHARE of them under sanitizers and for coverage, which take ten times as long. */
+#ifndef TEST_TIMES
+#define TEST_TIMES 1
+#endif
 #ifndef TEST_SHARE
 #define TEST_SHARE 1
 #endif
-static inline int test_rounds(int n) { return (n + TEST_SHARE - 1) / TEST_SHARE; }
+static inline int test_rounds(int n) { return (n * TEST_TIMES + TEST_SHARE - 1) / TEST_SHARE; }
 
 #if defined(__GNUC__) || defined(__clang__)
 __attribute__((format(printf, 4, 5)))
