@@ -272,7 +272,7 @@ sized() {                       # object, lanes_varyings, compiler, flags and fi
     object=$1 sizes="-DSHADE_LANES=${2%_*} -DSHADE_MAX_VARYINGS=${2#*_}"; shift 2
     check "$object.o" "$@" $WARN $sizes -I. -c -o "$T/$object.o"
 }
-sized impl_16_8 16_8 $CC -std=c99 $fixed $quick "$T/impl.c"
+sized impl_16_8 16_8 $CC -std=c99 $fixed $quick -DSHADE_NO_EXPLAIN "$T/impl.c"
 linked() { $CC "$T/$1.o" "$T/$2.o" -lm $pie -o "$T/linked"; }
 draws() { linked "$@" && "$T/linked"; }
 not_linked() { ! linked "$@"; }
@@ -331,7 +331,7 @@ int main(void)
     return 0;
 }
 END
-sized impl_16_6 16_6 $CC -std=c99 $fixed $quick "$T/impl.c"
+sized impl_16_6 16_6 $CC -std=c99 $fixed $quick -DSHADE_NO_EXPLAIN "$T/impl.c"
 for n in 6 8; do
     check "meshes with $n varyings" $CC -std=c99 $WARN -DSHADE_LANES=16 -DSHADE_MAX_VARYINGS=$n -I. \
           "$T/few.c" "$T/impl_16_$n.o" -lm $pie -o "$T/few"
@@ -368,8 +368,7 @@ check "SHADE_LANES 24 is refused" refused "SHADE_LANES 24"
 check "SHADE_MAX_VARYINGS 65 is refused" refused "SHADE_MAX_VARYINGS 65"
 
 # without explanations the three functions have nothing to say, not even of NULL
-cat >"$T/silent.c" <<'END'
-#define SHADE_IMPLEMENTATION
+cat >"$T/speaks.c" <<'END'
 #include "shade.h"
 int main(void)
 {
@@ -377,9 +376,11 @@ int main(void)
            shade_explain_draw(0, 0, 0, 3, 3, 0)[0] != SPEAKS;
 }
 END
-says() { $CC -std=c99 $WARN $quick "$@" -I. "$T/silent.c" -lm -o "$T/silent" && "$T/silent"; }
-check "explanations speak" says "-DSPEAKS='t'"
-check "SHADE_NO_EXPLAIN: they return \"\"" says -DSPEAKS=0 -DSHADE_NO_EXPLAIN
+option '#define SHADE_NO_EXPLAIN'
+check "SHADE_NO_EXPLAIN compiles" $CC -std=c99 $WARN $fixed $quick -I. -c "$T/option.c" -o "$T/silent.o"
+says() { $CC -std=c99 $WARN "-DSPEAKS=$2" -I. "$T/speaks.c" "$T/$1.o" -lm $pie -o "$T/speaks" && "$T/speaks"; }
+check "explanations speak" says impl "'t'"
+check "SHADE_NO_EXPLAIN: they return \"\"" says silent 0
 
 # -ffast-math: gcc is told not to heed it; clang cannot be told, and is refused where it compiles
 # the implementation
@@ -425,9 +426,7 @@ if command -v nm >/dev/null 2>&1; then
     check "no mutable globals" no_mutable_globals "$T/impl.o"
     check "exports begin with shade_" exports_only_shade "$T/impl.o"
     check "no mutable globals, freestanding" no_mutable_globals "$T/bare.o"
-    option '#define SHADE_NO_EXPLAIN'
-    check "SHADE_NO_EXPLAIN compiles" $CC -std=c99 $WARN $fixed $quick -I. -c "$T/option.c" -o "$T/silent.o"
-    check "... and needs no more" only "$T/silent.o" $(undefined "$T/impl.o")
+    check "SHADE_NO_EXPLAIN needs no more" only "$T/silent.o" $(undefined "$T/impl.o")
     option '#define SHADE_STATIC'
     check "SHADE_STATIC compiles" $CC -std=c99 $WARN -O1 -I. -c "$T/option.c" -o "$T/static.o"
     printf '#define SHADE_STATIC\n#define SHADE_IMPLEMENTATION\n#include "shade.h"\n%s\n' \

@@ -57,8 +57,8 @@ awk '/#define SHADE_IMPLEMENTATION/ { seen = 1 }
 
 # the programs, in a folder with what the README says to copy
 in_folder() { (cd "$T/$1" && shift && "$@"); }
-# a compiler that leaves out what only makes drawing faster: the same bits, compiled in an eighth of the time
-printf '#!/bin/sh\nexec %s "$@" -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED -O0\n' "$CC" >"$T/cc" && chmod +x "$T/cc"
+# a compiler that leaves out builds for other processors: the same bits, compiled in a third of the time
+printf '#!/bin/sh\nexec %s "$@" -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED -O1\n' "$CC" >"$T/cc" && chmod +x "$T/cc"
 command=$(sed -n '1s/.* \(cc .*&& [^ ]*\) .*/\1/p' "$T/alone/knot.c" | sed "s|^cc |$T/cc |")
 check "the program has its command" test -n "$command"
 check "the program, by its command" in_folder alone sh -c "$command"
@@ -99,7 +99,7 @@ done
 for part in more sdl stb; do    # a README without such a snippet fails
     check "a snippet for $part" test -s "$T/$part.h"
 done
-check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I"$T/alone" -I"$T" -I. -Itests/unit \
+check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O0 -I"$T/alone" -I"$T" -I. -Itests/unit \
       -DSHADE__IMPLEMENTED tests/scripts/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
 if [ -x "$T/readme_run" ]; then
     (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run alone/knot.ppm head/triangle.ppm) >"$T/run" 2>&1
