@@ -62,6 +62,13 @@ qemu-mips64el mips64el-linux-gnuabi64-gcc -O2
 qemu-mips mipsisa32r6-linux-gnu-gcc -O2
 END
 }
+# The builds of shade.h's loops that this processor can run, and flags by which $LEVEL chooses one of them
+levels() {
+    echo 0
+    [ ! -r /proc/cpuinfo ] || awk '/^flags/ { if (/ sse4_1 /) print 1; if (/ avx2 /) print 2
+        if (/ avx512vl / && / avx512bw / && / avx512dq /) print 3; exit }' /proc/cpuinfo
+}
+level_chosen='-include stdlib.h -DSHADE__LEVEL=atoi(getenv("LEVEL"))'
 # The inline functions of shade.h's public part, one a line
 inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 # Lessons draw with one sample a pixel where $one_sample is included before them, but for those that

@@ -22,11 +22,10 @@ check "the sections build" sections
 check "the runner builds" $cc $built -w -static tests/unit/main.c "$T"/units/*.o -lm -o "$T/runner.exe"
 check "the runner" "$wine" "$T/runner.exe"
 # On any processor each build of the loops for vectors runs, by the section that calls them most.
-for level in $(awk '/^flags/ { print 0; if (/ sse4_1 /) print 1; if (/ avx2 /) print 2; if (/ avx512vl / && / avx512bw /) print 3; exit }' \
-               /proc/cpuinfo); do
-    check "the runner of build $level builds" $cc $built -w -static -DSHADE__LEVEL=$level tests/unit/main.c \
-        "$T"/units/*.o -lm -o "$T/level.exe"
-    check "the runner of build $level" "$wine" "$T/level.exe" lanes
+check "the runner of all builds builds" $cc $built -w -static $level_chosen tests/unit/main.c \
+    "$T"/units/*.o -lm -o "$T/level.exe"
+for level in $(levels); do
+    check "the runner of build $level" env LEVEL=$level "$wine" "$T/level.exe" lanes
 done
 check "the scenes build" $cc $built -w -static -DSCENE_MAIN tests/unit/scene.c -lm -o "$T/scenes.exe"
 # G12
