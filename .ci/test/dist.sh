@@ -13,6 +13,7 @@ while read -r file version; do
     check "the version of $file" same "$version" "$V"
 done <"$T/versions"
 check "the version of CHANGELOG.md" grep -q "^## ${V%.*}, " CHANGELOG.md
+check "the version of Debian's changelog" sh -c "head -n 1 examples/embed/packages/debian/changelog | grep -qF '($V-1)'"
 check "the version of >>history" grep -q "^   ${V%.*} of " shade.h
 
 # ---- the size of shade.h's parts

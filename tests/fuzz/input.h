@@ -85,7 +85,7 @@ static inline void fuzz_raster(fuzz_input *in, shade_raster *r, int *bad)
 {
     r->cull = (shade_cull)fuzz_enum(in, 3, bad);
     r->depth_test = (shade_compare)fuzz_enum(in, 6, bad);
-    r->blend = (shade_blend)fuzz_enum(in, 3, bad);
+    r->blend = (shade_blend)fuzz_enum(in, SHADE_BLEND_ADD + 1, bad);
 }
 
 static inline float fuzz_float_of(uint32_t bits)

@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     s.state.cap = (shade_cap)fuzz_enum(&in, 2, &bad);
     s.state.color = fuzz_vec4(&in, 0);
     s.state.raster.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
-    s.state.raster.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
+    s.state.raster.blend = (shade_blend)fuzz_enum(&in, SHADE_BLEND_ADD + 1, &bad);
     if (kind & 8) s.state.raster.depth_bias = fuzz_float(&in);
     s.state.raster.depth_read_only = kind >> 4 & 1;
     s.state.raster.depth_zero_to_one = kind >> 5 & 1;

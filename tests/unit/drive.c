@@ -354,7 +354,7 @@ static void random_pipeline(random_draw *r, int nasty)
     r->p.raster.depth_read_only = rnd_one_in(5);
     r->p.raster.depth_zero_to_one = rnd_int(0, 1);
     r->p.raster.depth_bias = rnd_one_in(3) ? rnd_float(-0.1, 0.1) : 0;
-    r->p.raster.blend = (shade_blend)rnd_int(0, 2);
+    r->p.raster.blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD);
 }
 
 static void random_canvas_flags(shade_target *t)

@@ -762,7 +762,7 @@ static void random_alpha_scene(alpha_scene *s)
     s->state.material = &s->material;
     s->state.lighting.ambient = random_color(1);
     s->state.shading = (shade_shading)rnd_int(0, 2);
-    s->state.raster.blend = (shade_blend)rnd_int(0, 2);
+    s->state.raster.blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD);
     s->state.transparency = rnd_one_in(3) ? 0 : random_alpha();
     s->state.alpha_cutoff = rnd_one_in(3) ? 0 : random_alpha();
     int maps = s->mesh.texcoords && s->state.diffuse_map;

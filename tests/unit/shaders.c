@@ -219,7 +219,7 @@ static void own_random_colors(own_colors *u, shade_draw_state *s)
     s->uniforms = u;
     s->transparency = rnd_one_in(3) ? 0 : rnd_float(0, 1);
     s->alpha_cutoff = rnd_one_in(2) ? 0 : rnd_float(0, 1);
-    s->raster.blend = (shade_blend)rnd_int(0, 2);
+    s->raster.blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD);
 }
 
 /* The shader takes its colour, alpha and discard from an array, so that each pixel is known. */
@@ -354,7 +354,7 @@ TEST(shaders, one_that_lights_as_the_library_does_draws_its_bits)
         void *memory = add_mipmaps(&map, levels);
         m.mesh.texcoords = rnd_one_in(3) ? NULL : uv[0];
         m.state.diffuse_map = rnd_one_in(3) ? NULL : &map;
-        m.state.raster.blend = (shade_blend)rnd_int(0, 2);
+        m.state.raster.blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD);
         m.state.transparency = rnd_float(0, 1);
         m.state.alpha_cutoff = rnd_one_in(2) ? 0 : rnd_float(0, 0.5);
         own_light u = { &m.state, &m.mesh, { 0, 0, 0 } };

@@ -1440,7 +1440,7 @@ TEST(texture, without_lamps_a_mesh_has_the_bits_of_one_under_a_black_lamp)
         m.mesh.texcoords = rnd_one_in(4) ? NULL : uv[0];
         m.state.diffuse_map = rnd_one_in(4) ? NULL : &map;
         m.state.alpha_cutoff = rnd_one_in(2) ? 0 : rnd_float(0, 0.5);
-        m.state.raster.blend = (shade_blend)rnd_int(0, 2);
+        m.state.raster.blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD);
         /* cool to warm reads L of a black lamp too */
         if (m.state.lighting.model == SHADE_MODEL_COOL_TO_WARM)
             m.state.lighting.model = SHADE_MODEL_PHONG;
