@@ -8,9 +8,11 @@ The package must be importable (pip install examples/packages/python).  VTK and 
 window: without a DISPLAY, Xvfb gives them one.  Pictures are of one sample a pixel.  A row stands
 only where its pictures cover the pixels that those of the first row cover.
 """
+import contextlib
 import json
 import os
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -400,21 +402,23 @@ def run(library, name, cores, rounds, folder, environment):
     return json.loads(lines[-1])
 
 
+@contextlib.contextmanager
 def display():
-    """A DISPLAY for those that draw into windows, and the process that gives it."""
-    if os.environ.get("DISPLAY"):
-        return dict(os.environ), None
+    """An environment with a DISPLAY for those that draw into windows, where there is one or Xvfb."""
+    if os.environ.get("DISPLAY") or not shutil.which("Xvfb"):
+        yield dict(os.environ)
+        return
     read, write = os.pipe()
-    try:
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0",
-                                   "2000x1200x24", "-nolisten", "tcp"], pass_fds=[write],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    except FileNotFoundError:
-        return dict(os.environ), None
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0",
+                               "2000x1200x24", "-nolisten", "tcp"], pass_fds=[write],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(write)
-    with os.fdopen(read) as told:
-        number = told.readline().strip()
-    return dict(os.environ, DISPLAY=f":{number}"), server
+    try:
+        with os.fdopen(read) as told:
+            yield dict(os.environ, DISPLAY=f":{told.readline().strip()}")
+    finally:
+        server.terminate()
+        server.wait()
 
 
 def cell(figures, key, form):
@@ -454,19 +458,13 @@ def main():
         library, name, cores, rounds, mask = sys.argv[2:]
         return measure(library, name, int(cores), int(rounds), mask)
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 32
-    environment, server = display()
     print("| | first, ms | robot, ms | a second, 1 core | 2 cores | part, ms | million, ms | MB |\n"
           "|---|---|---|---|---|---|---|---|", flush=True)
-    try:
-        with tempfile.TemporaryDirectory() as folder:
-            for library in LIBRARIES:
-                line = row(library, rounds, Path(folder), environment)
-                if line:
-                    print(line, flush=True)
-    finally:
-        if server:
-            server.terminate()
-            server.wait()
+    with display() as environment, tempfile.TemporaryDirectory() as folder:
+        for library in LIBRARIES:
+            line = row(library, rounds, Path(folder), environment)
+            if line:
+                print(line, flush=True)
     return 0
 
 

@@ -150,11 +150,10 @@ def main():
         library, size, core, seconds = sys.argv[2:]
         return worker(library, int(size), int(core), float(seconds))
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 2.0
-    environment, server = display()
-    environment.update(LP_NUM_THREADS="0", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     print("| pictures a second, 1 and 2 processes | " + " | ".join(f"{n} x {n}" for n in SIZES) +
           " |\n|" + "---|" * (len(SIZES) + 1), flush=True)
-    try:
+    with display() as environment:
+        environment.update(LP_NUM_THREADS="0", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
         for library in ADAPTERS:
             cells = []
             for size in SIZES:
@@ -164,10 +163,6 @@ def main():
                 cells.append(", ".join(f"{x:,.0f}" for x in both))
             if cells:
                 print("| " + " | ".join([library, *cells]) + " |", flush=True)
-    finally:
-        if server:
-            server.terminate()
-            server.wait()
     return 0
 
 
