@@ -157,7 +157,7 @@ real_file() {                   # the name of a golden by the name of a file
     echo "$name" | tr /A-Z -a-z
 }
 
-compile -DSHADE__IMPLEMENTED $STB examples/programs/compare/compare.c "$T/shade.o" -lm -o "$T/compare"
+compile -DSHADE__IMPLEMENTED $STB examples/programs/compare/compare.c build/shade.o -lm -o "$T/compare"
 if [ -d "$MODELS" ]; then
     for k in OBJ/spider.obj Collada/duck.dae FBX/huesitos.fbx MD2/sydney.md2 MS3D/jeep1.ms3d \
         PLY/Wuson.ply STL/Spider_binary.stl 3DS/fels.3ds AC/Wuson.ac FBX/phong_cube.fbx \
