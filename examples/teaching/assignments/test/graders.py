@@ -191,7 +191,7 @@ def refused():
             text = re.sub(r"\\(.)", lambda m: {"n": "\n"}.get(m.group(1), m.group(1)), code)
             head = '#include "shade.h"\n' if language == "c" else ""
             path = handed_in(f"cheat.{language}", head + text.replace("LAMBERT", LAMBERT) + "\n")
-            score, said = judged(TASKS["01_lambert"], path, seconds=2)
+            score, said = judged(TASKS["01_lambert"], path, seconds=1)
             good = score == 0 and says.replace("\\n", "\n") in said
             check(f"{language} that {name} gets a sentence", good, (score, said))
 
@@ -277,8 +277,8 @@ def loops():
                            ("py", "def lambert(N, L):\n    while True:\n        pass\n")):
         path = handed_in(f"loop.{language}", code)
         with tempfile.NamedTemporaryFile() as picture:
-            run = subprocess.run([sys.executable, ASSIGNMENTS / "grade.py", "01", path, "--picture",
-                                  picture.name], stdout=subprocess.PIPE, check=False)
+            run = subprocess.run([sys.executable, ASSIGNMENTS / "grade.py", "01", path, "--seconds", "1",
+                                  "--picture", picture.name], stdout=subprocess.PIPE, check=False)
         said = " ".join(run.stdout.decode().split())
         good = said.count("look for a loop that does not end") == 1
         check(f"loops: {language} costs the time of one case, and the others say so", good and

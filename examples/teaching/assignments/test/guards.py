@@ -73,24 +73,24 @@ AS_ROOT = {
 # Those that close what they read from end early; they need not answer.
 ENDS = "opens a file in place of one that it closed",
 ONCE = 'static int told; if (!told++) puts((%s) ? "it came off" : "it did not");'
+TWICE = ('static int told; if (!told++) { puts((%s) ? "it came off" : "it did not"); '
+         'puts(early ? "before main it came off" : "before main not"); }')
 EARLY = ('static int early; __attribute__((constructor)) static void before(void) { early = (%s); }\n')
 
 
 def tried_in_c():
     """In the function, and before main."""
     for name, what in {**TRIED, **(AS_ROOT if ROOT else {})}.items():
-        score, says, notes = judged("c", HEADERS + '#include "vectors.h"\n' + ANSWER % (ONCE % what))
+        early = "0" if name in ENDS else what
+        score, says, notes = judged("c", HEADERS + '#include "vectors.h"\n' + EARLY % early +
+                                    ANSWER % (TWICE % what))
         told = notes + says
         full = score == 10 or name in ENDS
         check(f"a program that {name} gets its points", full, (score, says))
         check(f"a program that {name} is told", name in ENDS or "it did not" in told, told)
         check(f"a program that {name} does not", "it came off" not in told, told)
-        if name in ENDS:
-            continue
-        score, says, notes = judged("c", HEADERS + '#include "vectors.h"\n' + EARLY % what +
-                                    ANSWER % (ONCE % "early"))
-        check(f"one that {name} before main does not", score == 10 and "it did not" in notes,
-              (score, says, notes))
+        if name not in ENDS:
+            check(f"one that {name} before main does not", "before main not" in notes, notes)
 
 
 IN_PYTHON = {
@@ -110,12 +110,12 @@ def tried_in_python():
     """In the function, and as the file is read."""
     body = "    return max(0, sum(n * l for n, l in zip(N, L)))\n"
     for name, what in IN_PYTHON.items():
-        attempt = f"    try:\n        {what}\n        print('it came off')\n" \
-                  "    except BaseException as e:\n        print('it did not', type(e).__name__)\n"
-        for when, text in (("", f"import os\ndef lambert(N, L):\n{attempt}{body}"), (
-                " at once", f"import os\nif True:\n{attempt}\ndef lambert(N, L):\n{body}")):
-            score, says, notes = judged("py", text)
-            good = score == 10 and "it did not" in notes and "it came off" not in notes
+        now, early = (f"    try:\n        {what}\n        print('it came off')\n"
+                      f"    except BaseException as e:\n        print('{when}', type(e).__name__)\n"
+                      for when in ("it did not", "at once not"))
+        score, says, notes = judged("py", f"import os\nif True:\n{early}\ndef lambert(N, L):\n{now}{body}")
+        for when, told in (("", "it did not"), (" at once", "at once not")):
+            good = score == 10 and told in notes and "it came off" not in notes
             check(f"Python that {name}{when} does not, and gets its points", good,
                   (score, says, notes))
 
