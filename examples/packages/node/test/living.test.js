@@ -223,7 +223,7 @@ test("meshes that nobody frees stay within 500 MB, and are drawn as they were wh
     const want = Array.from({ length: 12 }, (_, i) => { const mesh = new Mesh(source(i)); first.push(mesh); return render(mesh, small).data; });
     const both = render(first.slice(0, 5), small).data, before = process.memoryUsage().rss;
     let most = 0;
-    for (let i = 0; i < 600; i++) {    // of some 5 MB each, in one turn of the event loop
+    for (let i = 0; i < 250; i++) {    // of some 5 MB each, in one turn of the event loop
         const mesh = new Mesh(source(i));
         if (i % 100 === 0) render(mesh, small);
         most = Math.max(most, process.memoryUsage().rss - before);

@@ -3,6 +3,7 @@
 # the bytes of the package for Python, PNG files read by Pillow, hostile arguments, and a browser.
 cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
+. examples/embed/test/quick.sh
 there node && there npm || { left_out "everything: no node with npm"; finish; }
 
 mkdir -p "$T/tree" "$T/use"
@@ -12,7 +13,9 @@ cp -R examples/elsewhere examples/shared examples/kit "$T/tree/examples"
 cp -R examples/packages/python examples/packages/node "$T/tree/examples/packages"
 N=$T/tree/examples/packages/node
 rm -f "$N/module.js"
-sh "$N/build.sh" >"$T/built" 2>&1 || { fail "the module is compiled" "$T/built"; finish; }
+# npm pack compiles the module
+(cd "$T" && npm pack --silent --offline ./tree/examples/packages/node) >"$T/built" 2>&1 ||
+    { fail "npm pack" "$T/built"; finish; }
 [ -f "$N/module.js" ] || { left_out "everything: no clang for wasm32 with wasi-libc"; finish; }
 
 cp -R bench "$T/tree"
@@ -20,7 +23,7 @@ check "the scene of bench/robots.mjs is drawn" sh -c "
     node '$T/tree/bench/robots.mjs' 0.05 | grep -q '256 x 256: [1-9]'"
 
 # as a user has it: a package of its own, installed without the tree
-check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/packages/node"
+check "npm pack" test -f "$T"/shade-h-*.tgz
 check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
 P=$T/use/node_modules/shade-h
 check "no file but what runs" same "$(LC_ALL=C ls "$P" | tr '\n' ' ')" \
@@ -108,7 +111,7 @@ check "looks of other programs" sh -c "cd '$T/use' && node --test test/elsewhere
 find_python "numpy, setuptools, wheel, PIL"
 if [ "$python" ]; then
     check "the package for Python" sh -c "cd '$T/tree/examples/packages/python' &&
-        $python setup.py -q build_ext --build-lib '$T/python' && cp shade_h/*.py '$T/python/shade_h'"
+        CC='$T/bin/cc' $python setup.py -q build_ext --build-lib '$T/python' && cp shade_h/*.py '$T/python/shade_h'"
     mkdir "$T/oracle"
     check "the scenes in Python" env PYTHONPATH="$T/python" PYTHONDONTWRITEBYTECODE=1 \
         $python "$N/test/oracle.py" "$T/oracle"

@@ -50,23 +50,21 @@ const mistakes = ['render({})', 'render({ positions: "0" })', 'render({ position
                   'new Mesh()', 'render({ positions: [] }).data = null',
                   'new Renderer(8, 8).add("sphere", 1) === 0'];
 
-function compile(name, text) {
-    writeFileSync(join(folder, name), text);
-    const flags = ["--strict", "--noEmit", "--module", "node16", "--moduleResolution", "node16", "--target",
-                   "es2022", "--lib", "es2022,dom", "--skipLibCheck"];
-    execFileSync(process.execPath, [join(modules, "typescript/bin/tsc"), ...flags, name],
+// one program in one run: the compiler tells the mistakes of all lines
+const wrong = ['import { Mesh, Renderer, render } from "shade-h";', ...mistakes.map((line) => `${line};`),
+               "void [Mesh, Renderer];"].join("\n");
+const files = { "right.mts": right, "right.cts": right, "wrong.mts": wrong };
+for (const [name, text] of Object.entries(files)) writeFileSync(join(folder, name), text);
+const flags = ["--strict", "--noEmit", "--module", "node16", "--moduleResolution", "node16", "--target",
+               "es2022", "--lib", "es2022,dom", "--skipLibCheck"];
+let said = "";
+try {
+    execFileSync(process.execPath, [join(modules, "typescript/bin/tsc"), ...flags, ...Object.keys(files)],
                  { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
-}
-for (const name of ["right.mts", "right.cts"]) {
-    try { compile(name, right); }
-    catch (error) { console.log(`${error.stdout}`); process.exit(1); }
-}
-for (const [i, line] of mistakes.entries()) {
-    try { compile(`wrong${i}.mts`, `import { Mesh, Renderer, render } from "shade-h";\n${line};\nvoid [Mesh, Renderer];\n`); }
-    catch (error) {
-        if (/wrong\d\.mts\(2,/.test(`${error.stdout}`)) continue;
-        console.log(`${error.stdout}`);
-    }
-    console.log(`no error: ${line}`);
+} catch (error) { said = `${error.stdout}`; }
+const told = said.split("\n").filter((line) => /^\S/.test(line)).map((line) => /^wrong\.mts\((\d+),/.exec(line)?.[1] - 2);
+const missing = mistakes.filter((_, i) => !told.includes(i));
+if (missing.length || !told.every((i) => i >= 0 && i < mistakes.length)) {
+    console.log(said, "no error:", missing);
     process.exit(1);
 }
