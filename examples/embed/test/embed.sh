@@ -4,19 +4,13 @@
 # and print.  What is not installed is named and left out.
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
-TOP=$PWD CC=${CC:-cc}
+. examples/embed/test/quick.sh
+TOP=$PWD
 
-# A copy of what the projects need, and compilers that leave out what only makes drawing faster:
-# the same bits, compiled in an eighth of the time
-mkdir -p "$T/tree" "$T/bin"
+# A copy of what the projects need
+mkdir -p "$T/tree"
 cp -R Makefile shade.h examples "$T/tree"
 E=$T/tree/examples/embed B=$T/tree/build/embed
-compiler() {
-    printf '#!/bin/sh\nexec %s -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED "$@" -O0\n' \
-        "$2" >"$T/bin/$1"
-    chmod +x "$T/bin/$1"
-}
-compiler cc "$(command -v "$CC")"
 cxx=${CXX:-$(command -v c++ || command -v g++ || command -v clang++)}
 [ -n "$cxx" ] && compiler c++ "$(command -v "$cxx")"
 find_python "numpy, PIL"
