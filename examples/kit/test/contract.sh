@@ -5,8 +5,11 @@
 # Node.js, as far as these can be built here.
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
-CC=${CC:-cc}
-FLAGS="-std=c99 -O1 -I. -ffp-contract=off"
+. examples/embed/test/quick.sh
+compiler clang "$(command -v "${CLANG:-clang}")"
+CC=$T/bin/cc CLANG=$T/bin/clang
+export CC CLANG
+FLAGS="-std=c99 -I. -ffp-contract=off"
 find_python "numpy, setuptools, wheel"
 [ "$python" ] || { left_out "the contract: no Python with NumPy, setuptools and wheel"; finish; }
 find_libraries
