@@ -3,6 +3,7 @@
 # an empty environment of its own; its tests by pytest; mypy --strict; the notebook.
 cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
+. examples/embed/test/quick.sh
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONDONTWRITEBYTECODE
 
@@ -52,14 +53,15 @@ cp "$OLDPWD"/examples/kit/test/*.json "$T/run/examples/kit/test"
 ln -s "$OLDPWD/tests/scripts" "$T/run/tests/scripts"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/test" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/packages/python"
-check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/test"
+check "pytest" env CC="$T/bin/cc" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/test"
 
 # objects that come and go, by a library that stops where memory or behaviour is undefined
 address=$(gcc -print-file-name=libasan.so 2>/dev/null) undefined=$(gcc -print-file-name=libubsan.so 2>/dev/null)
 if [ -f "$address" ] && [ -f "$undefined" ]; then
     mkdir "$T/checked"
     cp -R "$P/shade_h" "$T/checked"
-    check "the library with sanitizers" gcc -O1 -w -std=gnu99 -D_DEFAULT_SOURCE -ffp-contract=off \
+    compiler gcc "$(command -v gcc)"
+    check "the library with sanitizers" "$T/bin/gcc" -w -std=gnu99 -D_DEFAULT_SOURCE -ffp-contract=off \
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -I"$T/tree" -I"$P" -shared -fPIC \
         -o "$T/checked/shade_h/libshade.so" "$P/library.c" -lm -pthread
     check "no undefined behaviour in a Renderer" env ASAN_OPTIONS=detect_leaks=0 \

@@ -276,7 +276,8 @@ def test_a_thousand_scenes_leave_the_process_as_large_as_it_was():
     made, rng = shade.Renderer(64, 64), np.random.default_rng(1)
 
     def scene():
-        shapes = [made.mesh(rng.random((3000, 3)), rng.integers(0, 3000, (2000, 3)), normals="smooth")
+        # small in the picture, which takes most of the time otherwise
+        shapes = [made.mesh(rng.random((3000, 3)) / 10, rng.integers(0, 3000, (2000, 3)), normals="smooth")
                   for _ in range(2)]
         maps = [made.texture(rng.integers(0, 256, (128, 128, 3), np.uint8)) for _ in range(2)]
         numbers = [made.add(shapes[i % 2], texture=maps[i % 2], pose=turned(rng)) for i in range(6)]
