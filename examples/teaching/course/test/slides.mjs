@@ -46,8 +46,11 @@ check('four courses and a first screen', pages.length === 5 && decks.length === 
 // ---- pages: pictures, and nothing beyond the screen ----------------------------------------------
 
 for (const name of pages) {
-    for (const [width, height, colorScheme] of [[1366, 768, 'light'], [390, 844, 'dark'], [320, 600, 'light']]) {
-        const page = await open(name, { viewport: { width, height }, colorScheme });
+    const page = await open(name, { viewport: { width: 390, height: 844 } });
+    // the widest last: there a figure comes
+    for (const [width, height, colorScheme] of [[390, 844, 'dark'], [320, 600, 'light'], [1366, 768, 'light']]) {
+        await page.setViewportSize({ width, height });
+        await page.emulateMedia({ media: 'screen', colorScheme });
         const what = `${name}, ${width} x ${height}`;
         const lost = await page.evaluate(async () => {
             const images = [...document.images];
@@ -79,8 +82,8 @@ for (const name of pages) {
         await page.emulateMedia({ media: 'print' });
         check('answers are printed: ' + what, await page.evaluate(() => [...document.querySelectorAll('details:not(.contents) p')]
             .every(p => p.getBoundingClientRect().height > 0 && p.checkVisibility({ contentVisibilityAuto: true }))));
-        await page.context().close();
     }
+    await page.context().close();
 }
 {
     const page = await open('courses.html');
@@ -95,7 +98,7 @@ for (const name of pages) {
 // Of each slide the addresses of its words, in their order
 const moving = [];
 for (const name of decks) {
-    const page = await openDeck(name);
+    const page = await openDeck(name, {}, '', false);
     moving.push(...await page.evaluate(name => Reveal.getSlides().map((slide, i) => ({
         slide: `${name} ${i + 1}`,
         words: [...slide.querySelectorAll('a.play')].map(a => ({ word: a.textContent,
