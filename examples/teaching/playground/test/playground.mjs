@@ -110,7 +110,7 @@ async function compiles(page, what, files = []) {
     try {
         execFileSync(cc, ['-std=c99', '-O2', '-Wall', '-Wextra', '-Werror', '-I.',
             '-DSHADE__IMPLEMENTED', '-Wno-missing-field-initializers', T + '/picture.c',
-            native + '-shade.o', '-lm', '-o', T + '/picture'], { stdio: 'pipe' });
+            'build/shade.o', '-lm', '-o', T + '/picture'], { stdio: 'pipe' });
         execFileSync('./picture', { cwd: T });
     } catch (error) {
         check('the program compiles and runs: ' + what, false, String(error.stderr || error));
@@ -280,7 +280,10 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
     const page = await open('turn=0', { viewport: { width: 1366, height: 650 } });
     const labels = page.locator('aside .row input, ' +
         ':is(main, aside) label:has(input:not(:disabled):not([type=file]))');
-    for (let i = 0; i < await labels.count(); i++) await labels.nth(i).click();
+    for (let i = 0; i < await labels.count(); i++) {
+        await labels.nth(i).click();
+        await page.evaluate(() => { S.turn = 0; });    // which is drawn for ever
+    }
     const covering = () => page.evaluate(() => {
         const help = $('#help').getBoundingClientRect();
         return [...document.querySelectorAll('.map, #lobe, #curve, canvas, #speed')].filter(node => {

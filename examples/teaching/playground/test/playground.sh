@@ -26,8 +26,7 @@ fi
 
 # the page's C and its readers, compiled here
 FLAGS="-std=c11 -O2 -Wall -Wextra -Wno-unused-function -ffp-contract=off -I."
-$CC $FLAGS examples/teaching/playground/native.c -lm -o $B/native &&
-$CC -std=c99 -O2 -I. -DSHADE_IMPLEMENTATION -x c -c shade.h -o $B/native-shade.o ||
+${MAKE:-make} -s build/shade.o && $CC $FLAGS examples/teaching/playground/native.c -lm -o $B/native ||
     { echo "0 passed, 1 failed"; exit 1; }
 cp examples/teaching/playground/test/playground.mjs examples/teaching/course/test/slides.mjs $DRIVER/
 failed=0
