@@ -81,7 +81,7 @@ f 1 4 5
 END
 c99 thumbnail examples/programs/thumbnail/thumbnail.c
 run thumbnail roof.obj roof.ppm --size 200x160
-run thumbnail roof.obj flat.ppm --shading face --no-shadow --material gold
+run thumbnail roof.obj flat.ppm --size 200x160 --shading face --no-shadow --material gold
 if [ -n "$POSIX" ]; then
     c99 batch examples/programs/batch/batch.c
     run batch --frames 4 --size 160x120 --out frames

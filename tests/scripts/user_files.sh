@@ -6,7 +6,7 @@
 #   The programs of $own have sums of their own, which compilers may fuse.  The script holds that
 # each draws other bits somewhere, and the same ones with -ffp-contract=off.  Lessons are drawn with
 # one sample a pixel: all of them by gcc, as C99 and fused; a third of them elsewhere, so that each
-# lesson is drawn by some clang, and on some emulated processor, or with LONG=1 all.  A word tries only machines that have
+# lesson is drawn by some clang, and fewer under slow emulators, or with LONG=1 all.  A word tries only machines that have
 # it in their command.  What is not installed is named and left out.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
@@ -103,9 +103,9 @@ draw_one() {
     esac
 }
 # fuses or not, runner (or ""), compiler for C++ (or none), compiler and flags: all programs
-machine() { third=; on_machine "$@"; }
-# which third, and the same: README's, the head's and those of embed, and a third of the lessons
-some_on() { third=${LONG:+all}; third=${third:-$1}; shift; on_machine "$@"; }
+machine() { of=1; on_machine "$@"; }
+# which of how many parts, and the same: README's, the head's and those of embed, and that part of the lessons
+some_on() { part=${1%/*} of=${1#*/}; [ -z "$LONG" ] || of=1; shift; on_machine "$@"; }
 on_machine() {
     fuses=$1 runner=$2 cxx=$3; shift 3
     case "$*" in *"$word"*) ;; *) return ;; esac
@@ -115,9 +115,8 @@ on_machine() {
     mkdir "$D"
     [ -n "$runner" ] && implementation "$@" && object=$T/shade_$1.o
     cp "$object" "$D/shade.o"
-    case $third in
-    [012]) some=$(printf '%s\n' $some | awk -v third="$third" 'NR <= 4 || NR % 3 == third') ;;
-    esac
+    [ "$of" -eq 1 ] ||
+        some=$(printf '%s\n' $some | awk -v part="$part" -v of="$of" 'NR <= 4 || NR % of == part')
     for name in $by_rays; do    # the list has words in lines
         [ -n "$runner" ] && some=$(printf '%s\n' $some | grep -vx "$name")
     done
@@ -141,15 +140,15 @@ on_machine() {
 # G12
 : >"$T/differed"
 machine 1 "" g++ gcc -O2 -march=haswell
-some_on 0 0 "" g++ gcc -O2
-some_on 1 0 "" "" gcc -O3
-some_on 2 1 "" "" gcc -O2 -march=native
-some_on 0 0 "" clang++ clang -O2
-some_on 1 0 "" clang++-19 clang-19 -O2
-some_on 2 0 "" "" clang-19 -O3
-some_on 0 1 qemu-aarch64 "" aarch64-linux-gnu-gcc -static -O2
-some_on 1 1 qemu-riscv64 "" riscv64-linux-gnu-gcc -static -O2
-some_on 2 1 qemu-s390x "" s390x-linux-gnu-gcc -static -O2
+some_on 0/3 0 "" g++ gcc -O2
+some_on 1/3 0 "" "" gcc -O3
+some_on 2/3 1 "" "" gcc -O2 -march=native
+some_on 0/3 0 "" clang++ clang -O2
+some_on 1/3 0 "" clang++-19 clang-19 -O2
+some_on 2/3 0 "" "" clang-19 -O3
+some_on 0/3 1 qemu-aarch64 "" aarch64-linux-gnu-gcc -static -O2
+some_on 1/6 1 qemu-riscv64 "" riscv64-linux-gnu-gcc -static -O2
+some_on 4/6 1 qemu-s390x "" s390x-linux-gnu-gcc -static -O2
 inline 1 qemu-arm arm-linux-gnueabihf-gcc -static -O2 -mfpu=neon-vfpv4
 inline 1 qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O2
 inline 1 qemu-ppc64le powerpc64le-linux-gnu-gcc -static -O3
