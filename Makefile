@@ -72,7 +72,8 @@ out/knot.ppm: build/knot.c build/shade.o
 # -O1 compiles the tests' own code in a third of the time, -O0 in a ninth where little of it runs
 UNITS = $(patsubst tests/%.c,build/%.o,$(wildcard tests/unit/*.c))
 LEVEL = -O1
-$(patsubst %,build/unit/%.o,camera explain matrix modes reads recipes resolve shaders store): LEVEL = -O0
+QUICK = camera explain matrix modes reads recipes resolve shaders store
+$(QUICK:%=build/unit/%.o): LEVEL = -O0
 build/unit/%.o: tests/unit/%.c $(wildcard tests/*/*.h) shade.h
 	@mkdir -p build/unit
 	$(CC) $(FLAGS:-O2=$(LEVEL)) -DSHADE__IMPLEMENTED -c $< -o $@

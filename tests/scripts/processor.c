@@ -1,6 +1,6 @@
 /* processor.c - the build of each loop that a program takes is the one that its processor runs:
-   prints its level, 0 to 3.  Compile it with -finstrument-functions, of shade__push_* at least; with -DHAS_CPU_MODEL the
-   compiler's library is asked as well. */
+   prints its level, 0 to 3.  Compile it with -finstrument-functions, of shade__push_* at least;
+   with -DHAS_CPU_MODEL the compiler's library is asked as well. */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 

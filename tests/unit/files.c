@@ -487,11 +487,12 @@ static void check_png(int width, int height, int offset, int rows, shade_format 
     canvas_close(&c);
 }
 
-/* All squares up to 100, some up to 300; all formats and contents up to 40, of any shape, and as strips */
+/* All squares up to 100, some up to 300; all formats and contents up to 40, of any shape, and as
+   strips */
 /* G20 */
 TEST(files, a_png_holds_the_pixels_of_the_ppm)
 {
-    for (int n = 1; n <= FILES_SIDE; n += n < 100 ? 1 : 5)
+    for (int n = 1; n <= FILES_SIDE; n += n < 100 ? 1 : 7)
         check_png(n, n, 0, n, (shade_format)(n % CANVAS_FORMATS), n / CANVAS_FORMATS % FILES_KINDS);
     for (int i = 0; i < 40 * CANVAS_FORMATS * FILES_KINDS; i++) {
         int width = rnd_int(1, 40), height = rnd_int(1, 40);

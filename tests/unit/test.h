@@ -72,8 +72,8 @@ extern struct test_run {
 
 #define TEST_MAX_PRINTED 6 /* failures shown per case */
 
-/* Loops that only try other numbers run TEST_TIMES as many rounds in scripts that have the time, and
-   1 / TEST_SHARE of them under sanitizers and for coverage, which take ten times as long. */
+/* Loops that only try other numbers run TEST_TIMES as many rounds in scripts that have the time,
+   and 1 / TEST_SHARE of them under sanitizers and for coverage, which take ten times as long. */
 #ifndef TEST_TIMES
 #define TEST_TIMES 1
 #endif
