@@ -123,6 +123,9 @@ check "the machines it has been run on are those of matrix.sh" same \
     "$({ sed -n 's/^ *one "\([a-z][a-z0-9]*\).*/\1/p' tests/scripts/matrix.sh | grep -vxE 'gcc|clang|tcc'
         far_machines | sed 's/^[^ ]* //; s/^arm-.*/armel/; s/^mipsisa/mips/; s/^powerpc64/ppc64/; s/-.*//'
     } | sort -u | tr '\n' ' ')"
+check "the lessons that emulators draw are two of three, as user_files.sh has them" same "$(
+    sed -n 's|^some_on [0-9]/\([0-9]*\) . qemu.*|\1|p' tests/scripts/user_files.sh |
+        awk '{ sum += 1 / $1 } END { printf "%.3f", sum }')" 0.667
 check "the boards are those of matrix.sh" same "$(sed -n 's/^  | emulated Cortex-\([^|]*\) |.*/\1/p' "$README")" \
     "$(sed -n 's/^ *arm "Cortex-\([^"]*\)".*/\1/p; s/^ *board "\([a-z][^"]*\)".*/\1/p' tests/scripts/matrix.sh |
         paste -sd , - | sed 's/,/, /g')"

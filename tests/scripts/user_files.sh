@@ -6,8 +6,8 @@
 #   The programs of $own have sums of their own, which compilers may fuse.  The script holds that
 # each draws other bits somewhere, and the same ones with -ffp-contract=off.  Lessons are drawn with
 # one sample a pixel: all of them by gcc, as C99 and fused; a third of them elsewhere, so that each
-# lesson is drawn by some clang, and fewer under slow emulators, or with LONG=1 all.  A word tries only machines that have
-# it in their command.  What is not installed is named and left out.
+# lesson is drawn by some clang, and fewer under slow emulators, or with LONG=1 all.  A word tries
+# only machines that have it in their command.  What is not installed is named and left out.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD word=${1:-}
