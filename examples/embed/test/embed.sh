@@ -4,7 +4,7 @@
 # and print.  What is not installed is named and left out.
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
-. examples/embed/test/quick.sh
+quick_compiler cc "$(command -v "${CC:-cc}")"
 TOP=$PWD
 
 # A copy of what the projects need
@@ -12,7 +12,7 @@ mkdir -p "$T/tree"
 cp -R Makefile shade.h examples "$T/tree"
 E=$T/tree/examples/embed B=$T/tree/build/embed
 cxx=${CXX:-$(command -v c++ || command -v g++ || command -v clang++)}
-[ -n "$cxx" ] && compiler c++ "$(command -v "$cxx")"
+[ -n "$cxx" ] && quick_compiler c++ "$(command -v "$cxx")"
 find_python "numpy, PIL"
 [ -z "$python" ] || ln -s "$(command -v $python)" "$T/bin/python3"
 PATH=$T/bin:$PATH CC=$T/bin/cc CXX=$T/bin/c++

@@ -4,7 +4,7 @@
 # Zig: npm's 0.11 in build/node_modules, or $ZIG.  Meson's wrap is tested by embed.sh, versions by dist.sh.
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
-. examples/embed/test/quick.sh
+quick_compiler cc "$(command -v "${CC:-cc}")"
 TOP=$PWD P=$PWD/examples/embed/packages
 PATH=$T/bin:$PATH CC=$T/bin/cc
 export PATH CC

@@ -5,7 +5,8 @@ cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
 
 K=examples/kit/test
-cc="cc -std=c99 -w -O0 -ffp-contract=off -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED"
+quick_compiler cc cc
+cc="$T/bin/cc -std=c99 -w -ffp-contract=off"
 $cc -fsanitize=address,undefined -I. $K/cases.c -lm -pthread -o "$T/cases" 2>"$T/log" ||
     check "cases.c compiles" $cc -I. $K/cases.c -lm -pthread -o "$T/cases"
 check "the cases in C" "$T/cases" $K/cases.json

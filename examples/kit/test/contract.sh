@@ -5,8 +5,8 @@
 # Node.js, as far as these can be built here.
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/scripts/tools.sh
-. examples/embed/test/quick.sh
-compiler clang "$(command -v "${CLANG:-clang}")"
+quick_compiler cc "$(command -v "${CC:-cc}")"
+quick_compiler clang "$(command -v "${CLANG:-clang}")"
 CC=$T/bin/cc CLANG=$T/bin/clang
 export CC CLANG
 FLAGS="-std=c99 -I. -ffp-contract=off"

@@ -3,7 +3,7 @@
 # the bytes of the package for Python, PNG files read by Pillow, hostile arguments, and a browser.
 cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
-. examples/embed/test/quick.sh
+quick_compiler cc "$(command -v "${CC:-cc}")"
 there node && there npm || { left_out "everything: no node with npm"; finish; }
 
 mkdir -p "$T/tree" "$T/use"

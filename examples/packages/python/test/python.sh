@@ -3,7 +3,7 @@
 # an empty environment of its own; its tests by pytest; mypy --strict; the notebook.
 cd "$(dirname "$0")/../../../.." || exit 1
 . tests/scripts/tools.sh
-. examples/embed/test/quick.sh
+quick_compiler cc "$(command -v "${CC:-cc}")"
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONDONTWRITEBYTECODE
 
@@ -60,7 +60,7 @@ address=$(gcc -print-file-name=libasan.so 2>/dev/null) undefined=$(gcc -print-fi
 if [ -f "$address" ] && [ -f "$undefined" ]; then
     mkdir "$T/checked"
     cp -R "$P/shade_h" "$T/checked"
-    compiler gcc "$(command -v gcc)"
+    quick_compiler gcc "$(command -v gcc)"
     check "the library with sanitizers" "$T/bin/gcc" -w -std=gnu99 -D_DEFAULT_SOURCE -ffp-contract=off \
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -I"$T/tree" -I"$P" -shared -fPIC \
         -o "$T/checked/shade_h/libshade.so" "$P/library.c" -lm -pthread
